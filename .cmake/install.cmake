@@ -1,0 +1,1 @@
+# Installation: filled in below by the install rules of the package.

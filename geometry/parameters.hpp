@@ -1,0 +1,56 @@
+#pragma once
+
+#include "core/options.hpp"
+
+namespace dovetail::geometry {
+
+/// Dimensions of one bearing flank (left and right may differ).
+struct FlankParameters {
+  double angle = 0.8726646259971648;  ///< between flank and radial direction, rad
+  double length = 5.5e-3;             ///< straight part, m
+  double mismatch = 0;                ///< extra gap at the root-side end against the neck-side end, m (negative: at the neck side)
+  double crown = 0;                   ///< height of the blade flank's bulge at mid-length, m (negative: hollow)
+  double relief_length = 0;           ///< length of the relieved zone at each end of the flank, m
+  double relief_depth = 0;            ///< depth of the relief at the ends, m
+};
+
+/// Every dimension of a dovetail section, SI. x is tangential, y radial; the blade's centre line is x = 0.
+struct ProfileParameters {
+  int sectors = 47;
+  double bore_radius = 0.120;
+  double rim_radius = 0.250;
+  double neck_width = 8.5e-3;            ///< narrowest width of the blade's neck
+  double neck_height = 2.5e-3;           ///< straight neck above the neck fillet up to the shank
+  double neck_fillet_radius = 2.0e-3;    ///< blade fillet between neck and flank (concave)
+  double root_corner_radius = 1.5e-3;    ///< blade corner between flank and root bottom (convex)
+  double lobe_radius = 1.5e-3;           ///< disk nose between slot mouth and flank (convex)
+  double slot_fillet_radius = 2.0e-3;    ///< disk fillet between flank and slot floor (concave)
+  double bottom_clearance = 0.5e-3;      ///< between root bottom and slot floor
+  double shank_width = 10e-3;
+  double shank_height = 8e-3;            ///< from neck to platform
+  double platform_width = 30e-3;
+  double platform_thickness = 3e-3;
+  double aerofoil_span = 0.100;
+  double aerofoil_root_thickness = 4e-3;
+  double aerofoil_tip_thickness = 3e-3;
+  double chord = 40e-3;                  ///< thickness of the aerofoil region out of the plane
+  double slot_length = 40e-3;            ///< thickness of blade root and disk out of the plane
+  FlankParameters left, right;
+};
+
+/// Rules a design has to keep besides fitting together.
+struct FeasibilityLimits {
+  double minimum_wall = 2.0e-3;           ///< thinnest wall allowed (neck, post between slots, platform), m
+  double minimum_cutter_radius = 0.8e-3;  ///< smallest radius the tool can cut, m
+  double friction = 0.5;                  ///< a flank steeper than atan(friction) from the radial direction locks
+};
+
+/// Sizes of the mesh.
+struct MeshSizes {
+  int flank_elements = 24;        ///< element edges along each straight flank
+  double fillet_fraction = 0.1;   ///< element size on a fillet as a fraction of its radius
+  double bulk_size = 3e-3;        ///< largest element size in the blade root and disk, m
+  int aerofoil_elements = 24;     ///< element edges along the aerofoil's span
+};
+
+}  // namespace dovetail::geometry

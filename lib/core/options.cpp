@@ -1,0 +1,62 @@
+#include "core/options.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <numeric>
+
+namespace dovetail {
+
+bool Range::contains(double value) const {
+  if (!std::isfinite(value)) return false;
+  if (lower_open ? value <= lower : value < lower) return false;
+  return !(upper_open ? value >= upper : value > upper);
+}
+
+std::string Range::phrase() const {
+  const bool below = std::isfinite(lower);
+  const bool above = std::isfinite(upper);
+  if (!below && !above) return "must be a finite number";
+  std::string text = "must be ";
+  if (below) text += (lower_open ? "> " : ">= ") + shortest(lower);
+  if (below && above) text += " and ";
+  if (above) text += (upper_open ? "< " : "<= ") + shortest(upper);
+  return text;
+}
+
+std::string shortest(double value) {
+  char buffer[32];
+  const auto [end, error] = std::to_chars(std::begin(buffer), std::end(buffer), value);
+  return error == std::errc{} ? std::string(std::begin(buffer), end) : std::to_string(value);
+}
+
+namespace {
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t above = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0U : 1U)});
+      diagonal = above;
+    }
+  }
+  return row[b.size()];
+}
+}  // namespace
+
+std::string nearest(std::string_view word, std::span<const std::string> candidates) {
+  std::string best;
+  std::size_t smallest = std::max<std::size_t>(2, word.size() / 2);
+  for (const std::string& candidate : candidates) {
+    const std::size_t distance = edit_distance(word, candidate);
+    if (distance <= smallest && (best.empty() || distance < smallest)) {
+      smallest = distance;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+}  // namespace dovetail

@@ -1,0 +1,57 @@
+#include "core/options.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <limits>
+
+namespace {
+
+struct Sample {
+  double length = 0.002;
+  int count = 3;
+  std::string law = "soft";
+};
+
+}  // namespace
+
+template <>
+std::span<const dovetail::Field<Sample>> dovetail::option_table<Sample>() {
+  static const std::array<Field<Sample>, 3> table{
+      Field<Sample>{.key = "length_mm", .member = &Sample::length, .si_per_unit = 1e-3, .range = kPositive},
+      Field<Sample>{.key = "count", .member = &Sample::count, .range = {.lower = 1, .upper = 9}},
+      Field<Sample>{.key = "law", .member = &Sample::law, .choices = {"soft", "hard"}}};
+  return table;
+}
+
+namespace dovetail {
+namespace {
+
+TEST(Options, DefaultsAreValid) { EXPECT_TRUE(violations(Sample{}).empty()); }
+
+TEST(Options, EveryViolationIsReportedAtOnceInFileUnits) {
+  const std::vector<Violation> found = violations(Sample{.length = -0.002, .count = 0, .law = "wrong"}, "sample");
+  ASSERT_EQ(found.size(), 3U);
+  EXPECT_EQ(found[0].sentence(), "sample.length_mm = -2: must be > 0");
+  EXPECT_EQ(found[1].sentence(), "sample.count = 0: must be >= 1 and <= 9");
+  EXPECT_EQ(found[2].sentence(), "sample.law = wrong: must be one of soft hard");
+}
+
+TEST(Options, NotANumberIsNeverInRange) {
+  EXPECT_FALSE(kAnyNumber.contains(std::numeric_limits<double>::quiet_NaN()));
+  EXPECT_FALSE(kAnyNumber.contains(kInfinity));
+  EXPECT_EQ(violations(Sample{.length = std::numeric_limits<double>::quiet_NaN()}).size(), 1U);
+}
+
+TEST(Options, NearestFindsTheMisspeltKey) {
+  const std::vector<std::string> keys{"neck_width_mm", "neck_height_mm", "slot_length_mm"};
+  EXPECT_EQ(nearest("nek_width_mm", keys), "neck_width_mm");
+  EXPECT_EQ(nearest("zzz", keys), "");
+}
+
+TEST(Options, ShortestTextReadsBackExactly) {
+  for (const double value : {0.1, 1.0 / 3.0, 1e-300, -2.5e17}) EXPECT_EQ(std::stod(shortest(value)), value);
+}
+
+}  // namespace
+}  // namespace dovetail
