@@ -1,1 +1,20 @@
-# Installation: filled in below by the install rules of the package.
+# `cmake --install build` gives a package: find_package(dovetail), targets dovetail::core ... dovetail::studies.
+include(CMakePackageConfigHelpers)
+
+get_property(targets GLOBAL PROPERTY DOVETAIL_TARGETS)
+install(TARGETS ${targets} EXPORT dovetailTargets
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+  FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/dovetail)
+if(TARGET dovetail_program)
+  install(TARGETS dovetail_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/dovetail)
+install(EXPORT dovetailTargets NAMESPACE dovetail:: DESTINATION ${package_dir})
+install(FILES ${PROJECT_SOURCE_DIR}/.cmake/packages.cmake DESTINATION ${package_dir})
+configure_package_config_file(${PROJECT_SOURCE_DIR}/.cmake/dovetailConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/dovetailConfig.cmake INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/dovetailConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/dovetailConfig.cmake ${PROJECT_BINARY_DIR}/dovetailConfigVersion.cmake
+  DESTINATION ${package_dir})
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
