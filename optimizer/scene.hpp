@@ -1,7 +1,12 @@
 #pragma once
 
+#include <map>
+#include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
+#include "core/options.hpp"
 #include "fem/material.hpp"
 #include "geometry/parameters.hpp"
 
@@ -19,16 +24,16 @@ struct Loading {
   double tip_force = 2.0;             ///< amplitude of the tangential force at the aerofoil tip, N
   double damping_ratio = 1e-3;        ///< modal damping of the glued modes
   int nodal_diameter = 0;
-  int mode = 1;                       ///< glued mode whose resonance is followed, from 1
+  int mode = 1;  ///< glued mode whose resonance is followed, from 1
 };
 
 /// Sizes and tolerances of the contact computation.
 struct SolverSettings {
   int harmonics = 3;
   int samples = 128;
-  int modes = 20;                  ///< free-interface modes kept
-  double tolerance = 1e-9;         ///< relative residual of the steady state
-  std::string solver = "auto";     ///< auto | newton | powell
+  int modes = 20;               ///< free-interface modes kept
+  double tolerance = 1e-9;      ///< relative residual of the steady state
+  std::string solver = "auto";  ///< auto | newton | powell
 };
 
 /// One fully specified candidate: everything the evaluator needs, in SI.
@@ -42,5 +47,93 @@ struct Scene {
   geometry::MeshSizes mesh;
   SolverSettings solver;
 };
+
+}  // namespace dovetail::optimizer
+
+namespace dovetail {
+
+template <>
+std::span<const Field<fem::Material>> option_table<fem::Material>();
+template <>
+std::span<const Field<geometry::ProfileParameters>> option_table<geometry::ProfileParameters>();
+template <>
+std::span<const Field<geometry::FlankParameters>> option_table<geometry::FlankParameters>();
+template <>
+std::span<const Field<geometry::FeasibilityLimits>> option_table<geometry::FeasibilityLimits>();
+template <>
+std::span<const Field<geometry::MeshSizes>> option_table<geometry::MeshSizes>();
+template <>
+std::span<const Field<optimizer::ContactProperties>> option_table<optimizer::ContactProperties>();
+template <>
+std::span<const Field<optimizer::Loading>> option_table<optimizer::Loading>();
+template <>
+std::span<const Field<optimizer::SolverSettings>> option_table<optimizer::SolverSettings>();
+template <>
+std::span<const Field<optimizer::Scene>> option_table<optimizer::Scene>();
+
+}  // namespace dovetail
+
+namespace dovetail::optimizer {
+
+/// The fields of Loading written in the section [scene] (speed, nodal diameter, mode) and in [loading].
+[[nodiscard]] std::span<const Field<Loading>> scene_loading_fields();
+[[nodiscard]] std::span<const Field<Loading>> loading_fields();
+
+/// Calls visit(section, object, fields) once for each flat struct of a scene: the dotted section of the
+/// study file it is read from, the struct (constant when the scene is) and its table. Two structs may
+/// share a section.
+template <class AnyScene, class Visitor>
+void visit_tables(AnyScene& scene, Visitor&& visit);
+
+/// What a study file may say about one numeric or textual key of a scene.
+struct Parameter {
+  std::string key;  ///< dotted path, as for --set
+  enum class Kind { real, whole, truth, text } kind = Kind::real;
+  Range range;  ///< numbers, in the file's unit
+  std::string_view help;
+  bool required = false;
+  std::vector<std::string_view> choices;
+};
+
+/// Every key of a scene in the order of the study file. Flank keys appear three times:
+/// "geometry.KEY" (both flanks), "geometry.left.KEY" and "geometry.right.KEY".
+[[nodiscard]] const std::vector<Parameter>& scene_parameters();
+
+/// The entry of scene_parameters() of that key, or nullptr.
+[[nodiscard]] const Parameter* find_parameter(std::string_view key);
+
+/// Sets the number of that key, given in the unit of the study file; "geometry.KEY" of a flank key sets
+/// both flanks. Nothing follows silently: the disk's material stays when the blade's is set. Ranges are
+/// not checked (violations() does); throws InputError for an unknown key (with the nearest valid one), a
+/// key that is not a number, or a fraction given to a whole number.
+void set_parameter(Scene& scene, std::string_view key, double value_in_file_unit);
+
+/// The number of that key in the unit of the study file: the shortest one that sets the same SI value.
+/// "geometry.KEY" of a flank key is the left flank's. Throws InputError as set_parameter does.
+[[nodiscard]] double parameter(const Scene& scene, std::string_view key);
+
+/// All numbers of a scene by key, in the file's unit. A flank key stands once under "geometry" when both
+/// flanks agree, else under "geometry.left" and "geometry.right".
+[[nodiscard]] std::map<std::string, double> parameters(const Scene& scene);
+
+/// Every value outside its range, and what contradicts across keys (e.g. fewer samples than the
+/// harmonics need). Empty: the scene may be computed.
+[[nodiscard]] std::vector<Violation> violations(const Scene& scene);
+
+template <class AnyScene, class Visitor>
+void visit_tables(AnyScene& scene, Visitor&& visit) {
+  visit("scene", scene, option_table<Scene>());
+  visit("scene", scene.loading, scene_loading_fields());
+  visit("geometry", scene.geometry, option_table<geometry::ProfileParameters>());
+  visit("geometry.left", scene.geometry.left, option_table<geometry::FlankParameters>());
+  visit("geometry.right", scene.geometry.right, option_table<geometry::FlankParameters>());
+  visit("limits", scene.limits, option_table<geometry::FeasibilityLimits>());
+  visit("material.blade", scene.blade, option_table<fem::Material>());
+  visit("material.disk", scene.disk, option_table<fem::Material>());
+  visit("contact", scene.contact, option_table<ContactProperties>());
+  visit("loading", scene.loading, loading_fields());
+  visit("mesh", scene.mesh, option_table<geometry::MeshSizes>());
+  visit("solver", scene.solver, option_table<SolverSettings>());
+}
 
 }  // namespace dovetail::optimizer
