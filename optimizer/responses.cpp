@@ -1,0 +1,39 @@
+#include "optimizer/responses.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace dovetail::optimizer {
+
+std::span<const ResponseName> response_names() {
+  static constexpr std::array<ResponseName, 17> table{{
+      {"asymptotic_wear_volume_m3", "m^3", "Volume worn off both surfaces of both flanks when wear has come to rest."},
+      {"asymptotic_wear_depth_max_m", "m", "Largest wear depth, both surfaces together, when wear has come to rest."},
+      {"resonance_hz", "Hz", "Frequency of the largest amplitude of the followed mode, unworn, with friction."},
+      {"worn_resonance_hz", "Hz", "The same after wear has come to rest."},
+      {"resonance_drift", "", "Worn over unworn resonance frequency, minus one."},
+      {"peak_amplitude_m", "m", "Amplitude of the aerofoil tip at the unworn resonance."},
+      {"worn_peak_amplitude_m", "m", "Amplitude of the aerofoil tip at the worn resonance."},
+      {"mass_kg", "kg", "Mass of one blade."},
+      {"peak_stress_pa", "Pa", "Smooth maximum of the von Mises stress over blade and disk under the spin-up load."},
+      {"contact_pressure_max_pa", "Pa", "Smooth maximum of the flank pressure under the spin-up load."},
+      {"contact_pressure_mean_pa", "Pa", "Mean flank pressure under the spin-up load."},
+      {"neck_tension_pa", "Pa", "Mean tension across the narrowest width of the blade's neck under the spin-up load."},
+      {"blade_fillet_stress_pa", "Pa",
+       "Smooth maximum of the stress on the fillet between the blade's neck and flank."},
+      {"disk_fillet_stress_pa", "Pa",
+       "Smooth maximum of the stress on the fillet between the disk's flank and slot floor."},
+      {"post_width_m", "m", "Narrowest width of the disk post between two slots."},
+      {"dissipated_energy_j", "J", "Energy lost to friction in one period at the unworn resonance."},
+      {"glued_frequency_hz", "Hz", "Natural frequency of the followed mode with the flanks glued, at speed."},
+  }};
+  return table;
+}
+
+const ResponseName* find_response(std::string_view name) {
+  const std::span<const ResponseName> table = response_names();
+  const auto found = std::find_if(table.begin(), table.end(), [&](const ResponseName& r) { return r.name == name; });
+  return found == table.end() ? nullptr : &*found;
+}
+
+}  // namespace dovetail::optimizer
