@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+
+#include "core/options.hpp"
+
+namespace dovetail::optimizer {
+
+/// Section [optimizer] of a study file. Lengths are in unit coordinates (fractions of a variable's range).
+struct OptimizerOptions {
+  /// cobyla | bobyqa | neldermead | sbplx | isres | direct_l | crs2 | mma | slsqp | ipopt | scan
+  std::string algorithm = "cobyla";
+  int max_evaluations = 100;     ///< >= 1; different candidates, start and scan included
+  int scan_evaluations = 0;      ///< >= 0; Latin-hypercube candidates before the local algorithm
+  int seed = 1;                  ///< >= 0
+  double tolerance = 1e-6;       ///< > 0; relative change of the objective at which gradient methods stop
+  double step_tolerance = 1e-4;  ///< > 0, <= 0.1; step at which a local algorithm stops
+  double noise = 1e-6;           ///< >= 0, <= 0.5; relative noise of the responses: sets difference steps and stopping
+  double initial_step = 0.2;     ///< > 0, <= 0.5; first step (trust radius) of a local algorithm
+  int restarts = 2;              ///< >= 0; local runs again from the best, with budget left
+  double restart_factor = 0.5;   ///< > 0, <= 1; first step of a restart by that of the run before
+  double constraint_tolerance = 0;     ///< >= 0; the best design keeps c <= this
+  double constraint_margin = 1e-4;     ///< >= 0; algorithms aim at c <= -margin, so that they end on the right side
+  std::string difference = "forward";  ///< forward | central finite differences
+  int threads = 1;                     ///< >= 1; candidates evaluated at once where several are known
+};
+
+/// Every algorithm by name.
+[[nodiscard]] std::span<const std::string_view> algorithm_names();
+
+/// Step of finite differences in unit coordinates that balances noise and truncation:
+/// forward 2 sqrt(noise), central cbrt(3 noise), within [1e-7, 0.1].
+[[nodiscard]] double difference_step(const OptimizerOptions& options);
+/// max(step_tolerance, 0.1 sqrt(noise)), at most initial_step / 2: smaller steps cannot see above the noise.
+[[nodiscard]] double stopping_step(const OptimizerOptions& options);
+
+}  // namespace dovetail::optimizer
+
+template <>
+std::span<const dovetail::Field<dovetail::optimizer::OptimizerOptions>>
+dovetail::option_table<dovetail::optimizer::OptimizerOptions>();

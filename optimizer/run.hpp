@@ -1,0 +1,81 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/status.hpp"
+#include "optimizer/journal.hpp"
+#include "optimizer/optimizer_options.hpp"
+#include "optimizer/problem.hpp"
+
+namespace dovetail::optimizer {
+
+/// One candidate of a run.
+struct Candidate {
+  std::vector<double> x;  ///< design-space order, file units
+  Evaluation evaluation;
+  Judgement judgement;
+  std::string phase;      ///< start | scan | NAME of the algorithm | random
+  bool replayed = false;  ///< answered by the journal
+};
+
+/// Told after each candidate, in the order of the run, on the calling thread.
+struct Progress {
+  std::size_t index;  ///< of the candidate, from 0
+  const Candidate& candidate;
+  std::optional<std::size_t> best;  ///< best feasible so far
+};
+
+/// What a run is connected to. All optional.
+struct RunHooks {
+  Journal* journal = nullptr;                     ///< answers what it holds, records what is new
+  std::function<void(const Progress&)> progress;  ///< may throw: the run ends and the exception reaches the caller
+  const std::atomic<bool>* stop = nullptr;        ///< looked at between evaluations
+};
+
+struct SearchStatistics {
+  int computed = 0;            ///< evaluator calls
+  int replayed = 0;            ///< answered by the journal
+  int repeated = 0;            ///< asked again by the algorithm, answered by the cache
+  int infeasible = 0;          ///< geometric rule broken
+  int failed = 0;              ///< not converged
+  int gradients = 0;           ///< gradients asked for
+  int gradients_supplied = 0;  ///< of these, from Evaluation::derivatives
+  int gradient_fallbacks = 0;  ///< components set to 0 because no neighbour could be computed
+  int local_runs = 0;          ///< runs of the algorithm, restarts included
+  int unused_records = 0;      ///< journal records the run did not come back to (0 when the replay is exact)
+};
+
+struct OptimizationResult {
+  /// converged: the algorithm's stopping rule held; iteration_limit: the budget was used up; interrupted; stalled: the
+  /// algorithm gave up (message says why). Says nothing about feasibility: look at `best`.
+  Status status = Status::stalled;
+  std::optional<std::size_t> best;          ///< feasible candidate with the least objective
+  std::optional<std::size_t> least_broken;  ///< without `best`: the candidate nearest to feasible
+  std::vector<Candidate> evaluations;       ///< in the order asked for
+  std::string message;
+  SearchStatistics statistics;
+};
+
+/// Minimises the problem: the start, `scan_evaluations` Latin-hypercube candidates, then the algorithm from the best
+/// seen, then restarts with smaller steps while budget is left.
+///
+/// Same problem, options and evaluator give the same candidates bit by bit, whatever `threads` is. To resume, run
+/// again with the journal: it answers the candidates it holds, the algorithm takes the same path and continues it.
+/// The evaluator must be callable from several threads when options.threads > 1. What it throws reaches the caller;
+/// everything evaluated before is in the journal.
+///
+/// Throws InputError for a wrong problem or options. Cost: max_evaluations evaluations; the rest is negligible.
+[[nodiscard]] OptimizationResult run_optimization(const Problem& problem, const Evaluator& evaluator,
+                                                  const OptimizerOptions& options, const RunHooks& hooks = {});
+
+/// The yardstick: uniformly random candidates until `feasible_designs` of them are feasible (at most 20 times as many
+/// are drawn). options: seed, threads, constraint_tolerance.
+[[nodiscard]] OptimizationResult random_search(const Problem& problem, const Evaluator& evaluator, int feasible_designs,
+                                               const OptimizerOptions& options, const RunHooks& hooks = {});
+
+}  // namespace dovetail::optimizer
