@@ -9,9 +9,10 @@ namespace dovetail::fem {
 
 /// A part of the section with one material and one thickness out of the plane.
 struct Region {
-  std::string name;        ///< "blade_root", "aerofoil", "disk"
-  int body = 0;            ///< 0 blade, 1 disk: index into the list of materials
-  double thickness = 1.0;  ///< m, > 0
+  std::string name;           ///< "blade_root", "aerofoil", "disk"
+  int body = 0;               ///< 0 blade, 1 disk: index into the list of materials
+  double thickness = 1.0;     ///< m, > 0
+  bool plane_stress = false;  ///< false: plane strain
 };
 
 /// Plane mesh of six-node triangles: corners 0,1,2 counter-clockwise, then the mid-side nodes of the

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <span>
+
+#include "fem/assembly.hpp"
+#include "fem/constraints.hpp"
+#include "fem/sector_mesh.hpp"
+
+namespace dovetail::fem {
+
+/// Contact nodes of a sector in the order of the contact dofs: flank by flank, neck side to root side.
+struct ContactSurface {
+  Eigen::VectorXd area;       ///< [Nc] integral of the linear hat function along the flank times the slot length, m^2
+  Eigen::Matrix2Xd position;  ///< [2, Nc] m
+  Eigen::VectorXi flank;      ///< [Nc] index into SectorMesh::flanks
+  Eigen::VectorXd gap;        ///< [Nc] initial gap, m
+
+  [[nodiscard]] Eigen::Index count() const { return area.size(); }
+};
+
+/// One sector at standstill, nodal diameter 0, in independent coordinates x = (internal, contact), u = T x.
+/// At speed Omega the stiffness is `stiffness_at_speed`; the static load is Omega^2 centrifugal.
+struct SectorSystem {
+  FullMatrices full;                      ///< over all nodes
+  Constraints<double> constraints;        ///< T
+  Eigen::SparseMatrix<double> stiffness;  ///< [m, m] N/m
+  Eigen::SparseMatrix<double> mass;       ///< [m, m] kg
+  Eigen::VectorXd centrifugal;            ///< [m] load for Omega^2 = 1, N/(rad/s)^2
+  Eigen::VectorXd tip;  ///< [m] T^T of a unit tangential (x) force at the tip node; also the output vector
+  ContactSurface contact;
+
+  [[nodiscard]] Eigen::Index size() const { return stiffness.rows(); }
+  [[nodiscard]] Eigen::Index internal_size() const { return constraints.internal_count; }
+  [[nodiscard]] Eigen::Index contact_size() const { return constraints.contact_count; }
+};
+
+/// Assembles and constrains a sector. Throws InputError (see Assembler, real_constraints).
+[[nodiscard]] SectorSystem build_sector_system(const SectorMesh& sector, std::span<const Material> materials,
+                                               const Assembler& assembler, BoreSupport bore = BoreSupport::tangential);
+
+/// K + K_g - Omega^2 M over all nodes: K_g from the stresses of the preloaded state, spin softening in the
+/// plane of rotation. `omega` in rad/s.
+[[nodiscard]] Eigen::SparseMatrix<double> stiffness_at_speed(const FullMatrices& full,
+                                                             const Eigen::SparseMatrix<double>& geometric,
+                                                             double omega);
+
+/// Areas, positions and gaps of the contact nodes.
+[[nodiscard]] ContactSurface contact_surface(const SectorMesh& sector);
+
+/// The block of the internal dofs: contact dofs held at zero, the blade glued to the disk.
+template <class Scalar>
+[[nodiscard]] Eigen::SparseMatrix<Scalar> internal_block(const Eigen::SparseMatrix<Scalar>& matrix,
+                                                         const Constraints<Scalar>& constraints) {
+  return matrix.topLeftCorner(constraints.internal_count, constraints.internal_count);
+}
+
+}  // namespace dovetail::fem
