@@ -1,0 +1,20 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "reduction/reduced_model.hpp"
+
+namespace dovetail::wear {
+
+/// Volume removed by nodal depths W: V = sum_i A_i W_i, m^3 (per metre of thickness where areas are).
+/// `depth` is [Nc] m, both surfaces together.
+[[nodiscard]] double worn_volume(const reduction::ContactNodes& contact, const Eigen::VectorXd& depth);
+
+/// Contact nodes with the depth added to the initial gap: what a separate computation of the worn state starts from.
+[[nodiscard]] reduction::ReducedModel worn_model(const reduction::ReducedModel& model, const Eigen::VectorXd& depth);
+
+/// Number of cycles in which the fastest node loses `increment`, dN = W_tot / max_i dW_i [Salles 2009, eq. 21-22].
+/// `rate` is dW [Nc] m per cycle; infinite where nothing wears.
+[[nodiscard]] double cycle_jump(const Eigen::VectorXd& rate, double increment);
+
+}  // namespace dovetail::wear

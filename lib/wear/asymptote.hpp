@@ -1,0 +1,97 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "core/options.hpp"
+#include "core/status.hpp"
+#include "reduction/reduced_model.hpp"
+#include "response/steady_state.hpp"
+#include "wear/control.hpp"
+#include "wear/edge.hpp"
+
+namespace dovetail::wear {
+
+/// What became of the wear after infinitely many cycles.
+enum class Verdict {
+  asymptote,      ///< wear stops: `depth` is the limiting worn geometry
+  no_asymptote,   ///< wear goes on for ever at the rates in `rate`
+  not_converged,  ///< not known; `status` says what failed
+};
+[[nodiscard]] std::string_view to_string(Verdict verdict);
+
+struct AsymptoteOptions {
+  // > 0. Wear per cycle below which a loaded node counts as stuck, m per cycle. The default, 1e-9 um, times a
+  // design life of 1e9 cycles is 1 um; lower it for lives beyond that.
+  double rate_threshold = 1e-15;
+  // in [0, 1). The same, relative to the largest rate of the unworn state: slip below about 1e-5 of genuine slip
+  // does not converge with harmonics and samples but is noise of the time discretisation.
+  double relative_threshold = 1e-5;
+  // >= 1. Passes of release; each releases every loaded node that slips.
+  int passes = 60;
+  // Confirm a verdict "no asymptote" by the explicit history, for wear that stops with worn nodes still loaded.
+  bool confirm_by_history = true;
+  // in (0, 1). Largest increment of that history relative to the load-carrying penetration of the unworn contact.
+  double confirm_increment = 0.1;
+  // >= 1. Steps of that history.
+  int confirm_steps = 200;
+  // Place the edge of the worn zone between nodes (smooth in the design) besides the nodal answer.
+  bool interpolate_edge = true;
+  // >= 1. Edges up to which all 2^n combinations of edge states are computed; beyond that one state per edge.
+  int tensor_edges = 2;
+  // Solve once more with the worn gap and contact everywhere, and report the remaining rate.
+  bool certify = true;
+};
+
+/// The worn geometry at which wear stops.
+struct Asymptote {
+  Verdict verdict = Verdict::not_converged;
+  Status status = Status::converged;  ///< of the last steady state asked for
+  Eigen::VectorXd depth;              ///< [Nc] W, m, nodal answer; of the history if that decided
+  std::vector<bool> released;         ///< [Nc] worn off: carries nothing any more
+  double worn_volume = 0.0;           ///< m^3, nodal answer
+  double largest_depth = 0.0;         ///< m, nodal answer
+  /// The same with the edge of the worn zone between nodes; equal to the nodal answer when not asked for or when
+  /// there is no edge. `volume_bracket` is what the edge's node spacing leaves open: the volumes with the edge
+  /// nodes stuck and with them released; their difference is the error bar.
+  double interpolated_volume = 0.0;         ///< m^3
+  double interpolated_largest_depth = 0.0;  ///< m
+  Eigen::VectorXd interpolated_depth;       ///< [Nc] m
+  double volume_bracket[2] = {0.0, 0.0};    ///< m^3, lower and upper
+  std::vector<Edge> edges;                  ///< edges of the worn zone and where they lie between nodes
+  Status edge_status = Status::converged;   ///< of the extra states; otherwise the nodal answer is repeated
+
+  Eigen::VectorXd unworn_rate;  ///< [Nc] dW of the unworn state, m per cycle
+  Eigen::VectorXd rate;         ///< [Nc] dW of the worn state, m per cycle (no asymptote: the steady one)
+  /// Largest rate with gap g + W and contact everywhere over the largest unworn rate; NaN when not computed.
+  double certificate = 0.0;
+  bool confirmed_by_history = false;  ///< "no asymptote" was looked at by the history as well
+  response::SteadyState steady;       ///< steady state at the limit, contact everywhere (or released)
+  int passes = 0;                     ///< of release
+  int solves = 0;                     ///< steady states computed
+  int jacobians = 0;                  ///< factorised Jacobians over all of them
+};
+
+/// Limiting worn geometry without the history: solve with the released nodes free of contact, release every loaded
+/// node that slips, repeat until none does; then the released nodes have worn until they just do not touch,
+/// W = max(0, max_t u_N - g). With the worn gap every node has zero rate: it sticks or carries nothing.
+///
+/// @param model     its slip origin is where stuck nodes' traction histories start
+/// @param omega     excitation frequency rad/s, held; the unworn resonance is a good choice
+/// @param worn      [Nc] wear depth already there, m (empty: none); the result includes it
+/// @param steady    options of every steady state; its `released` mask must be empty
+/// @param initial   steady state of the unworn model to start from, or null
+/// Cost: 5 to 15 steady states, warm-started. Throws InputError for options out of range.
+[[nodiscard]] Asymptote asymptote(const reduction::ReducedModel& model, double omega,
+                                  const response::SteadyOptions& steady, const AsymptoteOptions& options = {},
+                                  const Eigen::VectorXd& worn = {}, const response::SteadyState* initial = nullptr,
+                                  const Control& control = {});
+
+}  // namespace dovetail::wear
+
+namespace dovetail {
+template <>
+std::span<const Field<wear::AsymptoteOptions>> option_table<wear::AsymptoteOptions>();
+}

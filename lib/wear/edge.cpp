@@ -1,0 +1,115 @@
+#include "wear/edge.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace dovetail::wear {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// Place of every node along the longest direction of its group.
+VectorXd place_on_flank(const reduction::ContactNodes& contact, const std::vector<int>& nodes) {
+  const auto count = static_cast<Index>(nodes.size());
+  VectorXd place = VectorXd::LinSpaced(count, 0.0, static_cast<double>(std::max<Index>(count - 1, 0)));
+  if (contact.position.rows() != contact.count() || count < 2) return place;
+  Eigen::MatrixX3d points(count, 3);
+  for (Index i = 0; i < count; ++i) points.row(i) = contact.position.row(nodes[static_cast<std::size_t>(i)]);
+  const Eigen::RowVector3d middle = points.colwise().mean();
+  points.rowwise() -= middle;
+  const Eigen::Matrix3d spread = points.transpose() * points;
+  if (spread.trace() == 0.0) return place;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
+  return points * axes.eigenvectors().col(2);
+}
+
+}  // namespace
+
+Eigen::MatrixX2i flank_neighbours(const reduction::ContactNodes& contact) {
+  Eigen::MatrixX2i neighbours = Eigen::MatrixX2i::Constant(contact.count(), 2, -1);
+  std::map<int, std::vector<int>> flanks;
+  for (int i = 0; i < contact.count(); ++i)
+    flanks[contact.group.size() == contact.count() ? contact.group[i] : 0].push_back(i);
+  for (const auto& [group, nodes] : flanks) {
+    const VectorXd place = place_on_flank(contact, nodes);
+    std::vector<std::size_t> order(nodes.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&place](std::size_t a, std::size_t b) {
+      return place[static_cast<Index>(a)] < place[static_cast<Index>(b)];
+    });
+    for (std::size_t i = 0; i + 1 < order.size(); ++i) {
+      neighbours(nodes[order[i]], 1) = nodes[order[i + 1]];
+      neighbours(nodes[order[i + 1]], 0) = nodes[order[i]];
+    }
+  }
+  return neighbours;
+}
+
+std::vector<Edge> find_edges(const reduction::ContactNodes& contact, const std::vector<bool>& released,
+                             const std::vector<bool>& loaded, const Eigen::VectorXd& score) {
+  const Eigen::MatrixX2i neighbours = flank_neighbours(contact);
+  std::vector<Edge> edges;
+  for (int node = 0; node < contact.count(); ++node) {
+    if (!released[static_cast<std::size_t>(node)]) continue;
+    int stuck = -1;
+    for (int side = 0; side < 2; ++side) {
+      const int next = neighbours(node, side);
+      if (next < 0 || released[static_cast<std::size_t>(next)] || !loaded[static_cast<std::size_t>(next)]) continue;
+      if (stuck < 0 || score[next] < score[stuck]) stuck = next;
+    }
+    if (stuck < 0) continue;
+    Edge edge{.worn = node, .stuck = stuck};
+    edge.excess = std::max(0.0, -score[node]);
+    edge.margin = std::max(0.0, score[stuck]);
+    const double sum = edge.excess + edge.margin;
+    edge.theta = sum > 0.0 ? edge.excess / sum : 1.0;
+    edges.push_back(edge);
+  }
+  return edges;
+}
+
+std::optional<Eigen::VectorXd> interpolate_edges(
+    const std::vector<Edge>& edges, const Eigen::VectorXd& released_depth, int tensor_edges,
+    const std::function<std::optional<Eigen::VectorXd>(const std::vector<bool>&)>& depth_without) {
+  const std::size_t count = edges.size();
+  VectorXd depth = released_depth;
+  if (count == 0) return depth;
+  std::vector<bool> stuck(count, false);
+  if (count <= static_cast<std::size_t>(std::max(tensor_edges, 0)) && count < 16) {
+    depth.setZero();
+    for (std::uint32_t set = 0; set < (1u << count); ++set) {
+      double weight = 1.0;
+      for (std::size_t i = 0; i < count; ++i) {
+        stuck[i] = ((set >> i) & 1u) != 0;
+        weight *= stuck[i] ? 1.0 - edges[i].theta : edges[i].theta;
+      }
+      if (weight == 0.0) continue;
+      if (set == 0) {
+        depth += weight * released_depth;
+        continue;
+      }
+      const std::optional<VectorXd> state = depth_without(stuck);
+      if (!state) return std::nullopt;
+      depth += weight * *state;
+    }
+    return depth;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (edges[i].theta >= 1.0) continue;
+    stuck.assign(count, false);
+    stuck[i] = true;
+    const std::optional<VectorXd> state = depth_without(stuck);
+    if (!state) return std::nullopt;
+    depth -= (1.0 - edges[i].theta) * (released_depth - *state);
+  }
+  return depth;
+}
+
+}  // namespace dovetail::wear

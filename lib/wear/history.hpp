@@ -1,0 +1,74 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/options.hpp"
+#include "core/status.hpp"
+#include "reduction/reduced_model.hpp"
+#include "response/resonance.hpp"
+#include "response/steady_state.hpp"
+#include "wear/control.hpp"
+
+namespace dovetail::wear {
+
+/// Which frequency excites while the joint wears.
+enum class Follow {
+  fixed,      ///< the given one throughout
+  resonance,  ///< the resonance of the joint as worn so far
+};
+
+struct HistoryOptions {
+  // > 0. Largest increase of depth per step, m (W_tot). The error of the worn state is first order in it.
+  double increment = 1e-7;
+  // >= 1. Steps at most.
+  int steps = 200;
+  // > 0. Cycles at most; the last step is cut to end there exactly.
+  double cycles = kInfinity;
+  // in [0, 1). Worn out when the largest rate fell below this fraction of the first one.
+  double rate_fraction = 1e-4;
+  // >= 0. Worn out, too, when the largest rate fell below this, m per cycle: 1e-9 um.
+  double rate_threshold = 1e-15;
+  // in [0, 30]. Times a step whose steady state does not converge is halved before giving up.
+  int halvings = 8;
+  // Start each step from U + dU, dU = -J^-1 J_W dW with the last factorisation [Salles 2009, eq. 33-35].
+  bool predictor = true;
+  // fixed | resonance
+  Follow follow = Follow::fixed;
+};
+
+enum class HistoryEnd { worn_out, cycles, steps, failed, interrupted };
+
+/// Wear over cycles; entry 0 is the unworn state, S = accepted steps + 1.
+struct History {
+  Status status = Status::converged;  ///< converged unless a step could not be solved however short, or interrupted
+  HistoryEnd end = HistoryEnd::steps;
+  Eigen::VectorXd cycles;        ///< [S]
+  Eigen::VectorXd worn_volume;   ///< [S] m^3
+  Eigen::MatrixXd depth;         ///< [S, Nc] m
+  Eigen::MatrixXd rate;          ///< [S, Nc] m per cycle, at that depth
+  Eigen::VectorXd amplitude;     ///< [S] m, of the followed output at the exciting frequency
+  Eigen::VectorXd frequency;     ///< [S] exciting omega, rad/s
+  response::SteadyState steady;  ///< of the last accepted state
+  int solves = 0;                ///< steady states computed, failed ones included
+  int jacobians = 0;             ///< factorised Jacobians over all of them
+  int rejected = 0;              ///< steps that did not converge and were halved
+};
+
+/// Wear history by cycle jumps of constant largest increment: with the rate dW of the state at W, N += dN,
+/// W += dN dW, dN = increment / max dW [Salles 2009, eq. 20-22]. A state that did not converge is never built on:
+/// the step is halved from the last converged one.
+///
+/// @param omega   exciting frequency rad/s; with Follow::resonance the start of the first search
+/// @param output  row of the model's outputs whose amplitude is recorded and whose resonance is followed
+/// @param worn    [Nc] depth to start from, m (empty: none)
+/// Cost: one steady state per step (or one resonance). Throws InputError for options out of range.
+[[nodiscard]] History history(const reduction::ReducedModel& model, double omega, const response::SteadyOptions& steady,
+                              const HistoryOptions& options = {}, int output = 0, const Eigen::VectorXd& worn = {},
+                              const Control& control = {});
+
+}  // namespace dovetail::wear
+
+namespace dovetail {
+template <>
+std::span<const Field<wear::HistoryOptions>> option_table<wear::HistoryOptions>();
+}

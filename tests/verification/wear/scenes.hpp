@@ -1,0 +1,48 @@
+#pragma once
+
+#include "reduction/reduced_model.hpp"
+
+namespace dovetail::wear::scenes {
+
+/// Den Hartog's oscillator m = k = F0 = 1 under cos(b t), rubbing with N = static normal load on a normal
+/// spring k_n: wear unloads it, p_N = N_0 - k_n W. Coordinates: 0 normal, 1 tangential.
+[[nodiscard]] reduction::ReducedModel den_hartog(double friction, double normal_load, double normal_stiffness,
+                                                 double wear_coefficient);
+
+/// A parabolic punch of relative curvature 1/R pressed by P on an elastic half-plane and rubbed by +-Q.
+struct Punch {
+  int nodes = 81;                           ///< contact nodes, odd: one in the middle
+  double half_length = 1.5;                 ///< nodes from -L to L; must exceed the half-width of contact
+  double modulus = 1.0;                     ///< composite E*
+  double radius = 1.0;                      ///< R
+  double normal_load = 0.7853981633974483;  ///< P; pi/4 makes the Hertz half-width a = sqrt(4PR/(pi E*)) = 1
+  double friction = 0.5;
+  double tangential_load = 0.2;  ///< Q
+  double wear_coefficient = 1e-3;
+  double offset = 0.0;  ///< the punch's middle, in x
+  double tilt = 0.0;    ///< slope of the gap
+};
+
+/// Massless model: contact displacements and the two rigid approaches of the punch. Nodal forces act as
+/// piecewise-linear pressures, whose influence follows from -(2/(pi E*)) int p ln|x - s| ds.
+[[nodiscard]] reduction::ReducedModel punch(const Punch& data);
+
+/// An elastic block (plane strain, bilinear quadrilaterals, E = 1) on a rigid floor.
+struct Block {
+  double length = 1.0, height = 0.5;
+  int columns = 20, rows = 6;
+  double friction = 0.5;
+  double normal_load = 1e-3, eccentricity = 0.0;  ///< on the top face; eccentricity / length
+  double tangential_load = 2.5e-4;                ///< amplitude of the cosine force on the top face
+  double breathing_load = 0.0;                    ///< amplitude of the sine normal force on the top face
+  double crown = 0.0, tilt = 0.0;                 ///< gap g = crown s^2 + tilt (s + 1), s in [-1, 1]
+  double wear_coefficient = 1.0;
+};
+
+/// Quasi-static model of the block's floor nodes, everything else statically condensed.
+[[nodiscard]] reduction::ReducedModel block(const Block& data);
+
+/// Block number 0..5 of a fixed random family in which the floor slips partly.
+[[nodiscard]] Block random_block(unsigned number);
+
+}  // namespace dovetail::wear::scenes
