@@ -219,6 +219,7 @@ void set_parameter(Scene& scene, std::string_view key, double value) {
     if (const auto* real = std::get_if<double S::*>(&field.member)) object.*(*real) = value * field.si_per_unit;
     if (const auto* count = std::get_if<int S::*>(&field.member)) object.*(*count) = static_cast<int>(value);
   });
+  scene.limits.friction = scene.contact.friction;
 }
 
 double parameter(const Scene& scene, std::string_view key) {
@@ -254,6 +255,20 @@ std::map<std::string, double> parameters(const Scene& scene) {
   return values;
 }
 
+std::vector<Violation> contradictions(const Scene& scene) {
+  std::vector<Violation> found;
+  const auto contradiction = [&](std::string key, double value, std::string allowed) {
+    found.push_back({.file = {}, .key = std::move(key), .value = shortest(value), .allowed = std::move(allowed)});
+  };
+  if (scene.solver.samples < 2 * scene.solver.harmonics + 2)
+    contradiction("solver.samples", scene.solver.samples,
+                  "must be >= 2 * solver.harmonics + 2 = " + std::to_string(2 * scene.solver.harmonics + 2));
+  if (2 * scene.loading.nodal_diameter > scene.geometry.sectors)
+    contradiction("scene.nodal_diameter", scene.loading.nodal_diameter,
+                  "must be <= half the number of sectors = " + std::to_string(scene.geometry.sectors / 2));
+  return found;
+}
+
 std::vector<Violation> violations(const Scene& scene) {
   std::vector<Violation> found;
   visit_tables(scene, [&]<class S>(std::string_view section, const S& object, std::span<const Field<S>> fields) {
@@ -274,15 +289,7 @@ std::vector<Violation> violations(const Scene& scene) {
       }
     }
   });
-  const auto contradiction = [&](std::string key, double value, std::string allowed) {
-    found.push_back({.file = {}, .key = std::move(key), .value = shortest(value), .allowed = std::move(allowed)});
-  };
-  if (scene.solver.samples < 2 * scene.solver.harmonics + 2)
-    contradiction("solver.samples", scene.solver.samples,
-                  "must be >= 2 * solver.harmonics + 2 = " + std::to_string(2 * scene.solver.harmonics + 2));
-  if (2 * scene.loading.nodal_diameter > scene.geometry.sectors)
-    contradiction("scene.nodal_diameter", scene.loading.nodal_diameter,
-                  "must be <= half the number of sectors = " + std::to_string(scene.geometry.sectors / 2));
+  for (Violation& contradiction : contradictions(scene)) found.push_back(std::move(contradiction));
   return found;
 }
 

@@ -103,7 +103,8 @@ struct Parameter {
 [[nodiscard]] const Parameter* find_parameter(std::string_view key);
 
 /// Sets the number of that key, given in the unit of the study file; "geometry.KEY" of a flank key sets
-/// both flanks. Nothing follows silently: the disk's material stays when the blade's is set. Ranges are
+/// both flanks, "contact.friction" also the friction of the self-locking rule. The disk's material stays when the
+/// blade's is set. Ranges are
 /// not checked (violations() does); throws InputError for an unknown key (with the nearest valid one), a
 /// key that is not a number, or a fraction given to a whole number.
 void set_parameter(Scene& scene, std::string_view key, double value_in_file_unit);
@@ -115,6 +116,9 @@ void set_parameter(Scene& scene, std::string_view key, double value_in_file_unit
 /// All numbers of a scene by key, in the file's unit. A flank key stands once under "geometry" when both
 /// flanks agree, else under "geometry.left" and "geometry.right".
 [[nodiscard]] std::map<std::string, double> parameters(const Scene& scene);
+
+/// What contradicts across keys although each value is in its range (fewer samples than the harmonics need).
+[[nodiscard]] std::vector<Violation> contradictions(const Scene& scene);
 
 /// Every value outside its range, and what contradicts across keys (e.g. fewer samples than the
 /// harmonics need). Empty: the scene may be computed.
