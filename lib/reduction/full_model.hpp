@@ -14,14 +14,14 @@ namespace dovetail::reduction {
 /// the blade is glued to the disk and `stiffness` of the rest is positive definite; as a whole it may be
 /// singular or, with spin softening, slightly indefinite (the blade floats).
 struct FullModel {
-  Eigen::SparseMatrix<double> stiffness;   ///< [n, n] N/m, symmetric, both triangles stored
-  Eigen::SparseMatrix<double> mass;        ///< [n, n] kg
-  Eigen::VectorXd static_force;            ///< [n] N
-  Eigen::MatrixXd cosine_force;            ///< [n, H_f] N, column j-1 is harmonic j
-  Eigen::MatrixXd sine_force;              ///< [n, H_f] N
-  Eigen::MatrixXd outputs;                 ///< [n, n_out], y = c^T u
-  std::vector<std::string> output_names;   ///< [n_out]
-  ContactNodes contact;                    ///< indices refer to the n coordinates
+  Eigen::SparseMatrix<double> stiffness;  ///< [n, n] N/m, symmetric, both triangles stored
+  Eigen::SparseMatrix<double> mass;       ///< [n, n] kg
+  Eigen::VectorXd static_force;           ///< [n] N
+  Eigen::MatrixXd cosine_force;           ///< [n, H_f] N, column j-1 is harmonic j
+  Eigen::MatrixXd sine_force;             ///< [n, H_f] N
+  Eigen::MatrixXd outputs;                ///< [n, n_out], y = c^T u
+  std::vector<std::string> output_names;  ///< [n_out]
+  ContactNodes contact;                   ///< indices refer to the n coordinates
 
   [[nodiscard]] Eigen::Index size() const { return stiffness.rows(); }
   [[nodiscard]] Eigen::Index contact_size() const { return contact.count() * contact.directions(); }

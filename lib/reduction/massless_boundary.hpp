@@ -1,0 +1,72 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/options.hpp"
+#include "core/status.hpp"
+#include "reduction/full_model.hpp"
+#include "reduction/recovery.hpp"
+#include "reduction/reduced_model.hpp"
+
+namespace dovetail::reduction {
+
+struct ReductionOptions {
+  /// >= 0. Free-interface modes kept, rigid ones included; static responses to the loads come on top.
+  int modes = 20;
+  /// >= 0. Modal damping of the glued linear modes, C = diag(2 zeta omega).
+  double damping_ratio = 1e-3;
+  /// 0 < . < 1. Relative accuracy of the eigenpairs.
+  double eigen_tolerance = 1e-10;
+  /// >= 1. Restarts of the Lanczos iteration.
+  int eigen_restarts = 200;
+};
+
+/// Massless-boundary reduction [Monjaraz-Tec et al. 2022, arXiv 2111.07693; MacNeal 1971] and all that is
+/// needed to go back to the full model.
+struct Reduction {
+  Status status = Status::converged;
+  std::string message;  ///< why, when not converged
+
+  ReducedModel model;                     ///< coordinates [contact r (node by node: N, T1[, T2]); glued modes q]
+  Recovery recovery;                      ///< u = Phi q + Psi lambda, all n rows
+  Eigen::VectorXd free_eigenvalues;       ///< [m] Lambda of the basis, (rad/s)^2, ascending; may be negative
+  Eigen::VectorXd glued_frequencies;      ///< [m] angular frequencies of the glued modes, rad/s, ascending
+  double first_neglected_eigenvalue = 0;  ///< (rad/s)^2, infinite when no mode is neglected
+  /// [n_red, n_red] first-order inertia of what the reduction left massless: U^T M U - diag(0, I), with U
+  /// the field to unit reduced coordinates. Source of all error estimates; never part of the model.
+  Eigen::MatrixXd neglected_mass;
+  /// [m] estimated relative error of the glued frequencies (reduced / full - 1).
+  Eigen::VectorXd frequency_error;
+
+  int rigid_modes = 0;     ///< eigenvalues that are zero to rounding
+  int negative_modes = 0;  ///< negative eigenvalues of the full stiffness (spin softening)
+  double seconds_factorisation = 0, seconds_contact_solves = 0, seconds_modes = 0, seconds_total = 0;
+};
+
+/// Reduces `full` to its contact dofs without mass and m coordinates with unit mass:
+///   K_red = [[G^-1, -G^-1 Phi_r], [-Phi_r^T G^-1, Lambda + Phi_r^T G^-1 Phi_r]],  M_red = diag(0, I),
+/// with Phi the lowest free-interface modes and the static responses to all loads and outputs, and
+/// G = B (K^-1 - Phi Lambda^-1 Phi^T) B^T the residual flexibility of the contact; q is then rotated to the
+/// glued modes. Static responses are exact; dynamic ones err like (omega/omega_cut)^2.
+/// The stiffness may be singular or indefinite, but not with the contact dofs fixed.
+/// Throws InputError for inconsistent sizes and options out of range. Statuses: `singular` (the glued
+/// structure is not positive definite, or G is not: too many modes for the model), `iteration_limit`
+/// (modes), `not_finite`.
+/// Cost: one sparse factorisation and about nc + 3 modes back-solves.
+[[nodiscard]] Reduction reduce(const FullModel& full, const ReductionOptions& options = {});
+
+/// The same with `modes` raised from its given value until the estimated errors of Z and Z^-1 at all
+/// `angular_frequencies` (every harmonic used, rad/s) are below `tolerance`. Status `iteration_limit` when
+/// the model has no more modes to give; the best reduction is then returned.
+[[nodiscard]] Reduction reduce_to_tolerance(const FullModel& full, std::span<const double> angular_frequencies,
+                                            double tolerance, const ReductionOptions& options = {});
+
+}  // namespace dovetail::reduction
+
+namespace dovetail {
+template <>
+std::span<const Field<reduction::ReductionOptions>> option_table<reduction::ReductionOptions>();
+}
