@@ -1,0 +1,65 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/status.hpp"
+#include "numerics/fourier.hpp"
+
+namespace dovetail::contact {
+
+enum class SampleState : unsigned char { separated, stuck, slipping };
+
+enum class SlipReturn {
+  first_order,   ///< backward Euler, as in [Salles 2009, eq. 15-19]
+  second_order,  ///< rotates the previous slip direction; the same as first_order with one tangential direction
+};
+
+struct MarchOptions {
+  SlipReturn slip_return = SlipReturn::first_order;
+  bool periodic = true;      ///< false: march the samples once and stop (a quasi-static path)
+  int max_periods = 100;     ///< periods marched before giving up, >= 1
+  double tolerance = 1e-10;  ///< change of lambda_x,T over a period relative to the largest limit force, > 0
+};
+
+/// What one node is, besides its prediction forces.
+struct NodeLaw {
+  double friction = 0;                   ///< mu >= 0
+  double normal_penalty = 1;             ///< eps_N > 0, N/m
+  double tangential_penalty = 1;         ///< eps_T > 0, N/m, one for both tangential directions
+  Eigen::Vector2d slip_origin = {0, 0};  ///< X_T at which the march starts, m
+};
+
+/// One node marched over the period. d = 1 + tangential directions, m = d (2H+1).
+/// Flattened coefficients of a node are ordered coefficient by coefficient: index k d + r is Fourier coefficient k
+/// of direction r (0 normal, 1.. tangential).
+struct MarchResult {
+  Status status = Status::converged;  ///< converged or not_periodic
+  int periods = 0;                    ///< periods marched
+  Eigen::MatrixXd force;              ///< lambda [N, d], N
+  Eigen::MatrixXd slip_force;         ///< lambda_x = eps X [N, d], N
+  std::vector<SampleState> state;     ///< [N] of the last period
+  bool always_stuck = false;          ///< neither slipped nor separated in any marched period
+  bool always_closed = false;         ///< lambda_N = lambda_u,N > 0 at all samples
+  bool always_separated = false;      ///< no force at any sample
+  double slip_distance = 0;           ///< path length of X_T under load over the last period, m
+  double slip_load = 0;               ///< sum of mean lambda_N |dX_T| over the last period, N m
+  Eigen::Vector2d slip_end = {0, 0};  ///< X_T after the last sample, m
+
+  // Filled when derivatives are asked for.
+  Eigen::MatrixXd force_derivative;         ///< D = d lambda_h / d lambda_u,h [m, m]
+  Eigen::RowVectorXd slip_load_derivative;  ///< d slip_load / d lambda_u,h [m], m
+};
+
+/// Marches the contact law of one node over the samples until lambda_x repeats [Salles 2009, eq. 15-19]:
+///   pre_N = lambda_u,N^n, pre_T = lambda_u,T^n - lambda_x,T^(n-1)
+///   separation pre_N <= 0: lambda = 0, lambda_x = lambda_u
+///   stick |pre_T| <= mu pre_N: lambda = pre, lambda_x,T unchanged
+///   slip: lambda_N = pre_N, lambda_T = kappa pre_T, kappa = mu pre_N / |pre_T|, lambda_x,T += (1 - kappa) pre_T.
+/// The derivative is that of the march itself, through all marched periods, exact away from its kinks
+/// [Salles 2009, eq. 23-32]. `prediction` is lambda_u [N, d], d = 2 or 3, N = basis.samples().
+/// Cost: O(N d) per period; with derivatives O(N d m) plus O(m) per slipping sample.
+void march(const Eigen::Ref<const Eigen::MatrixXd>& prediction, const NodeLaw& law, const numerics::FourierBasis& basis,
+           const MarchOptions& options, bool with_derivative, MarchResult& result);
+
+}  // namespace dovetail::contact

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+namespace dovetail::contact {
+
+/// The eps of the dynamic Lagrangian: one value for the normal direction and one for *all* tangential
+/// directions of a node (different tangential values would converge to a wrong slip direction). N/m.
+struct PseudoPenalty {
+  Eigen::VectorXd normal;      ///< [Nc] > 0
+  Eigen::VectorXd tangential;  ///< [Nc] > 0
+
+  [[nodiscard]] PseudoPenalty scaled(double ratio) const { return {normal * ratio, tangential * ratio}; }
+};
+
+/// eps from the local contact stiffness, the high-harmonic limit of diag(Z_h) when contact carries no mass:
+/// `local_stiffness` [Nc d], node by node (N, T1[, T2]), d directions. The mean over tangential directions is
+/// used; entries that are not positive are replaced by a thousandth of the largest one.
+/// `normal`, `tangential` > 0 override the values of all nodes (N/m), 0 keeps the automatic ones.
+[[nodiscard]] PseudoPenalty pseudo_penalty(const Eigen::VectorXd& local_stiffness, Eigen::Index directions,
+                                           double normal = 0, double tangential = 0);
+
+/// Ratios tried one after the other when a solve fails: the converged answer at a given number of harmonics depends
+/// slightly on eps, so the most accurate one comes first.
+inline constexpr std::array<double, 6> kPenaltyCascade{1, 0.5, 0.1, 2, 0.02, 10};
+
+}  // namespace dovetail::contact

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "response/steady_state.hpp"
+
+namespace dovetail::response {
+
+/// Steady states at the frequencies `omega` (rad/s) in the order given, each started from its predecessor by the
+/// predictor dU = dU/dw dw (and from closed contact when that fails). Every point carries its own status; states
+/// keep no linearisation unless `keep_linearisations`. `progress` may return false to stop early: the points not
+/// computed then carry Status::interrupted.
+[[nodiscard]] std::vector<SteadyState> frequency_response(
+    const std::shared_ptr<const CondensedModel>& model, std::span<const double> omega,
+    const ContactCondition& condition, const SteadyOptions& options,
+    const std::function<bool(std::size_t point, const SteadyState&)>& progress = {}, bool keep_linearisations = false);
+
+}  // namespace dovetail::response

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "numerics/dense_lu.hpp"
+#include "response/residual.hpp"
+
+namespace dovetail::response {
+
+/// The factorised Jacobian J = Z + D (eps I - Z) of a point and what follows from it. All vectors over the unknowns
+/// are vec(U): index k nc + a is Fourier coefficient k of contact dof a, nc (2H+1) entries.
+///
+/// Rows where D is a row of the identity (normal directions that never separate, nodes that never slid) read
+/// eps dU = -f: they are eliminated exactly, and the dense factorisation only sees the rest.
+class Linearisation {
+ public:
+  /// Keeps a copy of the state and of the (shared, constant) problem. O(size of the rest ^3).
+  Linearisation(SteadyResidual residual, ResidualState state);
+
+  [[nodiscard]] Status status() const { return lu_.status(); }
+  [[nodiscard]] Eigen::Index unknowns() const;
+  [[nodiscard]] Eigen::Index factorised_size() const { return lu_.size(); }
+  [[nodiscard]] double reciprocal_condition() const { return lu_.reciprocal_condition(); }
+  [[nodiscard]] const SteadyResidual& residual() const { return residual_; }
+  [[nodiscard]] const ResidualState& state() const { return state_; }
+
+  /// J X = B and J^T X = B, B [nc (2H+1), m].
+  [[nodiscard]] Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& rhs) const;
+  [[nodiscard]] Eigen::MatrixXd solve_transposed(const Eigen::Ref<const Eigen::MatrixXd>& rhs) const;
+
+  /// Columns of df/dW for the nodes listed: -D[:, mean normal] eps_N [Salles 2009, eq. 33-35].
+  [[nodiscard]] Eigen::MatrixXd residual_to_wear(const std::vector<Eigen::Index>& nodes) const;
+  /// dU = -J^-1 J_W dW, [nc, 2H+1], for a change dW [Nc] of the wear depths, m.
+  [[nodiscard]] Eigen::MatrixXd response_to_wear(const Eigen::VectorXd& wear_change) const;
+  /// dU/dw = -J^-1 df/dw, [nc, 2H+1].
+  [[nodiscard]] Eigen::MatrixXd response_to_frequency() const;
+  /// Change of the wear per cycle [Nc] for dU [nc, 2H+1] and dW [Nc] (partial derivatives).
+  [[nodiscard]] Eigen::VectorXd wear_rate_change(const Eigen::MatrixXd& response_change,
+                                                 const Eigen::VectorXd& wear_change) const;
+  /// Total derivative of the wear per cycle of all nodes with respect to the depth of the nodes listed, through
+  /// f(U; W) = 0: [Nc, nodes.size()].
+  [[nodiscard]] Eigen::MatrixXd wear_rate_to_wear(const std::vector<Eigen::Index>& nodes) const;
+
+ private:
+  SteadyResidual residual_;
+  ResidualState state_;
+  std::vector<Eigen::Index> active_, direct_;
+  Eigen::VectorXd direct_diagonal_;  // eps of the eliminated rows
+  Eigen::MatrixXd coupling_;         // J(active, direct)
+  numerics::DenseLu lu_;
+};
+
+}  // namespace dovetail::response

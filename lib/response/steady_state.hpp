@@ -1,0 +1,62 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "core/status.hpp"
+#include "response/linearisation.hpp"
+#include "response/options.hpp"
+#include "response/residual.hpp"
+
+namespace dovetail::response {
+
+/// What one contact node does over the converged period.
+struct NodeSummary {
+  bool slips = false;                                 ///< slipped under load at some sample
+  bool separates = false;                             ///< carried no force at some sample
+  bool carries_load = false;                          ///< carried force at some sample
+  bool stuck = false;                                 ///< in contact and without slip at all samples
+  double min_normal_force = 0, max_normal_force = 0;  ///< lambda_N, N
+  double min_pressure = 0, max_pressure = 0;          ///< lambda_N / area, Pa
+  double max_normal_displacement = 0;                 ///< max_t u_N of the Fourier series, m
+  double slip_distance = 0;                           ///< path of X_T under load per cycle, m
+  double wear_rate = 0;                               ///< depth per cycle, m
+  double dissipated_energy = 0;                       ///< J per cycle
+  int periods = 0;                                    ///< marched until periodic
+};
+
+/// One steady state. Nothing in it is meaningful unless status is converged, but all of it is filled with the
+/// best point found.
+struct SteadyState {
+  Status status = Status::iteration_limit;
+  int iterations = 0;        ///< Jacobians, all penalties tried together
+  int evaluations = 0;       ///< residuals
+  double omega = 0;          ///< rad/s
+  double residual = 0;       ///< |f| relative to the excitation
+  double penalty_ratio = 1;  ///< of the cascade; the eps used is in `penalty`
+  contact::PseudoPenalty penalty;
+  Eigen::MatrixXd displacement;    ///< U [nc, 2H+1], m
+  Eigen::MatrixXd force;           ///< lambda [nc, 2H+1], N
+  Eigen::MatrixXd slip_end;        ///< X_T at the end of the period [Nc, d-1], m
+  std::vector<NodeSummary> nodes;  ///< [Nc]
+  Eigen::VectorXd wear_rate;       ///< depth per cycle [Nc], m
+  Eigen::MatrixXd outputs;         ///< [n_out, 2H+1] Fourier coefficients
+  Eigen::VectorXd amplitudes;      ///< [n_out] half the peak-to-peak value
+  double input_energy = 0;         ///< put in by the excitation, J per cycle
+  double damping_energy = 0;       ///< dissipated by the damping matrix, J per cycle
+  double friction_energy = 0;      ///< dissipated by friction, from increments of X_T, J per cycle
+  double contact_work = 0;  ///< of the truncated contact force on the truncated velocity; input - damping exactly
+  double error_force = 0;   ///< e_lambda [Salles 2009, eq. 36]
+  double error_energy = 0;  ///< e_E [Salles 2009, eq. 38]
+  /// Jacobian at the solution, for predictors and sensitivities; null when the solve failed.
+  std::shared_ptr<const Linearisation> linearisation;
+};
+
+/// The periodic response to the model's excitation at `omega` (rad/s, > 0). `guess` is U [nc, 2H+1] of a nearby
+/// state or empty (start closed). Throws InputError on bad options or sizes; everything else is a status.
+[[nodiscard]] SteadyState steady_state(const std::shared_ptr<const CondensedModel>& model, double omega,
+                                       const ContactCondition& condition, const SteadyOptions& options,
+                                       const Eigen::MatrixXd& guess = {});
+
+}  // namespace dovetail::response
