@@ -1,4 +1,4 @@
-#include "program/document.hpp"
+#include "studies/program/document.hpp"
 
 #include <toml++/toml.h>
 

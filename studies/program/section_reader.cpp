@@ -1,4 +1,4 @@
-#include "program/section_reader.hpp"
+#include "studies/program/section_reader.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -140,9 +140,11 @@ void SectionReader::finish() {
   for (const Member& member : table_->members) {
     if (std::find(valid_.begin(), valid_.end(), member.key) != valid_.end()) continue;
     const std::string what = member.value.kind == Node::Kind::table ? "unknown section" : "unknown key";
-    std::string near = nearest(member.key, valid_);
-    if (!near.empty()) near = path(near);
-    if (near.empty() || !member.key.compare(near)) near = near.empty() ? elsewhere(member.key) : near;
+    std::string near = elsewhere(member.key);
+    if (near.empty()) {
+      near = nearest(member.key, valid_);
+      if (!near.empty()) near = path(near);
+    }
     problems_.add(member.value, path(member.key), what + (near.empty() ? "" : "; did you mean " + near + "?"));
   }
 }

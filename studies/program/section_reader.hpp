@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/options.hpp"
-#include "program/document.hpp"
+#include "studies/program/document.hpp"
 
 namespace dovetail::studies {
 
