@@ -49,6 +49,17 @@ Edge arc(std::string name, const Vector2d& start, const Vector2d& end, const Vec
   return curved;
 }
 
+Edge arc_through(std::string name, const Vector2d& start, const Vector2d& middle, const Vector2d& end) {
+  const Vector2d first = middle - start;
+  const Vector2d second = end - middle;
+  // The chords of two neighbouring arcs of one circle enclose half the sum of their angles.
+  const double half = std::atan2(first.x() * second.y() - first.y() * second.x(), first.dot(second));
+  assert(half != 0);
+  const Vector2d chord = end - start;
+  const Vector2d left(-chord.y(), chord.x());
+  return arc(std::move(name), start, end, (start + end) / 2 + left / (2 * std::tan(half)), 2 * half);
+}
+
 Edge reversed(const Edge& edge) {
   Edge back = edge;
   std::swap(back.start, back.end);

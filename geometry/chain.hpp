@@ -12,6 +12,10 @@ namespace dovetail::geometry {
 [[nodiscard]] Edge arc(std::string name, const Eigen::Vector2d& start, const Eigen::Vector2d& end,
                        const Eigen::Vector2d& center, double sweep);
 
+/// Arc from `start` through `middle` to `end`; the three points must not lie on a line.
+[[nodiscard]] Edge arc_through(std::string name, const Eigen::Vector2d& start, const Eigen::Vector2d& middle,
+                               const Eigen::Vector2d& end);
+
 /// The same curve travelled the other way.
 [[nodiscard]] Edge reversed(const Edge& edge);
 
