@@ -1,13 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
+#include <memory>
+#include <span>
 #include <string_view>
 #include <vector>
 
 #include "core/options.hpp"
 #include "core/status.hpp"
-#include "reduction/reduced_model.hpp"
 #include "response/steady_state.hpp"
 #include "wear/control.hpp"
 #include "wear/edge.hpp"
@@ -33,7 +33,8 @@ struct AsymptoteOptions {
   int passes = 60;
   // Confirm a verdict "no asymptote" by the explicit history, for wear that stops with worn nodes still loaded.
   bool confirm_by_history = true;
-  // in (0, 1). Largest increment of that history relative to the load-carrying penetration of the unworn contact.
+  // > 0. Largest increment of that history relative to the largest local penetration of the unworn contact,
+  // lambda_N over the node's own stiffness.
   double confirm_increment = 0.1;
   // >= 1. Steps of that history.
   int confirm_steps = 200;
@@ -68,7 +69,8 @@ struct Asymptote {
   /// Largest rate with gap g + W and contact everywhere over the largest unworn rate; NaN when not computed.
   double certificate = 0.0;
   bool confirmed_by_history = false;  ///< "no asymptote" was looked at by the history as well
-  response::SteadyState steady;       ///< steady state at the limit, contact everywhere (or released)
+  response::SteadyState unworn;       ///< steady state before wear
+  response::SteadyState steady;       ///< at the limit (no asymptote: the last one computed)
   int passes = 0;                     ///< of release
   int solves = 0;                     ///< steady states computed
   int jacobians = 0;                  ///< factorised Jacobians over all of them
@@ -78,15 +80,13 @@ struct Asymptote {
 /// node that slips, repeat until none does; then the released nodes have worn until they just do not touch,
 /// W = max(0, max_t u_N - g). With the worn gap every node has zero rate: it sticks or carries nothing.
 ///
-/// @param model     its slip origin is where stuck nodes' traction histories start
-/// @param omega     excitation frequency rad/s, held; the unworn resonance is a good choice
-/// @param worn      [Nc] wear depth already there, m (empty: none); the result includes it
-/// @param steady    options of every steady state; its `released` mask must be empty
-/// @param initial   steady state of the unworn model to start from, or null
+/// @param omega      excitation frequency rad/s, held; the unworn resonance is a good choice
+/// @param start      wear depth already there (the result includes it) and slip origin; its `released` must be empty
+/// @param unworn     steady state of `start` at omega to begin with, or null
 /// Cost: 5 to 15 steady states, warm-started. Throws InputError for options out of range.
-[[nodiscard]] Asymptote asymptote(const reduction::ReducedModel& model, double omega,
-                                  const response::SteadyOptions& steady, const AsymptoteOptions& options = {},
-                                  const Eigen::VectorXd& worn = {}, const response::SteadyState* initial = nullptr,
+[[nodiscard]] Asymptote asymptote(const std::shared_ptr<const response::CondensedModel>& model, double omega,
+                                  const response::ContactCondition& start, const response::SteadyOptions& steady,
+                                  const AsymptoteOptions& options = {}, const response::SteadyState* unworn = nullptr,
                                   const Control& control = {});
 
 }  // namespace dovetail::wear

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 
-#include "reduction/reduced_model.hpp"
 #include "response/resonance.hpp"
 
 namespace dovetail::wear {
@@ -14,9 +14,11 @@ struct Drift {
   double drift = 0.0;
 };
 
-/// Resonance with gap g + W, found by the same criterion as `unworn` and starting from it.
-[[nodiscard]] Drift resonance_drift(const reduction::ReducedModel& model, const response::Resonance& unworn,
+/// Resonance with gap g + W found by the same criterion as `unworn`, starting from it. `start` is the condition of
+/// the unworn joint (slip origin); `depth` [Nc] m replaces its wear depth.
+[[nodiscard]] Drift resonance_drift(const std::shared_ptr<const response::CondensedModel>& model,
+                                    const response::Resonance& unworn, const response::ContactCondition& start,
                                     const Eigen::VectorXd& depth, const response::SteadyOptions& steady,
-                                    const response::ResonanceOptions& options, int output = 0);
+                                    const response::ResonanceOptions& options);
 
 }  // namespace dovetail::wear

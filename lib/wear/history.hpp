@@ -1,21 +1,18 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
 
 #include "core/options.hpp"
 #include "core/status.hpp"
-#include "reduction/reduced_model.hpp"
 #include "response/resonance.hpp"
 #include "response/steady_state.hpp"
 #include "wear/control.hpp"
 
 namespace dovetail::wear {
-
-/// Which frequency excites while the joint wears.
-enum class Follow {
-  fixed,      ///< the given one throughout
-  resonance,  ///< the resonance of the joint as worn so far
-};
 
 struct HistoryOptions {
   // > 0. Largest increase of depth per step, m (W_tot). The error of the worn state is first order in it.
@@ -32,11 +29,16 @@ struct HistoryOptions {
   int halvings = 8;
   // Start each step from U + dU, dU = -J^-1 J_W dW with the last factorisation [Salles 2009, eq. 33-35].
   bool predictor = true;
-  // fixed | resonance
-  Follow follow = Follow::fixed;
+  // fixed | resonance: excite at the given frequency throughout, or at the resonance of the joint as worn so far.
+  std::string follow = "fixed";
+  // Start each march from the slip left by the state before instead of the one given: stuck nodes then keep the
+  // tractions of their own past. Off: every state is reached from the same preload, as the asymptote is.
+  bool carry_slip = false;
 };
 
+/// Why a history ended.
 enum class HistoryEnd { worn_out, cycles, steps, failed, interrupted };
+[[nodiscard]] std::string_view to_string(HistoryEnd end);
 
 /// Wear over cycles; entry 0 is the unworn state, S = accepted steps + 1.
 struct History {
@@ -58,12 +60,13 @@ struct History {
 /// W += dN dW, dN = increment / max dW [Salles 2009, eq. 20-22]. A state that did not converge is never built on:
 /// the step is halved from the last converged one.
 ///
-/// @param omega   exciting frequency rad/s; with Follow::resonance the start of the first search
-/// @param output  row of the model's outputs whose amplitude is recorded and whose resonance is followed
-/// @param worn    [Nc] depth to start from, m (empty: none)
+/// @param omega      exciting frequency rad/s; with follow = resonance where the first search starts
+/// @param start      wear depth to start from and slip origin; its `released` mask must be empty
+/// @param resonance  names the output whose amplitude is recorded and, when asked for, followed
 /// Cost: one steady state per step (or one resonance). Throws InputError for options out of range.
-[[nodiscard]] History history(const reduction::ReducedModel& model, double omega, const response::SteadyOptions& steady,
-                              const HistoryOptions& options = {}, int output = 0, const Eigen::VectorXd& worn = {},
+[[nodiscard]] History history(const std::shared_ptr<const response::CondensedModel>& model, double omega,
+                              const response::ContactCondition& start, const response::SteadyOptions& steady,
+                              const HistoryOptions& options = {}, const response::ResonanceOptions& resonance = {},
                               const Control& control = {});
 
 }  // namespace dovetail::wear

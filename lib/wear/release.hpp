@@ -1,0 +1,52 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "response/steady_state.hpp"
+#include "wear/control.hpp"
+
+namespace dovetail::wear {
+
+/// Signed friction margin of every node, in units of the limit mu lambda_N; infinite without load.
+/// Stuck: min_t (mu lambda_N - |lambda_T|) / (mu lambda_N) >= 0 over the loaded samples. Slipping, that is wearing by
+/// more than `threshold` m per cycle: minus the overload that the slip relieved, k_T (slip distance) / (4 mu max
+/// lambda_N), with the node's own stiffness k_T (two reversals per cycle, each sliding by twice the overload over k_T).
+[[nodiscard]] Eigen::VectorXd friction_score(const response::CondensedModel& model, const response::SteadyState& state,
+                                             double threshold);
+
+/// Steady states of one joint with some nodes released, warm-started from each other and counted.
+class Release {
+ public:
+  Release(std::shared_ptr<const response::CondensedModel> model, double omega, response::ContactCondition start,
+          response::SteadyOptions steady, const Control& control);
+
+  /// State with these nodes free of contact. `quick`: one pseudo-penalty and few iterations, for states that may not
+  /// exist because nothing holds the body; otherwise a failed start from `guess` is repeated from closed contact.
+  [[nodiscard]] response::SteadyState solve(const std::vector<bool>& released, const Eigen::MatrixXd& guess,
+                                            bool quick = false);
+  /// State with depth W [Nc] and contact everywhere.
+  [[nodiscard]] response::SteadyState solve_worn(const Eigen::VectorXd& depth, const Eigen::MatrixXd& guess);
+
+  /// W [Nc]: released nodes just do not touch, max(W_start, max_t u_N - g); the others keep W_start.
+  [[nodiscard]] Eigen::VectorXd depth(const std::vector<bool>& released, const response::SteadyState& state) const;
+
+  [[nodiscard]] const response::CondensedModel& model() const { return *model_; }
+  [[nodiscard]] const response::ContactCondition& start() const { return start_; }
+  void count(int solves, int jacobians);
+  [[nodiscard]] int solves() const { return solves_; }
+  [[nodiscard]] int jacobians() const { return jacobians_; }
+
+ private:
+  std::shared_ptr<const response::CondensedModel> model_;
+  double omega_;
+  response::ContactCondition start_;
+  response::SteadyOptions steady_;
+  const Control* control_;
+  int solves_ = 0;
+  int jacobians_ = 0;
+};
+
+}  // namespace dovetail::wear
