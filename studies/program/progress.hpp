@@ -1,0 +1,40 @@
+#pragma once
+
+#include <chrono>
+#include <iosfwd>
+#include <string>
+
+#include "optimizer/run.hpp"
+
+namespace dovetail::studies {
+
+/// The progress of a run for people: "evaluation 12/100, best 1.23e-10 (feasible), 41 s, about 300 s to go". One line
+/// that is renewed on a terminal, plain lines elsewhere.
+class RunProgress {
+ public:
+  RunProgress(std::ostream& stream, bool terminal, int evaluations);
+  /// Ends the renewed line.
+  ~RunProgress();
+  RunProgress(const RunProgress&) = delete;
+  RunProgress& operator=(const RunProgress&) = delete;
+
+  void operator()(const optimizer::Progress& progress);
+
+  /// The line after `done` candidates, `computed` of them not from the journal, `seconds` after the start.
+  [[nodiscard]] std::string line(const optimizer::Progress& progress, double seconds) const;
+
+ private:
+  std::ostream& stream_;
+  bool terminal_;
+  int evaluations_;
+  int computed_ = 0;
+  bool open_ = false;
+  double best_ = 0;
+  bool has_best_ = false;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+/// Whether standard error is a terminal.
+[[nodiscard]] bool error_is_terminal();
+
+}  // namespace dovetail::studies
