@@ -1,0 +1,152 @@
+#include "optimizer/candidate_model.hpp"
+
+#include <span>
+#include <utility>
+
+#include "fem/stress.hpp"
+#include "optimizer/stopwatch.hpp"
+#include "reduction/static_condensation.hpp"
+
+namespace dovetail::optimizer {
+
+namespace {
+
+std::string failed(std::string_view stage, Status status) {
+  return std::string(stage) + ": " + std::string(to_string(status));
+}
+
+reduction::ContactNodes contact_nodes(const fem::SectorSystem& system, const ContactProperties& properties) {
+  const Eigen::Index count = system.contact.count();
+  reduction::ContactNodes nodes;
+  nodes.normal.resize(count);
+  nodes.tangential.resize(count, 1);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    nodes.normal(i) = static_cast<int>(system.internal_size() + 2 * i);
+    nodes.tangential(i, 0) = nodes.normal(i) + 1;
+  }
+  nodes.area = system.contact.area;
+  nodes.gap = system.contact.gap;
+  nodes.friction = Eigen::VectorXd::Constant(count, properties.friction);
+  nodes.wear_coefficient = Eigen::VectorXd::Constant(count, properties.wear_coefficient);
+  nodes.position = Eigen::MatrixX3d::Zero(count, 3);
+  nodes.position.leftCols(2) = system.contact.position.transpose();
+  nodes.group = system.contact.flank;
+  nodes.slip_origin = Eigen::MatrixXd::Zero(count, 1);
+  return nodes;
+}
+
+reduction::FullModel full_model(const Scene& scene, const fem::SectorSystem& system,
+                                const Eigen::SparseMatrix<double>& stiffness) {
+  const double speed = scene.loading.speed;
+  reduction::FullModel full;
+  full.stiffness = fem::constrain(stiffness, system.constraints);
+  full.mass = system.mass;
+  full.static_force = speed * speed * system.centrifugal;
+  full.cosine_force = scene.loading.tip_force * system.tip;
+  full.sine_force = Eigen::MatrixXd::Zero(system.size(), 1);
+  full.outputs = system.tip;
+  full.output_names = {"tip_x"};
+  full.contact = contact_nodes(system, scene.contact);
+  return full;
+}
+
+/// Geometric stiffness from the stresses of the frictional preload: glued flanks would carry tension.
+Status geometric_stiffness(const Scene& scene, const CandidateModel& candidate, const fem::Assembler& assembler,
+                           std::span<const fem::Material> materials, Eigen::SparseMatrix<double>& result) {
+  const fem::SectorSystem& system = candidate.system;
+  const Eigen::SparseMatrix<double> bare = system.full.stiffness;
+  const reduction::StaticCondensation condensed = reduction::condense_statically(full_model(scene, system, bare));
+  if (condensed.status != Status::converged) return condensed.status;
+  const auto model = std::make_shared<const response::CondensedModel>(condensed.model);
+  const response::Preload preload = response::quasi_static(model);
+  if (preload.status != Status::converged) return preload.status;
+  const Eigen::VectorXd independent = condensed.recovery.apply(preload.displacement, preload.force);
+  const Eigen::VectorXd displacement = system.constraints.transformation * independent;
+  const fem::Mesh& mesh = candidate.mesh.sector.mesh;
+  result = assembler.geometric_stiffness(mesh, fem::quadrature_stress(mesh, materials, displacement));
+  return Status::converged;
+}
+
+std::string first_broken(const geometry::Feasibility& feasibility, std::vector<std::string>& messages) {
+  for (const geometry::Rule& rule : feasibility.rules)
+    if (rule.margin < 0) messages.push_back(rule.sentence);
+  return "infeasible";
+}
+
+}  // namespace
+
+std::vector<fem::Material> materials(const Scene& scene) {
+  return {scene.blade, scene.disk};
+}
+
+ModelBuilder::ModelBuilder(const Scene& reference) : sizes_(reference.mesh), family_(reference.geometry, sizes_) {}
+
+CandidateModel ModelBuilder::build(const Scene& scene) const {
+  if (std::vector<Violation> found = violations(scene); !found.empty()) throw InputError(std::move(found));
+  CandidateModel candidate;
+  Stopwatch watch;
+
+  geometry::FeasibilityLimits limits = scene.limits;
+  limits.friction = scene.contact.friction;
+  candidate.feasibility = geometry::check_feasibility(scene.geometry, limits);
+  candidate.timings_s["feasibility"] = watch.lap();
+  if (!candidate.feasibility.feasible) {
+    candidate.status = first_broken(candidate.feasibility, candidate.messages);
+    return candidate;
+  }
+
+  candidate.mesh = family_.mesh_of(scene.geometry);
+  if (candidate.mesh.remeshed) candidate.messages.push_back(candidate.mesh.note);
+  candidate.timings_s["mesh"] = watch.lap();
+  if (candidate.mesh.quality.inverted_elements > 0) {
+    candidate.status = "mesh: " + candidate.mesh.note;
+    return candidate;
+  }
+
+  const std::vector<fem::Material> bodies = materials(scene);
+  const fem::Mesh& mesh = candidate.mesh.sector.mesh;
+  const fem::Assembler assembler(mesh);
+  candidate.system = fem::build_sector_system(candidate.mesh.sector, bodies, assembler);
+  candidate.timings_s["assembly"] = watch.lap();
+
+  Eigen::SparseMatrix<double> geometric;
+  const Status prestress = geometric_stiffness(scene, candidate, assembler, bodies, geometric);
+  candidate.timings_s["prestress"] = watch.lap();
+  if (prestress != Status::converged) {
+    candidate.status = failed("prestress", prestress);
+    return candidate;
+  }
+
+  candidate.stiffness = fem::stiffness_at_speed(candidate.system.full, geometric, scene.loading.speed);
+  candidate.reduction = reduction::reduce(full_model(scene, candidate.system, candidate.stiffness),
+                                          {.modes = scene.solver.modes, .damping_ratio = scene.loading.damping_ratio});
+  candidate.timings_s["reduction"] = watch.lap();
+  if (candidate.reduction.status != Status::converged) {
+    candidate.status = failed("reduction", candidate.reduction.status) + " " + candidate.reduction.message;
+    return candidate;
+  }
+
+  candidate.preload =
+      response::quasi_static(std::make_shared<const response::CondensedModel>(candidate.reduction.model));
+  candidate.timings_s["preload"] = watch.lap();
+  if (candidate.preload.status != Status::converged) {
+    candidate.status = failed("preload", candidate.preload.status);
+    return candidate;
+  }
+  candidate.reduction.model.contact.slip_origin = candidate.preload.slip_origin;
+  candidate.condensed = std::make_shared<const response::CondensedModel>(candidate.reduction.model);
+
+  candidate.sizes = {{"nodes", mesh.node_count()},
+                     {"elements", mesh.element_count()},
+                     {"dofs", static_cast<double>(candidate.system.size())},
+                     {"contact_nodes", static_cast<double>(candidate.system.contact.count())},
+                     {"modes", scene.solver.modes},
+                     {"reduced_size", static_cast<double>(candidate.reduction.model.size())},
+                     {"harmonics", scene.solver.harmonics},
+                     {"samples", scene.solver.samples},
+                     {"remeshed", candidate.mesh.remeshed ? 1.0 : 0.0},
+                     {"minimum_scaled_jacobian", candidate.mesh.quality.minimum_scaled_jacobian}};
+  return candidate;
+}
+
+}  // namespace dovetail::optimizer

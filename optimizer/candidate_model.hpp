@@ -1,0 +1,60 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fem/assembly.hpp"
+#include "fem/sector_system.hpp"
+#include "geometry/feasibility.hpp"
+#include "geometry/mesh_motion.hpp"
+#include "optimizer/scene.hpp"
+#include "reduction/massless_boundary.hpp"
+#include "response/preload.hpp"
+
+namespace dovetail::optimizer {
+
+/// Everything between the dimensions of a candidate and its vibration: profile, mesh, finite elements at
+/// speed, reduced model, preload. Members after the stage that failed are empty.
+struct CandidateModel {
+  /// "converged", "infeasible", or the stage that failed and why ("preload: iteration_limit").
+  std::string status = "converged";
+  std::vector<std::string> messages;  ///< broken rules, re-meshing: for people
+
+  geometry::Feasibility feasibility;
+  geometry::MeshedSector mesh;
+  fem::SectorSystem system;
+  Eigen::SparseMatrix<double> stiffness;  ///< over all nodes, at speed: K + K_g - Omega^2 M
+  reduction::Reduction reduction;         ///< its model carries the preload's slip origin
+  std::shared_ptr<const response::CondensedModel> condensed;
+  response::Preload preload;
+
+  std::map<std::string, double> sizes;      ///< dofs, contact nodes, modes, ...
+  std::map<std::string, double> timings_s;  ///< by stage
+
+  [[nodiscard]] bool converged() const { return status == "converged"; }
+};
+
+/// Builds the models of many candidates on one mesh topology, that of the reference scene's geometry and
+/// mesh sizes. A candidate's model depends on the reference and the candidate only. `build` may be called
+/// from several threads.
+class ModelBuilder {
+ public:
+  /// Throws InputError when the reference cannot be meshed.
+  explicit ModelBuilder(const Scene& reference);
+
+  /// Stages in order: feasibility, mesh motion, assembly, preload without geometric stiffness (for the stresses it
+  /// comes from), stiffness at speed, reduction, preload. The scene's mesh sizes must be the reference's.
+  /// Throws InputError for a scene that violates its ranges.
+  [[nodiscard]] CandidateModel build(const Scene& scene) const;
+
+ private:
+  geometry::MeshSizes sizes_;
+  geometry::MeshFamily family_;
+};
+
+/// The section at standstill as finite elements, no preload: for exports and frequencies of the bare geometry.
+[[nodiscard]] std::vector<fem::Material> materials(const Scene& scene);
+
+}  // namespace dovetail::optimizer

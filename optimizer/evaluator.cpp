@@ -1,0 +1,142 @@
+#include "optimizer/evaluator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "fem/neck.hpp"
+#include "fem/stress_aggregate.hpp"
+#include "geometry/measures.hpp"
+#include "optimizer/problem.hpp"
+#include "optimizer/refinement.hpp"
+#include "optimizer/stopwatch.hpp"
+
+namespace dovetail::optimizer {
+
+namespace {
+
+double hertz(double omega) {
+  return omega / (2 * std::numbers::pi);
+}
+
+void static_responses(const Scene& scene, const CandidateModel& model, Evaluation& evaluation) {
+  std::map<std::string, double>& responses = evaluation.responses;
+  const geometry::Profile profile = geometry::build_profile(scene.geometry);
+  responses["mass_kg"] = geometry::mass(scene.geometry, scene.blade.density, scene.disk.density).blade;
+  responses["post_width_m"] = geometry::measure(profile, scene.geometry).post;
+
+  const double load = scene.loading.speed * scene.loading.speed;
+  responses["neck_tension_pa"] = load * fem::neck_tension(model.mesh.sector, materials(scene)).mean_stress;
+
+  const fem::ContactSurface& surface = model.system.contact;
+  responses["contact_pressure_max_pa"] =
+      fem::kreisselmeier_steinhauser(model.preload.pressure, surface.area / scene.geometry.slot_length).value;
+  double mean = 0;
+  for (int flank = 0; flank < static_cast<int>(model.mesh.sector.flanks.size()); ++flank) {
+    double force = 0, area = 0;
+    for (Eigen::Index i = 0; i < surface.count(); ++i) {
+      if (surface.flank(i) != flank) continue;
+      force += model.preload.pressure(i) * surface.area(i);
+      area += surface.area(i);
+    }
+    mean = std::max(mean, force / area);
+  }
+  responses["contact_pressure_mean_pa"] = mean;
+  responses["glued_frequency_hz"] = hertz(model.reduction.glued_frequencies(scene.loading.mode - 1));
+}
+
+void fillet_responses(const Scene& scene, CandidateResult& result) {
+  const fem::SectorMesh& sector = result.model.mesh.sector;
+  const response::SteadyState& state = result.unworn->state;
+  result.blade_fillet = fillet_stress(scene, result.model, state, sector.blade_fillet_nodes, scene.blade.poisson_ratio);
+  result.disk_fillet = fillet_stress(scene, result.model, state, sector.disk_fillet_nodes, scene.disk.poisson_ratio);
+  std::map<std::string, double>& responses = result.evaluation.responses;
+  responses["blade_fillet_stress_pa"] = result.blade_fillet->aggregate;
+  responses["disk_fillet_stress_pa"] = result.disk_fillet->aggregate;
+  responses["peak_stress_pa"] = std::max(result.blade_fillet->maximum, result.disk_fillet->maximum);
+}
+
+/// The physics after the model; returns the status of the evaluation.
+std::string dynamics(const Scene& scene, CandidateResult& result) {
+  Evaluation& evaluation = result.evaluation;
+  std::map<std::string, double>& responses = evaluation.responses;
+  const CandidateModel& model = result.model;
+  const response::SteadyOptions steady = steady_options(scene.solver);
+  Stopwatch watch;
+
+  const double glued = model.reduction.glued_frequencies(scene.loading.mode - 1);
+  result.unworn = response::resonance(model.condensed, glued, {}, steady);
+  evaluation.timings_s["unworn_resonance"] = watch.lap();
+  if (result.unworn->status != Status::converged)
+    return "unworn_resonance: " + std::string(to_string(result.unworn->status));
+  responses["resonance_hz"] = hertz(result.unworn->omega);
+  responses["peak_amplitude_m"] = result.unworn->amplitude;
+  responses["dissipated_energy_j"] = result.unworn->state.friction_energy;
+  fillet_responses(scene, result);
+  evaluation.timings_s["stress"] = watch.lap();
+
+  result.asymptote =
+      wear::asymptote(model.reduction.model, result.unworn->omega, steady, {}, {}, &result.unworn->state);
+  evaluation.timings_s["asymptote"] = watch.lap();
+  const wear::Asymptote& asymptote = *result.asymptote;
+  if (asymptote.verdict != wear::Verdict::asymptote)
+    return "asymptote: " + std::string(asymptote.verdict == wear::Verdict::not_converged
+                                           ? to_string(asymptote.status)
+                                           : wear::to_string(asymptote.verdict));
+  responses["asymptotic_wear_volume_m3"] = asymptote.interpolated_volume;
+  responses["asymptotic_wear_depth_max_m"] = asymptote.interpolated_largest_depth;
+
+  const wear::Drift drift =
+      wear::resonance_drift(model.reduction.model, *result.unworn, asymptote.interpolated_depth, steady, {});
+  result.worn = drift.worn;
+  evaluation.timings_s["worn_resonance"] = watch.lap();
+  if (result.worn->status != Status::converged) return "worn_resonance: " + std::string(to_string(result.worn->status));
+  responses["worn_resonance_hz"] = hertz(result.worn->omega);
+  responses["resonance_drift"] = drift.drift;
+  responses["worn_peak_amplitude_m"] = result.worn->amplitude;
+
+  evaluation.error_estimates = error_estimates(scene, result);
+  evaluation.timings_s["error_estimates"] = watch.lap();
+  return "converged";
+}
+
+}  // namespace
+
+response::SteadyOptions steady_options(const SolverSettings& settings) {
+  return {.harmonics = settings.harmonics,
+          .samples = settings.samples,
+          .tolerance = settings.tolerance,
+          .solver = settings.solver};
+}
+
+CandidateResult SceneEvaluator::evaluate(const Scene& scene) const {
+  CandidateResult result;
+  Evaluation& evaluation = result.evaluation;
+  Stopwatch total;
+  result.model = builder_.build(scene);
+  evaluation.parameters = parameters(scene);
+  evaluation.model = result.model.sizes;
+  evaluation.timings_s = result.model.timings_s;
+  evaluation.messages = result.model.messages;
+  evaluation.status = result.model.status;
+  for (const geometry::Rule& rule : result.model.feasibility.rules)
+    evaluation.constraints[kRulePrefix + rule.name] = -rule.margin;
+  evaluation.feasible = result.model.feasibility.feasible;
+  if (result.model.converged()) {
+    static_responses(scene, result.model, evaluation);
+    evaluation.status = dynamics(scene, result);
+  }
+  evaluation.timings_s["total"] = total.lap();
+  return result;
+}
+
+Evaluator over_design_space(const SceneEvaluator& evaluator, const Scene& base, const DesignSpace& space) {
+  return [&evaluator, base, keys = space.keys()](std::span<const double> x) {
+    Scene scene = base;
+    for (std::size_t i = 0; i < keys.size(); ++i) set_parameter(scene, keys[i], x[i]);
+    return evaluator.evaluate(scene).evaluation;
+  };
+}
+
+}  // namespace dovetail::optimizer

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <atomic>
+#include <optional>
+#include <string>
+
+#include "optimizer/candidate_model.hpp"
+#include "optimizer/design_space.hpp"
+#include "optimizer/evaluation.hpp"
+#include "optimizer/fillet_stress.hpp"
+#include "response/resonance.hpp"
+#include "wear/asymptote.hpp"
+#include "wear/drift.hpp"
+
+namespace dovetail::optimizer {
+
+/// Everything an evaluation computed, for reports and exports. Members after the stage that failed are empty.
+struct CandidateResult {
+  Evaluation evaluation;
+  CandidateModel model;
+  std::optional<response::Resonance> unworn, worn;
+  std::optional<wear::Asymptote> asymptote;
+  std::optional<FilletStress> blade_fillet, disk_fillet;
+};
+
+/// Evaluates candidates of one study: the one place that names all stages in order,
+///
+///   geometry -> mesh -> finite elements -> reduced model -> preload -> unworn resonance -> wear at that frequency
+///   down to its asymptote -> worn resonance -> responses.
+///
+/// Results depend on the reference scene (mesh topology) and the candidate only. May be called from several threads.
+class SceneEvaluator {
+ public:
+  explicit SceneEvaluator(const Scene& reference) : builder_(reference) {}
+
+  /// All responses with their error bars. Never throws for what a candidate is like: an impossible geometry is
+  /// "infeasible" with its rules in `constraints`, a stage that did not converge is named in `status`. Throws
+  /// InputError for a scene that violates the ranges of its keys. Cost: 1 to 2 s at the default sizes.
+  [[nodiscard]] CandidateResult evaluate(const Scene& scene) const;
+
+  [[nodiscard]] const ModelBuilder& builder() const { return builder_; }
+
+ private:
+  ModelBuilder builder_;
+};
+
+/// Options of every steady state of a scene.
+[[nodiscard]] response::SteadyOptions steady_options(const SolverSettings& settings);
+
+/// The evaluator as a function of the design variables: `base` with the variables set.
+[[nodiscard]] Evaluator over_design_space(const SceneEvaluator& evaluator, const Scene& base, const DesignSpace& space);
+
+}  // namespace dovetail::optimizer

@@ -1,0 +1,73 @@
+#include "optimizer/fillet_stress.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <numbers>
+#include <vector>
+
+#include "fem/stress.hpp"
+#include "fem/stress_aggregate.hpp"
+#include "response/amplitude.hpp"
+
+namespace dovetail::optimizer {
+
+namespace {
+
+/// Complex amplitude c - i s of harmonic h of coefficients [rows, 2H+1].
+Eigen::VectorXcd amplitude(const Eigen::MatrixXd& coefficients, Eigen::Index h) {
+  if (h == 0) return coefficients.col(0).cast<std::complex<double>>();
+  Eigen::VectorXcd result(coefficients.rows());
+  result.real() = coefficients.col(2 * h - 1);
+  result.imag() = -coefficients.col(2 * h);
+  return result;
+}
+
+/// Times per period at which the stress is looked at: the error of a peak is under (pi / 48)^2 / 2 = 0.2 % of the
+/// vibratory part.
+constexpr int kPhases = 48;
+
+}  // namespace
+
+Eigen::MatrixXd reduced_coordinates(const response::SteadyState& state) {
+  assert(state.status == Status::converged && state.linearisation);
+  const response::SteadyResidual& residual = state.linearisation->residual();
+  const std::vector<response::HarmonicStiffness>& harmonics = residual.system().harmonics;
+  Eigen::MatrixXd result(residual.model().size(), state.displacement.cols());
+  for (std::size_t i = 0; i < harmonics.size(); ++i) {
+    const auto h = static_cast<Eigen::Index>(i);
+    const Eigen::VectorXcd field = residual.model().recover(harmonics[i], amplitude(state.displacement, h));
+    if (h == 0) {
+      result.col(0) = field.real();
+    } else {
+      result.col(2 * h - 1) = field.real();
+      result.col(2 * h) = -field.imag();
+    }
+  }
+  return result;
+}
+
+FilletStress fillet_stress(const Scene& scene, const CandidateModel& candidate, const response::SteadyState& state,
+                           std::span<const int> nodes, double poisson_ratio) {
+  const fem::Mesh& mesh = candidate.mesh.sector.mesh;
+  const std::vector<fem::Material> bodies = materials(scene);
+  const Eigen::SparseMatrix<double> operator_full = fem::nodal_stress_operator(mesh, bodies, nodes);
+  const reduction::Recovery stress = candidate.reduction.recovery.project(
+      Eigen::SparseMatrix<double>(operator_full * candidate.system.constraints.transformation));
+  const Eigen::MatrixXd coefficients = stress.apply(reduced_coordinates(state), state.force);
+
+  FilletStress result;
+  result.nodal = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(nodes.size()));
+  for (int phase = 0; phase < kPhases; ++phase) {
+    const double tau = 2 * std::numbers::pi * phase / kPhases;
+    const Eigen::VectorXd at = coefficients * response::fourier_row(tau, coefficients.cols());
+    for (Eigen::Index i = 0; i < result.nodal.size(); ++i)
+      result.nodal(i) =
+          std::max(result.nodal(i), fem::von_mises(at(3 * i), at(3 * i + 1), at(3 * i + 2), poisson_ratio));
+  }
+  const fem::Aggregate aggregate = fem::kreisselmeier_steinhauser(result.nodal, fem::boundary_weights(mesh, nodes));
+  result.aggregate = aggregate.value;
+  result.maximum = aggregate.maximum;
+  return result;
+}
+
+}  // namespace dovetail::optimizer

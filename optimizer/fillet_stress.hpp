@@ -1,0 +1,27 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+
+#include "optimizer/candidate_model.hpp"
+#include "response/steady_state.hpp"
+
+namespace dovetail::optimizer {
+
+/// Fourier coefficients of the reduced coordinates, [n, 2H+1], of a converged steady state with linearisation.
+[[nodiscard]] Eigen::MatrixXd reduced_coordinates(const response::SteadyState& state);
+
+/// Stress on a fillet while the blade vibrates.
+struct FilletStress {
+  double aggregate = 0;   ///< Kreisselmeier-Steinhauser aggregate along the fillets, Pa
+  double maximum = 0;     ///< largest nodal value, Pa
+  Eigen::VectorXd nodal;  ///< [nodes] largest von Mises stress over one period, Pa
+};
+
+/// Von Mises stress (plane strain) at `nodes`, largest over one period of `state`: spin-up and vibration together.
+/// Cost: the field of the nodes' elements only.
+[[nodiscard]] FilletStress fillet_stress(const Scene& scene, const CandidateModel& candidate,
+                                         const response::SteadyState& state, std::span<const int> nodes,
+                                         double poisson_ratio);
+
+}  // namespace dovetail::optimizer
