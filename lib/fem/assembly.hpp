@@ -36,7 +36,7 @@ class Assembler {
   [[nodiscard]] const Eigen::SparseMatrix<double>& pattern() const { return pattern_; }
 
  private:
-  void scatter(int element, const double* values, double* target) const;
+  void scatter(const Mesh& mesh, std::size_t element, const double* values, double* target) const;
 
   Eigen::SparseMatrix<double> pattern_;
   std::vector<int>

@@ -2,8 +2,10 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 
 #include "fem/material.hpp"
+#include "fem/mesh.hpp"
 
 namespace dovetail::fem {
 
@@ -25,6 +27,9 @@ struct QuadraturePoint {
   double weight;   ///< all weights sum to 1/2
 };
 [[nodiscard]] const std::array<QuadraturePoint, kQuadraturePoints>& quadrature();
+
+/// Positions of an element's nodes.
+[[nodiscard]] ElementNodes element_nodes(const Mesh& mesh, std::size_t element);
 
 /// Local coordinates of the six nodes.
 [[nodiscard]] Eigen::Vector2d node_coordinates(int node);

@@ -1,0 +1,176 @@
+#include "numerics/sparse_factor.hpp"
+
+#include <suitesparse/cholmod.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+#include <type_traits>
+
+namespace dovetail::numerics {
+
+namespace {
+
+// Columns solved at once: enough for matrix-matrix BLAS, few enough to stay in the cache (measured flat from 16 to 64
+// at 16 000 unknowns; all 200 at once is slower).
+constexpr Eigen::Index kBlockColumns = 32;
+
+template <class Scalar>
+constexpr int kXtype = std::is_same_v<Scalar, double> ? CHOLMOD_REAL : CHOLMOD_COMPLEX;
+
+template <class Scalar>
+cholmod_sparse lower_view(const Eigen::SparseMatrix<Scalar>& a) {
+  cholmod_sparse view{};
+  view.nrow = static_cast<std::size_t>(a.rows());
+  view.ncol = static_cast<std::size_t>(a.cols());
+  view.nzmax = static_cast<std::size_t>(a.nonZeros());
+  // CHOLMOD reads these only; its interface has no const.
+  view.p = const_cast<int*>(a.outerIndexPtr());
+  view.i = const_cast<int*>(a.innerIndexPtr());
+  view.x = const_cast<Scalar*>(a.valuePtr());
+  view.stype = -1;
+  view.itype = CHOLMOD_INT;
+  view.xtype = kXtype<Scalar>;
+  view.dtype = CHOLMOD_DOUBLE;
+  view.sorted = 1;
+  view.packed = 1;
+  return view;
+}
+
+template <class Scalar>
+cholmod_dense dense_view(const Scalar* values, Eigen::Index rows, Eigen::Index columns) {
+  cholmod_dense view{};
+  view.nrow = static_cast<std::size_t>(rows);
+  view.ncol = static_cast<std::size_t>(columns);
+  view.nzmax = view.nrow * view.ncol;
+  view.d = view.nrow;
+  view.x = const_cast<Scalar*>(values);
+  view.xtype = kXtype<Scalar>;
+  view.dtype = CHOLMOD_DOUBLE;
+  return view;
+}
+
+}  // namespace
+
+template <class Scalar>
+struct SparseCholesky<Scalar>::State {
+  cholmod_common common{};
+  cholmod_factor* factor = nullptr;
+  cholmod_dense *x = nullptr, *y = nullptr, *e = nullptr;  // workspaces kept between solves
+  Eigen::Index entries = -1;
+  bool factorised = false;
+
+  State() {
+    cholmod_start(&common);
+    common.supernodal = CHOLMOD_SUPERNODAL;
+    common.print = 0;
+    common.itype = CHOLMOD_INT;
+    common.error_handler = nullptr;
+  }
+  ~State() {
+    cholmod_free_dense(&x, &common);
+    cholmod_free_dense(&y, &common);
+    cholmod_free_dense(&e, &common);
+    cholmod_free_factor(&factor, &common);
+    cholmod_finish(&common);
+  }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+
+  void solve_block(const Scalar* b, Scalar* target, Eigen::Index columns) {
+    const Eigen::Index n = static_cast<Eigen::Index>(factor->n);
+    cholmod_dense right = dense_view(b, n, columns);
+    cholmod_solve2(CHOLMOD_A, factor, &right, nullptr, &x, nullptr, &y, &e, &common);
+    if (x == nullptr || common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
+    std::memcpy(target, x->x, sizeof(Scalar) * static_cast<std::size_t>(n * columns));
+  }
+};
+
+template <class Scalar>
+SparseCholesky<Scalar>::SparseCholesky() : state_(std::make_unique<State>()) {}
+template <class Scalar>
+SparseCholesky<Scalar>::~SparseCholesky() = default;
+template <class Scalar>
+SparseCholesky<Scalar>::SparseCholesky(SparseCholesky&&) noexcept = default;
+template <class Scalar>
+SparseCholesky<Scalar>& SparseCholesky<Scalar>::operator=(SparseCholesky&&) noexcept = default;
+
+template <class Scalar>
+void SparseCholesky<Scalar>::analyse(const Matrix& a) {
+  assert(a.rows() == a.cols() && a.isCompressed());
+  State& s = *state_;
+  cholmod_free_factor(&s.factor, &s.common);
+  s.factorised = false;
+  cholmod_sparse view = lower_view(a);
+  s.factor = cholmod_analyze(&view, &s.common);
+  if (s.factor == nullptr) throw std::bad_alloc();
+  s.entries = a.nonZeros();
+}
+
+template <class Scalar>
+Status SparseCholesky<Scalar>::factorise(const Matrix& a) {
+  State& s = *state_;
+  if (s.factor == nullptr || size() != a.rows() || s.entries != a.nonZeros()) analyse(a);
+  s.factorised = false;
+  const Eigen::Map<const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>> values(a.valuePtr(), a.nonZeros());
+  // BLAS kernels let a NaN through as a pivot, so look at the input.
+  if (!std::isfinite(values.cwiseAbs().sum())) return Status::not_finite;
+  cholmod_sparse view = lower_view(a);
+  cholmod_factorize(&view, s.factor, &s.common);
+  if (s.common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
+  if (s.common.status != CHOLMOD_OK || s.factor->minor < s.factor->n) return Status::singular;
+  s.factorised = true;
+  return Status::converged;
+}
+
+template <class Scalar>
+typename SparseCholesky<Scalar>::Dense SparseCholesky<Scalar>::solve(const Eigen::Ref<const Dense>& b) const {
+  assert(factorised() && b.rows() == size());
+  const Eigen::Index n = size();
+  Dense x(n, b.cols());
+  Dense gathered;  // only when the columns of b are not contiguous
+  for (Eigen::Index first = 0; first < b.cols(); first += kBlockColumns) {
+    const Eigen::Index columns = std::min(kBlockColumns, b.cols() - first);
+    const Scalar* source = b.data() + first * b.outerStride();
+    if (b.outerStride() != n && columns > 1) {
+      gathered = b.middleCols(first, columns);
+      source = gathered.data();
+    }
+    state_->solve_block(source, x.data() + first * n, columns);
+  }
+  return x;
+}
+
+template <class Scalar>
+void SparseCholesky<Scalar>::solve(const Scalar* b, Scalar* x) const {
+  assert(factorised());
+  state_->solve_block(b, x, 1);
+}
+
+template <class Scalar>
+bool SparseCholesky<Scalar>::factorised() const {
+  return state_->factorised;
+}
+
+template <class Scalar>
+Eigen::Index SparseCholesky<Scalar>::size() const {
+  return state_->factor == nullptr ? 0 : static_cast<Eigen::Index>(state_->factor->n);
+}
+
+template <class Scalar>
+double SparseCholesky<Scalar>::reciprocal_condition() const {
+  assert(factorised());
+  return cholmod_rcond(state_->factor, &state_->common);
+}
+
+template <class Scalar>
+double SparseCholesky<Scalar>::factor_entries() const {
+  return state_->common.lnz;
+}
+
+template class SparseCholesky<double>;
+template class SparseCholesky<std::complex<double>>;
+
+}  // namespace dovetail::numerics

@@ -47,6 +47,8 @@ class SparseCholesky {
 
   [[nodiscard]] bool factorised() const;
   [[nodiscard]] Eigen::Index size() const;
+  /// Crude estimate (min L_ii / max L_ii)^2, at least the reciprocal condition number; near rounding means singular.
+  [[nodiscard]] double reciprocal_condition() const;
   /// Stored entries of L: a measure of cost and memory.
   [[nodiscard]] double factor_entries() const;
 

@@ -28,8 +28,8 @@ struct Modes {
 /// (K - sigma M)^{-1} M with a supernodal Cholesky factorisation. K symmetric (Hermitian), M symmetric
 /// (Hermitian) positive definite.
 ///
-/// When K - sigma M is not positive definite (a floating or spin-softened body), sigma is lowered: first to
-/// -1e-6 max_i K_ii/M_ii, then by factors of 100, at most four times; `shift` reports the value used and
+/// When K - sigma M is not positive definite (a floating or spin-softened body), or only by rounding, sigma is lowered:
+/// first to -1e-10 max_i K_ii/M_ii, then by factors of 100, at most five times; `shift` reports the value used and
 /// `singular` that none worked. Eigenvalues below a shift that is positive definite do not exist, so none is missed.
 ///
 /// Hermitian problems run as the real symmetric problem of twice the size, [[Re,-Im],[Im,Re]], whose modes
