@@ -46,12 +46,12 @@ inline constexpr const char* kRulePrefix = "rule:";
 
 /// One evaluation seen through the problem.
 struct Judgement {
-  bool computed = false;            ///< converged with every response of the problem finite
-  double objective = 0;             ///< NaN unless computed
-  std::vector<double> constraints;  ///< c in the order of constraint_names, NaN unless computed
-  std::optional<double> rules;      ///< largest c of the rules reported; an infeasible candidate without any has 1
-  double violation = 0;             ///< sum of max(0, c) over rules and constraints known
-  bool feasible = false;            ///< computed, and no c above the tolerance
+  bool computed = false;                 ///< converged with every response of the problem finite
+  double objective = 0;                  ///< NaN unless computed
+  std::vector<double> constraints = {};  ///< c in the order of constraint_names, NaN unless computed
+  std::optional<double> rules = {};      ///< largest c of the rules reported; an infeasible candidate without any has 1
+  double violation = 0;                  ///< sum of max(0, c) over rules and constraints known
+  bool feasible = false;                 ///< computed, and no c above the tolerance
 };
 
 /// Judges with the exact constraints: feasible when every c <= tolerance. Pure; never throws.
