@@ -1,0 +1,48 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include "core/status.hpp"
+#include "reduction/contact_solver.hpp"
+
+namespace dovetail::reduction {
+
+/// Inverse of the stiffness of a body that may float. When K is singular to rounding, its null vectors
+/// Phi_0 = [T; I] null(S) are taken out exactly and the inverse is that on their M-complement.
+class FloatingInverse {
+ public:
+  FloatingInverse(const ContactSolver& solver, const Eigen::SparseMatrix<double>& mass);
+
+  [[nodiscard]] const Eigen::MatrixXd& rigid_modes() const { return rigid_; }  ///< Phi_0 [n, k0], M-orthonormal
+  [[nodiscard]] int negative() const { return negative_; }                     ///< negative eigenvalues of K
+  [[nodiscard]] const ContactSolver& solver() const { return solver_; }
+  [[nodiscard]] const Eigen::SparseMatrix<double>& mass() const { return mass_; }
+
+  /// x = K^-1 b.
+  void apply(const double* b, double* x) const;
+  /// The same for the columns of b [n, k], in one block.
+  [[nodiscard]] Eigen::MatrixXd apply(const Eigen::Ref<const Eigen::MatrixXd>& b) const;
+
+ private:
+  const ContactSolver& solver_;
+  const Eigen::SparseMatrix<double>& mass_;
+  Eigen::MatrixXd schur_inverse_;  // pseudo-inverse of S
+  Eigen::MatrixXd rigid_, mass_rigid_;
+  int negative_ = 0;
+};
+
+struct FreeModes {
+  Status status = Status::converged;
+  Eigen::VectorXd eigenvalues;  ///< [m] (rad/s)^2, ascending
+  Eigen::MatrixXd vectors;      ///< [n, m], M-orthonormal
+  double first_neglected = 0;   ///< eigenvalue after the last kept one; infinite when none is left
+};
+
+/// The `count` modes of K v = lambda M v nearest to lambda = 0, with all rigid and negative ones (which
+/// may make it more than `count`), at most `limit`. Shift-invert Lanczos at zero [Spectra]; small
+/// or nearly complete problems by a dense eigen-decomposition. M may be singular on the contact dofs.
+[[nodiscard]] FreeModes free_modes(const FloatingInverse& inverse, int count, Eigen::Index limit, double tolerance,
+                                   int restarts);
+
+}  // namespace dovetail::reduction

@@ -1,0 +1,188 @@
+#include "reduction/validation.hpp"
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <string>
+
+#include "core/options.hpp"
+
+namespace dovetail::reduction {
+
+namespace {
+
+constexpr double kSymmetry = 1e-9;  // of the largest entry: what exporters that print few digits leave
+
+std::string shape(Eigen::Index rows, Eigen::Index columns) {
+  return "[" + std::to_string(rows) + "," + std::to_string(columns) + "]";
+}
+std::string at(Eigen::Index row) {
+  return "[" + std::to_string(row) + "]";
+}
+std::string at(Eigen::Index row, Eigen::Index column) {
+  return shape(row, column);
+}
+
+class Checks {
+ public:
+  void add(std::string key, std::string value, std::string allowed) {
+    found.push_back({.file = {}, .key = std::move(key), .value = std::move(value), .allowed = std::move(allowed)});
+  }
+
+  // `meaning` spells the shape in symbols, e.g. "[n,n]".
+  bool sized(const std::string& key, Eigen::Index rows, Eigen::Index columns, Eigen::Index wanted_rows,
+             Eigen::Index wanted_columns, const std::string& meaning) {
+    if (rows == wanted_rows && columns == wanted_columns) return true;
+    add(key, "shape " + shape(rows, columns), "must have shape " + shape(wanted_rows, wanted_columns) + " " + meaning);
+    return false;
+  }
+  bool sized(const std::string& key, Eigen::Index size, Eigen::Index wanted, const std::string& meaning) {
+    if (size == wanted) return true;
+    add(key, "shape " + at(size), "must have shape " + at(wanted) + " " + meaning);
+    return false;
+  }
+
+  template <class Matrix>
+  bool finite(const std::string& key, const Matrix& matrix) {
+    for (Eigen::Index column = 0; column < matrix.cols(); ++column)
+      for (Eigen::Index row = 0; row < matrix.rows(); ++row)
+        if (!std::isfinite(matrix(row, column))) {
+          const bool vector = Matrix::ColsAtCompileTime == 1;
+          add(key + (vector ? at(row) : at(row, column)), shortest(matrix(row, column)), "must be a finite number");
+          return false;
+        }
+    return true;
+  }
+
+  void symmetric(const std::string& key, const Eigen::MatrixXd& matrix) {
+    if (matrix.size() == 0) return;
+    Eigen::Index row = 0, column = 0;
+    const double difference = (matrix - matrix.transpose()).cwiseAbs().maxCoeff(&row, &column);
+    if (difference <= kSymmetry * matrix.cwiseAbs().maxCoeff()) return;
+    add(key + at(row, column), shortest(matrix(row, column)),
+        "must be symmetric, but the entry " + at(column, row) + " is " + shortest(matrix(column, row)));
+  }
+
+  void each_inside(const std::string& key, const Eigen::VectorXd& values, const Range& range) {
+    for (Eigen::Index row = 0; row < values.size(); ++row)
+      if (!range.contains(values(row))) {
+        add(key + at(row), shortest(values(row)), range.phrase());
+        return;
+      }
+  }
+
+  std::vector<Violation> found;
+};
+
+void check_contact(const ContactNodes& contact, Eigen::Index n, Checks& checks) {
+  const Eigen::Index nodes = contact.count();
+  const Eigen::Index tangents = contact.tangential.cols();
+  if (nodes == 0) {
+    checks.add("/contact/normal", "shape [0]", "must hold at least one contact node");
+    return;
+  }
+  if (tangents != 1 && tangents != 2) {
+    checks.add("/contact/tangential", "shape " + shape(contact.tangential.rows(), tangents),
+               "must have 1 column (plane) or 2 columns (space)");
+  } else if (checks.sized("/contact/tangential", contact.tangential.rows(), tangents, nodes, tangents, "[Nc,d-1]")) {
+    std::map<int, std::string> used;
+    const auto claim = [&](const std::string& key, int index) {
+      if (index < 0 || index >= n) {
+        checks.add(key, std::to_string(index), "must be an index from 0 to " + std::to_string(n - 1));
+      } else if (const auto [place, fresh] = used.emplace(index, key); !fresh) {
+        checks.add(key, std::to_string(index), "must be a dof of its own, but " + place->second + " is the same one");
+      }
+    };
+    for (Eigen::Index node = 0; node < nodes; ++node) claim("/contact/normal" + at(node), contact.normal(node));
+    for (Eigen::Index node = 0; node < nodes; ++node)
+      for (Eigen::Index t = 0; t < tangents; ++t)
+        claim("/contact/tangential" + at(node, t), contact.tangential(node, t));
+  }
+  if (checks.sized("/contact/area", contact.area.size(), nodes, "[Nc]"))
+    checks.each_inside("/contact/area", contact.area, kPositive);
+  if (checks.sized("/contact/gap", contact.gap.size(), nodes, "[Nc]")) checks.finite("/contact/gap", contact.gap);
+  if (checks.sized("/contact/friction", contact.friction.size(), nodes, "[Nc]"))
+    checks.each_inside("/contact/friction", contact.friction, kNonNegative);
+  if (checks.sized("/contact/wear_coefficient", contact.wear_coefficient.size(), nodes, "[Nc]"))
+    checks.each_inside("/contact/wear_coefficient", contact.wear_coefficient, kNonNegative);
+  if (contact.position.rows() > 0 && checks.sized("/contact/position", contact.position.rows(), 3, nodes, 3, "[Nc,3]"))
+    checks.finite("/contact/position", contact.position);
+  if (contact.group.size() > 0) checks.sized("/contact/group", contact.group.size(), nodes, "[Nc]");
+  if (contact.slip_origin.size() > 0 && checks.sized("/contact/slip_origin", contact.slip_origin.rows(),
+                                                     contact.slip_origin.cols(), nodes, tangents, "[Nc,d-1]"))
+    checks.finite("/contact/slip_origin", contact.slip_origin);
+}
+
+void check_names(const std::vector<std::string>& names, Eigen::Index outputs, Checks& checks) {
+  if (!checks.sized("/output/names", static_cast<Eigen::Index>(names.size()), outputs, "[n_out]")) return;
+  std::set<std::string> seen;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const std::string key = "/output/names" + at(static_cast<Eigen::Index>(k));
+    if (names[k].empty()) checks.add(key, "\"\"", "must not be empty");
+    if (!seen.insert(names[k]).second) checks.add(key, names[k], "must be a name no other output has");
+  }
+}
+
+}  // namespace
+
+std::vector<Violation> violations(const ReducedModel& model) {
+  Checks checks;
+  const Eigen::Index n = model.stiffness.rows();
+  if (n == 0) checks.add("/stiffness", "shape " + shape(n, model.stiffness.cols()), "must hold at least one dof");
+  const auto square = [&](const std::string& key, const Eigen::MatrixXd& matrix) {
+    if (checks.sized(key, matrix.rows(), matrix.cols(), n, n, "[n,n]") && checks.finite(key, matrix)) {
+      checks.symmetric(key, matrix);
+      return true;
+    }
+    return false;
+  };
+  square("/stiffness", model.stiffness);
+  square("/damping", model.damping);
+  if (square("/mass", model.mass)) checks.each_inside("/mass diagonal ", model.mass.diagonal(), kNonNegative);
+  check_contact(model.contact, n, checks);
+  if (checks.sized("/force/static", model.static_force.size(), n, "[n]"))
+    checks.finite("/force/static", model.static_force);
+  if (checks.sized("/force/cosine", model.cosine_force.rows(), model.cosine_force.cols(), model.cosine_force.rows(), n,
+                   "[H_f,n]"))
+    checks.finite("/force/cosine", model.cosine_force);
+  if (checks.sized("/force/sine", model.sine_force.rows(), model.sine_force.cols(), model.cosine_force.rows(), n,
+                   "[H_f,n], as many harmonics as /force/cosine"))
+    checks.finite("/force/sine", model.sine_force);
+  if (checks.sized("/output/vectors", model.output_vectors.rows(), model.output_vectors.cols(),
+                   model.output_vectors.rows(), n, "[n_out,n]"))
+    checks.finite("/output/vectors", model.output_vectors);
+  check_names(model.output_names, model.output_vectors.rows(), checks);
+  return checks.found;
+}
+
+std::vector<Violation> violations(const FullModel& model) {
+  Checks checks;
+  const Eigen::Index n = model.stiffness.rows();
+  checks.sized("stiffness", n, model.stiffness.cols(), n, n, "[n,n]");
+  checks.sized("mass", model.mass.rows(), model.mass.cols(), n, n, "[n,n]");
+  checks.sized("static_force", model.static_force.size(), n, "[n]");
+  checks.sized("cosine_force", model.cosine_force.rows(), model.cosine_force.cols(), n, model.cosine_force.cols(),
+               "[n,H_f]");
+  checks.sized("sine_force", model.sine_force.rows(), model.sine_force.cols(), n, model.cosine_force.cols(), "[n,H_f]");
+  checks.sized("outputs", model.outputs.rows(), model.outputs.cols(), n,
+               static_cast<Eigen::Index>(model.output_names.size()), "[n,n_out]");
+  check_contact(model.contact, n, checks);
+  if (model.internal_size() <= 0)
+    checks.add("stiffness", "shape " + shape(n, n), "must have internal dofs besides the contact dofs");
+  if (!checks.found.empty()) return checks.found;
+  const Eigen::Index d = model.contact.directions();
+  for (Eigen::Index node = 0; node < model.contact.count(); ++node) {
+    bool ordered = model.contact.normal(node) == model.internal_size() + d * node;
+    for (Eigen::Index t = 0; t + 1 < d; ++t)
+      ordered = ordered && model.contact.tangential(node, t) == model.internal_size() + d * node + 1 + t;
+    if (!ordered) {
+      checks.add("contact.normal" + at(node), std::to_string(model.contact.normal(node)),
+                 "must be the last coordinates, N, T1[, T2] of each node in turn");
+      break;
+    }
+  }
+  return checks.found;
+}
+
+}  // namespace dovetail::reduction
