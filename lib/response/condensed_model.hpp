@@ -43,6 +43,8 @@ class CondensedModel {
   [[nodiscard]] int force_harmonics() const { return static_cast<int>(force_contact_.cols()) - 1; }
   /// Replaces the slip X_T at which marches start by default, [Nc, d-1] m (the preload's history).
   void set_slip_origin(const Eigen::MatrixXd& slip_origin);
+  /// Replaces the friction coefficients mu [Nc], >= 0 (large: a node that is held stuck).
+  void set_friction(const Eigen::VectorXd& friction) { contact_.friction = friction; }
 
   /// omega in rad/s. `with_slope` adds the derivatives with respect to omega. Loads of harmonic 0 are multiplied
   /// by `static_scale` (a loading path).

@@ -23,7 +23,8 @@ enum class Ending { settled, nothing_holds, failed };
 /// What the loop knows about the nodes.
 struct Passes {
   std::vector<bool> released;
-  VectorXd score;  // smallest signed friction margin met so far
+  VectorXd margin;  // smallest friction margin met so far, of nodes that never slipped
+  VectorXd excess;  // overload relieved by slip in the pass that released the node
   response::SteadyState state;
 };
 
@@ -38,16 +39,19 @@ Ending release_slipping(Release& release, double threshold, const AsymptoteOptio
   const std::size_t nodes = passes.released.size();
   for (int pass = 0;; ++pass) {
     const std::vector<bool> loaded = loaded_nodes(passes.state, passes.released);
-    const VectorXd score = friction_score(release.model(), passes.state, threshold);
     std::vector<bool> next = passes.released;
     bool slipping = false;
     bool held = false;
     for (std::size_t i = 0; i < nodes; ++i) {
       if (!loaded[i]) continue;
       const auto node = static_cast<Index>(i);
-      passes.score[node] = std::min(passes.score[node], score[node]);
       const bool slips = passes.state.wear_rate[node] > threshold;
       next[i] = slips;
+      if (slips)
+        passes.excess[node] = slip_excess(release.model(), passes.state, node);
+      else
+        passes.margin[node] = std::min(passes.margin[node],
+                                       friction_margin(passes.state, node, release.model().contact().friction[node]));
       slipping = slipping || slips;
       held = held || !slips;
     }
@@ -71,19 +75,22 @@ Ending release_slipping(Release& release, double threshold, const AsymptoteOptio
 }
 
 /// Depths and volumes with the edges of the worn zone between nodes.
-void place_edges(Release& release, double threshold, const AsymptoteOptions& options, Passes& passes,
-                 Asymptote& result) {
+void place_edges(Release& release, const AsymptoteOptions& options, const Passes& passes, Asymptote& result) {
   const reduction::ContactNodes& contact = release.model().contact();
   const std::vector<bool> loaded = loaded_nodes(passes.state, passes.released);
-  result.edges = find_edges(contact, passes.released, loaded, passes.score);
+  result.edges = find_edges(contact, passes.released, loaded, passes.margin);
   if (result.edges.empty()) return;
 
   std::map<std::vector<bool>, VectorXd> known;
   const auto solve_without = [&](const std::vector<bool>& stuck) -> std::optional<response::SteadyState> {
     std::vector<bool> released = passes.released;
-    for (std::size_t i = 0; i < stuck.size(); ++i)
-      if (stuck[i]) released[static_cast<std::size_t>(result.edges[i].worn)] = false;
-    response::SteadyState state = release.solve(released, passes.state.displacement);
+    std::vector<int> held;
+    for (std::size_t i = 0; i < stuck.size(); ++i) {
+      if (!stuck[i]) continue;
+      held.push_back(result.edges[i].worn);
+      released[static_cast<std::size_t>(held.back())] = false;
+    }
+    response::SteadyState state = release.solve_held(released, held, passes.state.displacement);
     if (state.status != Status::converged) {
       result.edge_status = state.status;
       return std::nullopt;
@@ -96,17 +103,19 @@ void place_edges(Release& release, double threshold, const AsymptoteOptions& opt
     return known.at(stuck);
   };
 
-  // An edge node released early in the loop slips otherwise once the rest is worn: what counts is the strongest of
-  // both.
+  // A node released early may not slip once the rest is worn: then the slip that released it counts, scaled well below
+  // the excess of a held node (which it overestimates, the node's own stiffness being an upper bound).
+  constexpr double kSlipShare = 0.1;
   for (std::size_t i = 0; i < result.edges.size(); ++i) {
+    Edge& edge = result.edges[i];
     std::vector<bool> stuck(result.edges.size(), false);
     stuck[i] = true;
     const std::optional<response::SteadyState> state = solve_without(stuck);
     if (!state) return;
-    const int node = result.edges[i].worn;
-    passes.score[node] = std::min(passes.score[node], friction_score(release.model(), *state, threshold)[node]);
+    edge.excess = std::max(
+        {0.0, kSlipShare * passes.excess[edge.worn], -friction_margin(*state, edge.worn, contact.friction[edge.worn])});
+    edge.place();
   }
-  result.edges = find_edges(contact, passes.released, loaded, passes.score);
 
   const std::optional<VectorXd> depth =
       interpolate_edges(result.edges, result.depth, options.tensor_edges, depth_without);
@@ -190,7 +199,8 @@ Asymptote asymptote(const std::shared_ptr<const response::CondensedModel>& model
   Asymptote result;
   result.certificate = std::numeric_limits<double>::quiet_NaN();
   Passes passes{.released = std::vector<bool>(nodes, false),
-                .score = VectorXd::Constant(model->nodes(), std::numeric_limits<double>::infinity()),
+                .margin = VectorXd::Constant(model->nodes(), std::numeric_limits<double>::infinity()),
+                .excess = VectorXd::Zero(model->nodes()),
                 .state = {}};
   const auto finish = [&] {
     result.released = passes.released;
@@ -223,7 +233,7 @@ Asymptote asymptote(const std::shared_ptr<const response::CondensedModel>& model
 
   result.verdict = Verdict::asymptote;
   set_depth(contact, release.depth(passes.released, passes.state), result);
-  if (options.interpolate_edge) place_edges(release, threshold, options, passes, result);
+  if (options.interpolate_edge) place_edges(release, options, passes, result);
   if (options.certify) {
     const response::SteadyState worn = release.solve_worn(result.depth, passes.state.displacement);
     if (worn.status == Status::converged) {

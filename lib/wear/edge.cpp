@@ -53,7 +53,7 @@ Eigen::MatrixX2i flank_neighbours(const reduction::ContactNodes& contact) {
 }
 
 std::vector<Edge> find_edges(const reduction::ContactNodes& contact, const std::vector<bool>& released,
-                             const std::vector<bool>& loaded, const Eigen::VectorXd& score) {
+                             const std::vector<bool>& loaded, const Eigen::VectorXd& margin) {
   const Eigen::MatrixX2i neighbours = flank_neighbours(contact);
   std::vector<Edge> edges;
   for (int node = 0; node < contact.count(); ++node) {
@@ -62,15 +62,10 @@ std::vector<Edge> find_edges(const reduction::ContactNodes& contact, const std::
     for (int side = 0; side < 2; ++side) {
       const int next = neighbours(node, side);
       if (next < 0 || released[static_cast<std::size_t>(next)] || !loaded[static_cast<std::size_t>(next)]) continue;
-      if (stuck < 0 || score[next] < score[stuck]) stuck = next;
+      if (stuck < 0 || margin[next] < margin[stuck]) stuck = next;
     }
     if (stuck < 0) continue;
-    Edge edge{.worn = node, .stuck = stuck};
-    edge.excess = std::max(0.0, -score[node]);
-    edge.margin = std::max(0.0, score[stuck]);
-    const double sum = edge.excess + edge.margin;
-    edge.theta = sum > 0.0 ? edge.excess / sum : 1.0;
-    edges.push_back(edge);
+    edges.push_back({.worn = node, .stuck = stuck, .margin = std::max(0.0, margin[stuck])});
   }
   return edges;
 }

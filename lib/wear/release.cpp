@@ -11,28 +11,24 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-VectorXd friction_score(const response::CondensedModel& model, const response::SteadyState& state, double threshold) {
+double friction_margin(const response::SteadyState& state, Index node, double friction) {
   // Samples close to separation carry next to nothing: their ratio of forces is noise.
   constexpr double kLightLoad = 1e-3;
-  VectorXd score = VectorXd::Constant(model.nodes(), std::numeric_limits<double>::infinity());
-  for (Index i = 0; i < model.nodes(); ++i) {
-    const response::NodeSummary& node = state.nodes[static_cast<std::size_t>(i)];
-    const double friction = model.contact().friction[i];
-    if (!node.carries_load || !(node.max_normal_force > 0.0) || friction == 0.0) continue;
-    if (state.wear_rate[i] > threshold) {
-      const double stiffness = model.local_stiffness()[i * model.directions() + 1];
-      score[i] = -node.slip_distance * stiffness / (4.0 * friction * node.max_normal_force);
-    } else if (state.linearisation) {
-      const MatrixXd& force = state.linearisation->state().nodes[static_cast<std::size_t>(i)].force;
-      double margin = 1.0;
-      for (Index n = 0; n < force.rows(); ++n) {
-        if (force(n, 0) <= kLightLoad * node.max_normal_force) continue;
-        margin = std::min(margin, 1.0 - force.row(n).tail(force.cols() - 1).norm() / (friction * force(n, 0)));
-      }
-      score[i] = std::max(margin, 0.0);
-    }
-  }
-  return score;
+  const double largest = state.nodes[static_cast<std::size_t>(node)].max_normal_force;
+  double margin = std::numeric_limits<double>::infinity();
+  if (!(largest > 0.0) || friction == 0.0 || !state.linearisation) return margin;
+  const MatrixXd& force = state.linearisation->state().nodes[static_cast<std::size_t>(node)].force;
+  for (Index n = 0; n < force.rows(); ++n)
+    if (force(n, 0) > kLightLoad * largest)
+      margin = std::min(margin, 1.0 - force.row(n).tail(force.cols() - 1).norm() / (friction * force(n, 0)));
+  return margin;
+}
+
+double slip_excess(const response::CondensedModel& model, const response::SteadyState& state, Index node) {
+  const response::NodeSummary& summary = state.nodes[static_cast<std::size_t>(node)];
+  const double limit = model.contact().friction[node] * summary.max_normal_force;
+  return limit > 0.0 ? summary.slip_distance * model.local_stiffness()[node * model.directions() + 1] / (4.0 * limit)
+                     : 0.0;
 }
 
 Release::Release(std::shared_ptr<const response::CondensedModel> model, double omega, response::ContactCondition start,
@@ -50,6 +46,19 @@ void Release::count(int solves, int jacobians) {
   jacobians_ += jacobians;
 }
 
+response::SteadyState Release::solve_on(const std::shared_ptr<const response::CondensedModel>& model,
+                                        const response::ContactCondition& condition,
+                                        const response::SteadyOptions& options, const MatrixXd& guess) {
+  response::SteadyState state;
+  if (control_->stopped()) {
+    state.status = Status::interrupted;
+    return state;
+  }
+  state = response::steady_state(model, omega_, condition, options, guess);
+  count(1, state.iterations);
+  return state;
+}
+
 response::SteadyState Release::solve(const std::vector<bool>& released, const MatrixXd& guess, bool quick) {
   response::ContactCondition condition = start_;
   condition.released.assign(released.begin(), released.end());
@@ -58,30 +67,28 @@ response::SteadyState Release::solve(const std::vector<bool>& released, const Ma
     options.penalty_cascade = false;
     options.max_iterations = std::min(options.max_iterations, 30);
   }
-  response::SteadyState state;
-  if (control_->stopped()) {
-    state.status = Status::interrupted;
-    return state;
-  }
-  state = response::steady_state(model_, omega_, condition, options, guess);
-  count(1, state.iterations);
-  if (state.status == Status::converged || quick || guess.size() == 0 || control_->stopped()) return state;
-  state = response::steady_state(model_, omega_, condition, options);
-  count(1, state.iterations);
-  return state;
+  response::SteadyState state = solve_on(model_, condition, options, guess);
+  if (state.status == Status::converged || quick || guess.size() == 0) return state;
+  return solve_on(model_, condition, options, {});
+}
+
+response::SteadyState Release::solve_held(const std::vector<bool>& released, const std::vector<int>& held,
+                                          const MatrixXd& guess) {
+  constexpr double kHolds = 1e6;  // no traction of interest reaches this multiple of the pressure
+  response::ContactCondition condition = start_;
+  condition.released.assign(released.begin(), released.end());
+  VectorXd friction = model_->contact().friction;
+  for (int node : held) friction[node] = kHolds;
+  const auto holding = std::make_shared<response::CondensedModel>(*model_);
+  holding->set_friction(friction);
+  response::SteadyState state = solve_on(holding, condition, steady_, guess);
+  return state.status == Status::converged ? state : solve_on(holding, condition, steady_, {});
 }
 
 response::SteadyState Release::solve_worn(const VectorXd& depth, const MatrixXd& guess) {
   response::ContactCondition condition = start_;
   condition.wear_depth = depth;
-  response::SteadyState state;
-  if (control_->stopped()) {
-    state.status = Status::interrupted;
-    return state;
-  }
-  state = response::steady_state(model_, omega_, condition, steady_, guess);
-  count(1, state.iterations);
-  return state;
+  return solve_on(model_, condition, steady_, guess);
 }
 
 VectorXd Release::depth(const std::vector<bool>& released, const response::SteadyState& state) const {

@@ -10,12 +10,15 @@
 
 namespace dovetail::wear {
 
-/// Signed friction margin of every node, in units of the limit mu lambda_N; infinite without load.
-/// Stuck: min_t (mu lambda_N - |lambda_T|) / (mu lambda_N) >= 0 over the loaded samples. Slipping, that is wearing by
-/// more than `threshold` m per cycle: minus the overload that the slip relieved, k_T (slip distance) / (4 mu max
-/// lambda_N), with the node's own stiffness k_T (two reversals per cycle, each sliding by twice the overload over k_T).
-[[nodiscard]] Eigen::VectorXd friction_score(const response::CondensedModel& model, const response::SteadyState& state,
-                                             double threshold);
+/// Friction margin of a node over the period, min_t 1 - |lambda_T| / (mu lambda_N) over its loaded samples: zero in
+/// slip, negative for a node held beyond its friction. Infinite without load or friction. `friction` is the mu to
+/// measure by.
+[[nodiscard]] double friction_margin(const response::SteadyState& state, Eigen::Index node, double friction);
+
+/// Overload relieved by the slip of a node, in units of mu lambda_N: k_T (slip distance) / (4 mu max lambda_N) with the
+/// node's own stiffness k_T (two reversals per cycle, each sliding by twice the overload over k_T).
+[[nodiscard]] double slip_excess(const response::CondensedModel& model, const response::SteadyState& state,
+                                 Eigen::Index node);
 
 /// Steady states of one joint with some nodes released, warm-started from each other and counted.
 class Release {
@@ -27,6 +30,9 @@ class Release {
   /// exist because nothing holds the body; otherwise a failed start from `guess` is repeated from closed contact.
   [[nodiscard]] response::SteadyState solve(const std::vector<bool>& released, const Eigen::MatrixXd& guess,
                                             bool quick = false);
+  /// State with these nodes free of contact and the nodes `held` unable to slip, whatever their friction.
+  [[nodiscard]] response::SteadyState solve_held(const std::vector<bool>& released, const std::vector<int>& held,
+                                                 const Eigen::MatrixXd& guess);
   /// State with depth W [Nc] and contact everywhere.
   [[nodiscard]] response::SteadyState solve_worn(const Eigen::VectorXd& depth, const Eigen::MatrixXd& guess);
 
@@ -40,6 +46,10 @@ class Release {
   [[nodiscard]] int jacobians() const { return jacobians_; }
 
  private:
+  [[nodiscard]] response::SteadyState solve_on(const std::shared_ptr<const response::CondensedModel>& model,
+                                               const response::ContactCondition& condition,
+                                               const response::SteadyOptions& options, const Eigen::MatrixXd& guess);
+
   std::shared_ptr<const response::CondensedModel> model_;
   double omega_;
   response::ContactCondition start_;
