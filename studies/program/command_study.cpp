@@ -1,0 +1,96 @@
+// Commands that read or write study files and compute nothing, or one candidate.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <ostream>
+
+#include "optimizer/problem.hpp"
+#include "optimizer/responses.hpp"
+#include "reduction/model_file.hpp"
+#include "studies/program/commands.hpp"
+#include "studies/program/engine.hpp"
+#include "studies/program/json.hpp"
+#include "studies/program/output_file.hpp"
+#include "studies/program/study_template.hpp"
+
+namespace dovetail::studies {
+
+void deliver_json(const std::string& where, const std::string& text, const Streams& streams) {
+  if (where.empty()) return;
+  if (where != "-") return write_file(where, text);
+  streams.out << text << std::flush;
+  if (!streams.out)
+    throw InputError(Violation{.file = {}, .key = "standard output", .value = {}, .allowed = "cannot be written"});
+}
+
+int run_check(const CheckOptions& options, const Streams& streams) {
+  const Study study = load_study(options.study, options.overrides);
+  const optimizer::Problem& problem = study.problem;
+  streams.out << fmt::format("{}: valid; {} variables, {} objectives, {} constraints\n", options.study,
+                             problem.space.size(), problem.objective.size(), problem.constraints.size());
+  return kDone;
+}
+
+int run_new(const NewOptions& options, const Streams& streams) {
+  const std::filesystem::path file(options.file);
+  if (std::filesystem::exists(file))
+    throw InputError(
+        Violation{.file = {}, .key = options.file, .value = {}, .allowed = "exists already; choose another name"});
+  std::string title = file.stem().string();
+  for (char& c : title)
+    if (c == '"' || c == '\\' || static_cast<unsigned char>(c) < 0x20) c = ' ';
+  write_file(file, study_template(title));
+  streams.out << fmt::format("{}: written; try `dovetail evaluate {}`\n", options.file, options.file);
+  return kDone;
+}
+
+namespace {
+
+std::string evaluation_table(const optimizer::Evaluation& evaluation) {
+  std::string text = fmt::format("status    {}\nfeasible  {}\n", evaluation.status, evaluation.feasible ? "yes" : "no");
+  if (!evaluation.responses.empty()) text += "\nresponses\n";
+  for (const optimizer::ResponseName& response : optimizer::response_names()) {
+    const auto value = evaluation.responses.find(std::string(response.name));
+    if (value == evaluation.responses.end()) continue;
+    text += fmt::format("  {:<30} {:>14.7g}", response.name, value->second);
+    const auto error = evaluation.error_estimates.find(value->first);
+    if (error != evaluation.error_estimates.end()) text += fmt::format(" +- {:.2g}", error->second);
+    if (!response.unit.empty()) text += fmt::format(" {}", response.unit);
+    text += "\n";
+  }
+  if (!evaluation.constraints.empty()) text += "\nconstraints, satisfied when <= 0\n";
+  for (const auto& [name, value] : evaluation.constraints)
+    if (!name.starts_with(optimizer::kRulePrefix) || value > 0)
+      text += fmt::format("  {:<44} {:>12.5g}\n", name, value);
+  return text;
+}
+
+}  // namespace
+
+int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
+  const Study study = load_study(options.study, options.overrides);
+  optimizer::Evaluation evaluation = scene_evaluator(study)->evaluate(study.scene).evaluation;
+  if (!study.problem.objective.empty() || !study.problem.constraints.empty())
+    optimizer::annotate(study.problem, study.optimizer.constraint_tolerance, evaluation);
+  deliver_json(options.json, evaluation_json(evaluation), streams);
+  if (options.json != "-") streams.out << evaluation_table(evaluation);
+  if (evaluation.status == "infeasible") throw infeasible(options.study, evaluation.messages);
+  for (const std::string& message : evaluation.messages) streams.err << "dovetail: " << message << "\n";
+  if (evaluation.converged()) return kDone;
+  streams.err << "dovetail: " << options.study << ": not converged: " << evaluation.status << "\n";
+  return kNotConverged;
+}
+
+int run_reduce(const ReduceOptions& options, const Streams& streams) {
+  const LoadedModel loaded = load_model(options.study, options.overrides, {});
+  if (!loaded.failure.empty()) {
+    streams.err << "dovetail: " << options.study << ": not converged: " << loaded.failure << "\n";
+    return kNotConverged;
+  }
+  reduction::write_model(options.model, loaded.model);
+  streams.out << fmt::format("{}: {} coordinates, {} contact nodes\n", options.model, loaded.model.size(),
+                             loaded.model.contact.count());
+  return kDone;
+}
+
+}  // namespace dovetail::studies

@@ -1,0 +1,187 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <ostream>
+
+#include "response/resonance.hpp"
+#include "studies/program/commands.hpp"
+#include "studies/program/engine.hpp"
+#include "studies/program/interrupt.hpp"
+#include "studies/program/json.hpp"
+#include "studies/program/progress.hpp"
+
+namespace dovetail::studies {
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+/// Successive asymptotes at most while the resonance is followed, and the change of frequency that ends them.
+constexpr int kFollowPasses = 30;
+constexpr double kFollowTolerance = 1e-7;
+
+void validate(const WearOptions& options) {
+  std::vector<Violation> found;
+  const auto bad = [&](const char* option, const std::string& value, const std::string& allowed) {
+    found.push_back({.file = {}, .key = option, .value = value, .allowed = allowed});
+  };
+  if (options.frequency_hz && !kPositive.contains(*options.frequency_hz))
+    bad("--frequency", shortest(*options.frequency_hz), kPositive.phrase());
+  if (options.cycles && !kPositive.contains(*options.cycles))
+    bad("--cycles", shortest(*options.cycles), kPositive.phrase());
+  if (options.increment_m && !kPositive.contains(*options.increment_m))
+    bad("--increment", shortest(*options.increment_m), kPositive.phrase());
+  if (options.steps && *options.steps < 1) bad("--steps", std::to_string(*options.steps), "must be >= 1");
+  if (options.method != "history" && (options.cycles || options.steps || options.increment_m))
+    bad("--cycles, --steps, --increment", "", "only have a meaning with --method history");
+  if (!found.empty()) throw InputError(std::move(found));
+}
+
+struct Start {
+  double omega = 0;
+  std::optional<response::Resonance> resonance;
+};
+
+/// The frequency asked for, or the unworn resonance.
+Start start(const WearOptions& options, const LoadedModel& loaded) {
+  Start at;
+  if (options.frequency_hz) {
+    at.omega = kTurn * *options.frequency_hz;
+    return at;
+  }
+  if (loaded.glued_omega <= 0)
+    throw InputError(Violation{.file = {},
+                               .key = options.input,
+                               .value = {},
+                               .allowed = "has no natural frequency to start from; give --frequency HZ"});
+  if (loaded.model.output_names.empty())
+    throw InputError(Violation{.file = {},
+                               .key = options.input,
+                               .value = {},
+                               .allowed = "has no output whose resonance could be found; give --frequency HZ"});
+  at.resonance = response::resonance(loaded.condensed, loaded.glued_omega, {}, loaded.steady);
+  at.omega = at.resonance->omega;
+  return at;
+}
+
+struct FollowedAsymptote {
+  wear::Asymptote asymptote;
+  std::vector<double> frequencies_hz;
+  int solves = 0;
+};
+
+/// The asymptote at the start's frequency and, when the resonance is followed, on from there at the resonance of the
+/// worn joint until that stays.
+FollowedAsymptote asymptote(const WearOptions& options, const LoadedModel& loaded, const Start& at,
+                            const wear::Control& control) {
+  FollowedAsymptote result;
+  const response::SteadyState* initial = at.resonance ? &at.resonance->state : nullptr;
+  result.solves = at.resonance ? at.resonance->solves : 0;
+  result.asymptote = wear::asymptote(loaded.condensed, at.omega, {}, loaded.steady, {}, initial, control);
+  result.frequencies_hz = {at.omega / kTurn};
+  result.solves += result.asymptote.solves;
+  if (options.follow == "fixed") return result;
+
+  double omega = at.omega;
+  for (int pass = 0; pass < kFollowPasses && result.asymptote.verdict == wear::Verdict::asymptote; ++pass) {
+    response::ContactCondition condition;
+    condition.wear_depth = result.asymptote.depth;
+    const response::Resonance worn = response::resonance(loaded.condensed, omega, condition, loaded.steady);
+    result.solves += worn.solves;
+    if (worn.status != Status::converged) {
+      result.asymptote.verdict = wear::Verdict::not_converged;
+      result.asymptote.status = worn.status;
+      return result;
+    }
+    const bool stays = std::abs(worn.omega / omega - 1) < kFollowTolerance;
+    omega = worn.omega;
+    if (stays) return result;
+    result.asymptote = wear::asymptote(loaded.condensed, omega, condition, loaded.steady, {}, nullptr, control);
+    result.solves += result.asymptote.solves;
+    result.frequencies_hz.push_back(omega / kTurn);
+  }
+  if (result.asymptote.verdict == wear::Verdict::asymptote) {
+    result.asymptote.verdict = wear::Verdict::not_converged;
+    result.asymptote.status = Status::iteration_limit;
+  }
+  return result;
+}
+
+std::string summary(const std::string& status, double hz, const std::string& follow, double volume, double depth,
+                    int solves) {
+  return fmt::format(
+      "status          {}\nfrequency_hz    {:.9g} ({})\nworn_volume_m3  {:.6g}\nlargest_depth_m {:.6g}\nsolves         "
+      " {}\n",
+      status, hz, follow == "fixed" ? "held" : "following the resonance", volume, depth, solves);
+}
+
+double largest(const Eigen::VectorXd& depth) {
+  return depth.size() > 0 ? depth.maxCoeff() : 0;
+}
+
+int verdict(const std::string& input, const std::string& status, Status solver, bool interrupted,
+            const Streams& streams) {
+  if (interrupted) return kInterrupted;
+  if (status != "not_converged") return kDone;
+  streams.err << fmt::format("dovetail: {}: the worn state did not converge: {}\n", input, to_string(solver));
+  return kNotConverged;
+}
+
+int with_history(const WearOptions& options, const LoadedModel& loaded, const Start& at, const wear::Control& control,
+                 const OrderlyInterrupt& interrupt, const Streams& streams) {
+  wear::HistoryOptions settings;
+  settings.follow = options.follow;
+  settings.cycles = options.cycles.value_or(settings.cycles);
+  settings.steps = options.steps.value_or(settings.steps);
+  settings.increment = options.increment_m.value_or(settings.increment);
+  wear::History history = wear::history(loaded.condensed, at.omega, {}, loaded.steady, settings, {}, control);
+  if (at.resonance) history.solves += at.resonance->solves;
+  const std::string status = wear_status(history);
+  const WearQuestion question{.frequency_hz = at.omega / kTurn, .follow = options.follow};
+  deliver_json(options.json, history_json(question, history), streams);
+  const Eigen::Index last = history.depth.rows() - 1;
+  if (options.json.empty())
+    streams.out << summary(status, question.frequency_hz, options.follow, last < 0 ? 0 : history.worn_volume[last],
+                           last < 0 ? 0 : largest(history.depth.row(last).transpose()), history.solves);
+  const Status solver = history.end == wear::HistoryEnd::steps ? Status::iteration_limit : history.status;
+  return verdict(options.input, status, solver, interrupt.requested(), streams);
+}
+
+}  // namespace
+
+int run_wear(const WearOptions& options, const Streams& streams) {
+  validate(options);
+  const LoadedModel loaded = load_model(options.input, options.overrides, options.solver);
+  const auto failed = [&](const std::string& why) {
+    streams.err << "dovetail: " << options.input << ": not converged: " << why << "\n";
+    return static_cast<int>(kNotConverged);
+  };
+  if (!loaded.failure.empty()) return failed(loaded.failure);
+  const Start at = start(options, loaded);
+  if (at.resonance && at.resonance->status != Status::converged)
+    return failed("unworn resonance: " + std::string(to_string(at.resonance->status)) + "; give --frequency HZ");
+
+  const OrderlyInterrupt interrupt;
+  wear::Control control;
+  control.stop = [&] { return interrupt.requested(); };
+  const bool terminal = error_is_terminal();
+  if (terminal)
+    control.progress = [&](int step, double volume, double rate) {
+      streams.err << fmt::format("\r\033[Kstep {}, worn volume {:.4g} m^3, largest rate {:.3g} m per cycle", step,
+                                 volume, rate)
+                  << std::flush;
+    };
+  if (options.method == "history") return with_history(options, loaded, at, control, interrupt, streams);
+
+  const FollowedAsymptote found = asymptote(options, loaded, at, control);
+  if (terminal) streams.err << "\r\033[K" << std::flush;
+  const WearQuestion question{.frequency_hz = at.omega / kTurn, .follow = options.follow};
+  deliver_json(options.json, asymptote_json(question, found.asymptote, found.frequencies_hz, found.solves), streams);
+  const std::string status(wear::to_string(found.asymptote.verdict));
+  if (options.json.empty())
+    streams.out << summary(status, question.frequency_hz, options.follow, found.asymptote.worn_volume,
+                           largest(found.asymptote.depth), found.solves);
+  return verdict(options.input, status, found.asymptote.status, interrupt.requested(), streams);
+}
+
+}  // namespace dovetail::studies

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <functional>
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "optimizer/evaluation.hpp"
+#include "studies/program/study.hpp"
+
+namespace dovetail::studies {
+
+/// Exit statuses of the program; 130 is an interruption.
+enum ExitStatus : int { kDone = 0, kWrongInput = 2, kNotConverged = 3 };
+
+/// Where a command talks to: answers to `out`, progress and remarks to `err`.
+struct Streams {
+  std::ostream& out;
+  std::ostream& err;
+};
+
+/// Each command is a function from its options to an exit status; it throws InputError for wrong input, before it
+/// computes or writes anything.
+
+struct CheckOptions {
+  std::string study;
+  std::vector<Override> overrides;
+};
+int run_check(const CheckOptions& options, const Streams& streams);
+
+struct NewOptions {
+  std::string file;
+};
+int run_new(const NewOptions& options, const Streams& streams);
+
+struct EvaluateOptions {
+  std::string study;
+  std::vector<Override> overrides;
+  std::string json;  ///< file, "-" for standard output, empty for a table on standard output
+};
+int run_evaluate(const EvaluateOptions& options, const Streams& streams);
+
+struct ReduceOptions {
+  std::string study;
+  std::string model;
+  std::vector<Override> overrides;
+};
+int run_reduce(const ReduceOptions& options, const Streams& streams);
+
+/// Settings shared by the commands that take a model or a study; absent ones keep the file's or the default.
+struct SolverOverrides {
+  std::optional<int> harmonics, samples;
+  std::optional<double> tolerance;
+};
+
+struct ResponseOptions {
+  std::string input;  ///< MODEL.h5 or STUDY.toml
+  std::vector<Override> overrides;
+  SolverOverrides solver;
+  double from_hz = 0, to_hz = 0;
+  int points = 1;
+  std::string json;
+};
+int run_response(const ResponseOptions& options, const Streams& streams);
+
+struct WearOptions {
+  std::string input;  ///< MODEL.h5 or STUDY.toml
+  std::vector<Override> overrides;
+  SolverOverrides solver;
+  std::string method = "asymptote";
+  std::string follow = "fixed";
+  std::optional<double> frequency_hz;  ///< absent: the unworn resonance
+  std::optional<double> cycles;        ///< history
+  std::optional<int> steps;            ///< history
+  std::optional<double> increment_m;   ///< history
+  std::string json;
+};
+int run_wear(const WearOptions& options, const Streams& streams);
+
+/// Makes the evaluator of a study; what a run optimises with.
+using EvaluatorFactory = std::function<optimizer::Evaluator(const Study&)>;
+
+struct RunOptions {
+  std::string study;
+  std::string directory;  ///< empty: results/NAME
+  bool resume = false;
+};
+int run_study(const RunOptions& options, const Streams& streams, const EvaluatorFactory& evaluator);
+
+struct ExportOptions {
+  std::string input;  ///< results directory or STUDY.toml
+  std::vector<Override> overrides;
+  std::string format;
+  std::string file;
+};
+int run_export(const ExportOptions& options, const Streams& streams);
+
+struct ReportOptions {
+  std::string directory;
+  std::string file;
+};
+int run_report(const ReportOptions& options, const Streams& streams);
+
+/// Writes a command's JSON to where --json says: nowhere when empty, `out` for "-", else a file. Throws InputError.
+void deliver_json(const std::string& where, const std::string& text, const Streams& streams);
+
+}  // namespace dovetail::studies

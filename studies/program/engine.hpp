@@ -1,0 +1,47 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "optimizer/evaluator.hpp"
+#include "reduction/reduced_model.hpp"
+#include "response/condensed_model.hpp"
+#include "response/options.hpp"
+#include "studies/program/commands.hpp"
+
+namespace dovetail::studies {
+
+/// The scene whose geometry fixes the mesh topology of a study: every variable in the middle of its bounds. It does not
+/// depend on the values of the variables, so that a best design evaluates in its own file as it did in the run.
+[[nodiscard]] optimizer::Scene reference_scene(const Study& study);
+
+/// The evaluator of a study, on the reference scene's mesh topology, or on the scene's own where the reference cannot
+/// be meshed. Throws InputError when neither can.
+[[nodiscard]] std::shared_ptr<const optimizer::SceneEvaluator> scene_evaluator(const Study& study);
+
+/// The evaluator a run uses: design variables in, evaluation out.
+[[nodiscard]] optimizer::Evaluator study_evaluator(const Study& study);
+
+/// A reduced model to compute with, from a model file or from a study's candidate.
+struct LoadedModel {
+  reduction::ReducedModel model;
+  std::shared_ptr<const response::CondensedModel> condensed;  ///< of that model
+  response::SteadyOptions steady;
+  double glued_omega = 0;  ///< rad/s, of the followed mode (a file: the lowest); 0 when the model has none
+  std::string failure;     ///< not empty: the candidate's model did not converge, and why
+};
+
+/// Whether the file is a reduced model rather than a study: by its first bytes, or its ending when it cannot be read.
+[[nodiscard]] bool is_model_file(const std::string& file);
+
+/// Throws InputError for wrong input and for a study whose geometry is infeasible.
+[[nodiscard]] LoadedModel load_model(const std::string& input, const std::vector<Override>& overrides,
+                                     const SolverOverrides& solver);
+
+/// The solver settings as overrides of a study file's keys.
+[[nodiscard]] std::vector<Override> with_solver(std::vector<Override> overrides, const SolverOverrides& solver);
+
+/// The broken rules of an infeasible candidate as input errors of that file.
+[[nodiscard]] InputError infeasible(const std::string& file, const std::vector<std::string>& messages);
+
+}  // namespace dovetail::studies
