@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 
+#include "studies/program/export.hpp"
 #include "studies/program/problem_reader.hpp"
 #include "studies/program/section_reader.hpp"
 
@@ -123,11 +124,6 @@ void report_contradictions(const Document& document, const optimizer::Scene& sce
 }
 
 }  // namespace
-
-std::span<const std::string_view> export_formats() {
-  static constexpr std::array<std::string_view, 4> formats{"dxf", "svg", "inp", "vtk"};
-  return formats;
-}
 
 Study read_study(const Document& document) {
   Study study;

@@ -32,9 +32,6 @@ struct Study {
 /// load_document, apply and read_study in one.
 [[nodiscard]] Study load_study(const std::string& file, std::span<const Override> overrides = {});
 
-/// Formats of the section [export] and of the command export.
-[[nodiscard]] std::span<const std::string_view> export_formats();
-
 /// The text that fixes what an evaluation of this scene computes: every key and value, one per line.
 [[nodiscard]] std::string physics_text(const optimizer::Scene& scene);
 

@@ -6,7 +6,7 @@
 #include "optimizer/optimizer_options.hpp"
 #include "optimizer/responses.hpp"
 #include "optimizer/scene.hpp"
-#include "studies/program/study.hpp"
+#include "studies/program/export.hpp"
 
 namespace dovetail::studies {
 namespace {

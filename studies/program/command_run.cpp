@@ -1,0 +1,130 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+#include <ostream>
+
+#include "optimizer/fingerprint.hpp"
+#include "optimizer/journal.hpp"
+#include "optimizer/run.hpp"
+#include "studies/program/best_file.hpp"
+#include "studies/program/commands.hpp"
+#include "studies/program/export.hpp"
+#include "studies/program/interrupt.hpp"
+#include "studies/program/output_file.hpp"
+#include "studies/program/progress.hpp"
+#include "studies/program/run_record.hpp"
+#include "studies/program/version.hpp"
+
+namespace dovetail::studies {
+namespace {
+
+namespace fs = std::filesystem;
+using optimizer::OptimizationResult;
+
+Violation refused(const std::string& key, const std::string& allowed) {
+  return {.file = {}, .key = key, .value = {}, .allowed = allowed};
+}
+
+void require_runnable(const Study& study) {
+  std::vector<Violation> found;
+  if (study.problem.space.size() == 0)
+    found.push_back(refused(study.file, "has no [[variable]]; an optimisation needs at least one"));
+  if (study.problem.objective.empty())
+    found.push_back(refused(study.file, "has no [[objective]]; an optimisation needs at least one"));
+  if (!found.empty()) throw InputError(std::move(found));
+}
+
+/// The directory of the results, created; an existing one is only touched to resume it.
+fs::path prepare_directory(const RunOptions& options, const Study& study) {
+  const fs::path directory = options.directory.empty() ? fs::path("results") / study.name : fs::path(options.directory);
+  std::error_code error;
+  if (fs::exists(directory, error)) {
+    if (!fs::is_directory(directory, error)) throw InputError(refused(directory.string(), "is not a directory"));
+    if (!options.resume && !fs::is_empty(directory, error))
+      throw InputError(refused(directory.string(),
+                               "exists already; give --resume to continue the run in it or -o another directory"));
+  }
+  fs::create_directories(directory, error);
+  if (error) throw InputError(refused(directory.string(), "cannot be created: " + error.message()));
+  return directory;
+}
+
+std::map<std::string, double> values(const Study& study, const optimizer::Candidate& candidate) {
+  std::map<std::string, double> result;
+  const std::vector<std::string> keys = study.problem.space.keys();
+  for (std::size_t i = 0; i < keys.size(); ++i) result[keys[i]] = candidate.x[i];
+  return result;
+}
+
+void write_best(const Study& study, const optimizer::Candidate& best, const fs::path& directory) {
+  write_file(directory / "best.toml", with_values(parse_document(study.text, study.file), values(study, best)));
+  if (study.exports.empty()) return;
+  optimizer::Scene scene = study.scene;
+  for (const auto& [key, value] : values(study, best)) optimizer::set_parameter(scene, key, value);
+  for (const std::string& format : study.exports) export_scene(scene, format, directory / ("best." + format));
+}
+
+std::string conclusion(const Study& study, const OptimizationResult& result, const fs::path& directory) {
+  const optimizer::SearchStatistics& counts = result.statistics;
+  std::string text =
+      fmt::format("{}: {} evaluations, {} of them stored before; {} infeasible, {} failed; {}\n", study.name,
+                  result.evaluations.size(), counts.replayed, counts.infeasible, counts.failed,
+                  result.message.empty() ? std::string(to_string(result.status)) : result.message);
+  if (!result.best) return text;
+  const optimizer::Candidate& best = result.evaluations[*result.best];
+  text += fmt::format("best objective {:.6g} (evaluation {}), start {:.6g}\n", best.judgement.objective,
+                      *result.best + 1, result.evaluations.front().judgement.objective);
+  for (const auto& [key, value] : values(study, best)) text += fmt::format("  {} = {:.6g}\n", key, value);
+  return text + fmt::format("written to {}\n", directory.string());
+}
+
+}  // namespace
+
+int run_study(const RunOptions& options, const Streams& streams, const EvaluatorFactory& make_evaluator) {
+  const auto begin = std::chrono::steady_clock::now();
+  const Study study = load_study(options.study);
+  require_runnable(study);
+  const optimizer::Evaluator evaluator = make_evaluator(study);
+  const std::string fingerprint = optimizer::fingerprint(
+      study.problem, study.optimizer, std::string("dovetail ") + version() + "\n" + physics_text(study.scene));
+  const fs::path directory = prepare_directory(options, study);
+  const fs::path file = directory / "journal.jsonl";
+  optimizer::Journal journal =
+      options.resume ? optimizer::Journal::resume(file, fingerprint) : optimizer::Journal::create(file, fingerprint);
+  if (!journal.note().empty()) streams.err << "dovetail: " << journal.note() << "\n";
+  write_file(directory / "study.toml", study.text);
+
+  const OrderlyInterrupt interrupt;
+  OptimizationResult result;
+  {
+    RunProgress progress(streams.err, error_is_terminal(), study.optimizer.max_evaluations);
+    const optimizer::RunHooks hooks{.journal = &journal,
+                                    .progress = [&](const optimizer::Progress& at) { progress(at); },
+                                    .stop = &interrupt.flag()};
+    result = optimizer::run_optimization(study.problem, evaluator, study.optimizer, hooks);
+  }
+
+  if (result.best) write_best(study, result.evaluations[*result.best], directory);
+  const RunRecord record{.study = study,
+                         .result = result,
+                         .seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
+                         .version = version()};
+  const RunWriters writers = run_writers();
+  if (writers.results) writers.results(record, directory);
+  if (writers.report) writers.report(record, directory);
+
+  streams.out << conclusion(study, result, directory);
+  if (interrupt.requested()) {
+    streams.err << fmt::format("dovetail: interrupted; everything finished is kept, go on with --resume\n");
+    return kInterrupted;
+  }
+  if (!result.best) {
+    streams.err << fmt::format("dovetail: {}: no feasible design was found in {} evaluations\n", study.file,
+                               result.evaluations.size());
+    return kNotConverged;
+  }
+  return result.status == Status::converged || result.status == Status::iteration_limit ? kDone : kNotConverged;
+}
+
+}  // namespace dovetail::studies
