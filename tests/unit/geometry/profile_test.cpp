@@ -6,23 +6,12 @@
 #include <cmath>
 #include <random>
 
+#include "geometry/chain.hpp"
+#include "geometry/measures.hpp"
+#include "tests/unit/geometry/random_design.hpp"
+
 namespace dovetail::geometry {
 namespace {
-
-/// A design with every dimension moved by up to 15 % and the two flanks different.
-ProfileParameters random_design(std::mt19937& generator) {
-  std::uniform_real_distribution<double> factor(0.85, 1.15);
-  ProfileParameters p;
-  for (const Field<ProfileParameters>& field : option_table<ProfileParameters>())
-    if (const auto* member = std::get_if<double ProfileParameters::*>(&field.member)) p.*(*member) *= factor(generator);
-  p.shank_width = 1.2 * p.neck_width;  // leaves room for the blend of the shoulder
-  p.sectors = std::uniform_int_distribution<int>(30, 60)(generator);
-  for (FlankParameters* flank : {&p.left, &p.right}) {
-    flank->angle *= factor(generator);
-    flank->length *= std::uniform_real_distribution<double>(0.95, 1.05)(generator);
-  }
-  return p;
-}
 
 std::vector<std::string> names(const Chain& chain) {
   std::vector<std::string> list;
@@ -79,6 +68,86 @@ TEST(Profile, HasTheSameEdgesInEveryDesign) {
     EXPECT_EQ(names(profile.blade), names(baseline.blade));
     EXPECT_EQ(names(profile.disk), names(baseline.disk));
   }
+}
+
+TEST(Profile, LetsTheFlanksOfBladeAndDiskCoincideToTheLastBit) {
+  std::mt19937 generator(3);
+  const Profile profile = build_profile(random_design(generator));
+  for (const char* name : {"flank_left", "flank_right"}) {
+    EXPECT_EQ(edge(profile.blade, name).start, edge(profile.disk, name).end);
+    EXPECT_EQ(edge(profile.blade, name).end, edge(profile.disk, name).start);
+  }
+}
+
+TEST(Profile, HasTheDimensionsAskedFor) {
+  ProfileParameters p;
+  p.right.angle = 0.8;
+  p.right.length = 6e-3;
+  const Profile profile = build_profile(p);
+  const Edge& flank = edge(profile.blade, "flank_right");
+  // Rounding of coordinates of 0.25 m: 3e-17 m, some operations.
+  constexpr double kRounding = 1e-15;
+  EXPECT_NEAR((flank.start - flank.end - 6e-3 * Eigen::Vector2d(std::sin(0.8), -std::cos(0.8))).norm(), 0, kRounding);
+  EXPECT_NEAR(edge(profile.blade, "flank_left").length(), p.left.length, kRounding);
+  EXPECT_NEAR((flank.end.y() + edge(profile.blade, "flank_left").start.y()) / 2, p.rim_radius - p.lobe_depth,
+              kRounding);
+  EXPECT_EQ(edge(profile.blade, "neck_right").start.x(), p.neck_width / 2);
+  EXPECT_NEAR((edge(profile.blade, "neck_right").length() + edge(profile.blade, "neck_left").length()) / 2,
+              p.neck_height, kRounding);
+  EXPECT_NEAR(edge(profile.blade, "neck_fillet_right").radius, p.neck_fillet_radius, kRounding);
+  EXPECT_NEAR(edge(profile.blade, "root_corner_left").radius, p.root_corner_radius, kRounding);
+  EXPECT_NEAR(edge(profile.disk, "lobe_right").radius, p.lobe_radius, kRounding);
+  EXPECT_NEAR(edge(profile.disk, "slot_fillet_left").radius, p.slot_fillet_radius, kRounding);
+  EXPECT_NEAR(edge(profile.disk, "rim_left").start.norm(), p.rim_radius, kRounding);
+  EXPECT_NEAR(edge(profile.disk, "bore").radius, p.bore_radius, kRounding);
+  EXPECT_NEAR(edge(profile.blade, "tip").length(), p.aerofoil_tip_thickness, kRounding);
+  const Eigen::Vector2d cut = edge(profile.disk, "cut_right").tangent(0.5);
+  EXPECT_NEAR(std::atan2(cut.x(), cut.y()), std::numbers::pi / p.sectors, 1e-14);
+}
+
+TEST(Profile, IsItsMirrorImageWhenTheFlanksAreExchanged) {
+  std::mt19937 generator(4);
+  ProfileParameters p = random_design(generator);
+  const Profile profile = build_profile(p);
+  std::swap(p.left, p.right);
+  const Profile exchanged = build_profile(p);
+  for (const auto& [chain, other] : {std::pair{&profile.blade, &exchanged.blade}, {&profile.disk, &exchanged.disk}}) {
+    const Chain image = mirrored(*other);
+    for (const Edge& e : *chain) {
+      std::string name = e.name;
+      if (const auto at = name.find("_left"); at != std::string::npos)
+        name.replace(at, 5, "_right");
+      else if (const auto place = name.find("_right"); place != std::string::npos)
+        name.replace(place, 6, "_left");
+      // Means of left and right are summed in either order: rounding only.
+      EXPECT_NEAR((edge(image, name).start - e.start).norm(), 0, 1e-15) << name;
+      EXPECT_NEAR((edge(image, name).end - e.end).norm(), 0, 1e-15) << name;
+      EXPECT_NEAR(edge(image, name).sweep, e.sweep, 1e-14) << name;
+    }
+  }
+}
+
+TEST(Profile, RefusesWhatIsNotFiniteOrNotPositiveNamingEveryKey) {
+  ProfileParameters p;
+  p.neck_width = std::numeric_limits<double>::quiet_NaN();
+  p.rim_radius = std::numeric_limits<double>::infinity();
+  p.lobe_radius = 0;
+  p.left.length = -1e-3;
+  try {
+    static_cast<void>(build_profile(p));
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    ASSERT_EQ(error.violations().size(), 4U) << error.what();
+    EXPECT_EQ(error.violations()[0].key, "geometry.rim_radius_mm");
+    EXPECT_EQ(error.violations()[3].key, "geometry.left.flank_length_mm");
+  }
+}
+
+TEST(ProfileParameters, HaveDefaultsWithinTheirRanges) {
+  EXPECT_TRUE(violations(ProfileParameters{}).empty());
+  EXPECT_TRUE(violations(FlankParameters{}).empty());
+  EXPECT_TRUE(violations(FeasibilityLimits{}).empty());
+  EXPECT_TRUE(violations(MeshSizes{}).empty());
 }
 
 }  // namespace
