@@ -114,6 +114,7 @@ double stiffness_and_mass(const ElementNodes& nodes, const Eigen::Matrix3d& elas
   }
   // Rounding breaks symmetry in the last digit; eigensolvers and tests want it exact.
   stiffness.triangularView<Eigen::StrictlyUpper>() = stiffness.transpose();
+  scalar_mass.triangularView<Eigen::StrictlyUpper>() = scalar_mass.transpose();
   mass.setZero();
   for (int a = 0; a < 6; ++a)
     for (int b = 0; b < 6; ++b) mass(2 * a, 2 * b) = mass(2 * a + 1, 2 * b + 1) = scalar_mass(a, b);
