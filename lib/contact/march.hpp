@@ -43,6 +43,7 @@ struct MarchResult {
   bool always_closed = false;         ///< lambda_N = lambda_u,N > 0 at all samples
   bool always_separated = false;      ///< no force at any sample
   double slip_distance = 0;           ///< path length of X_T under load over the last period, m
+  double friction_margin = 0;         ///< smallest mu lambda_N - |lambda_T| over the loaded samples, N
   double slip_load = 0;               ///< sum of mean lambda_N |dX_T| over the last period, N m
   Eigen::Vector2d slip_end = {0, 0};  ///< X_T after the last sample, m
 
@@ -61,5 +62,9 @@ struct MarchResult {
 /// Cost: O(N d) per period; with derivatives O(N d m) plus O(m) per slipping sample.
 void march(const Eigen::Ref<const Eigen::MatrixXd>& prediction, const NodeLaw& law, const numerics::FourierBasis& basis,
            const MarchOptions& options, bool with_derivative, MarchResult& result);
+
+/// The same for a node that is kept free of contact: lambda = 0, lambda_x = lambda_u, D = 0.
+void carry_nothing(const Eigen::Ref<const Eigen::MatrixXd>& prediction, double tangential_penalty,
+                   Eigen::Index coefficients, MarchResult& result);
 
 }  // namespace dovetail::contact

@@ -19,7 +19,7 @@ class DenseLu {
   explicit DenseLu(Eigen::MatrixXd matrix) { factorise(std::move(matrix)); }
   void factorise(Eigen::MatrixXd matrix);
 
-  /// converged, singular (an exact zero pivot, or reciprocal condition below 1e-300) or not_finite.
+  /// converged, singular (an exact zero pivot) or not_finite.
   [[nodiscard]] Status status() const { return status_; }
   [[nodiscard]] Eigen::Index size() const { return factors_.rows(); }
   /// A X = B; B is [n, m]. Only valid when status() is converged.

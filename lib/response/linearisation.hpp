@@ -42,13 +42,20 @@ class Linearisation {
   /// f(U; W) = 0: [Nc, nodes.size()].
   [[nodiscard]] Eigen::MatrixXd wear_rate_to_wear(const std::vector<Eigen::Index>& nodes) const;
 
+  /// True when J was (nearly) singular and its contact was stiffened by 1e-6 to get a search direction: not usable
+  /// for derivatives.
+  [[nodiscard]] bool regularised() const { return regularised_; }
+
  private:
+  void factorise(double regularisation);
+
   SteadyResidual residual_;
   ResidualState state_;
   std::vector<Eigen::Index> active_, direct_;
   Eigen::VectorXd direct_diagonal_;  // eps of the eliminated rows
   Eigen::MatrixXd coupling_;         // J(active, direct)
   numerics::DenseLu lu_;
+  bool regularised_ = false;
 };
 
 }  // namespace dovetail::response

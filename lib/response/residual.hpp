@@ -72,6 +72,10 @@ class SteadyResidual {
   [[nodiscard]] Eigen::MatrixXd jacobian(const ResidualState& state) const;
   /// Its rows `rows` only (indices into vec(U), ascending).
   [[nodiscard]] Eigen::MatrixXd jacobian_rows(const ResidualState& state, const std::vector<Eigen::Index>& rows) const;
+  /// Writes rows `rows` of J, with D replaced by D + regularisation (I - D), into columns[c] + position of the row,
+  /// one pointer per column of vec(U). Fastest when the rows of a node stand together.
+  void assemble(const ResidualState& state, const std::vector<Eigen::Index>& rows, const std::vector<double*>& columns,
+                double regularisation) const;
   /// D applied to a change of lambda_u, [nc, 2H+1] to [nc, 2H+1].
   [[nodiscard]] Eigen::MatrixXd apply_force_derivative(const ResidualState& state, const Eigen::MatrixXd& change) const;
 

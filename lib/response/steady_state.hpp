@@ -23,7 +23,8 @@ struct NodeSummary {
   double slip_distance = 0;                           ///< path of X_T under load per cycle, m
   double wear_rate = 0;                               ///< depth per cycle, m
   double dissipated_energy = 0;                       ///< J per cycle
-  int periods = 0;                                    ///< marched until periodic
+  double friction_margin = 0;  ///< smallest mu lambda_N - |lambda_T| over the loaded samples, N; 0 when slipping
+  int periods = 0;             ///< marched until periodic
 };
 
 /// One steady state. Nothing in it is meaningful unless status is converged, but all of it is filled with the

@@ -1,0 +1,122 @@
+#include "contact/march.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+#include "contact/sample_step.hpp"
+#include "core/options.hpp"
+
+namespace dovetail::contact {
+namespace {
+
+template <int Directions>
+void march_node(const double* prediction, const NodeLaw& law, int samples, const MarchOptions& options,
+                DerivativeStart& start, MarchResult& result) {
+  Memory memory;
+  double limit = 0;
+  for (int r = 0; r < Directions; ++r) memory.slip_force[r] = law.tangential_penalty * law.slip_origin(r);
+  for (int n = 0; n < samples; ++n) limit = std::max(limit, law.friction * prediction[(1 + Directions) * n]);
+  if (limit <= 0)
+    for (int n = 0; n < samples; ++n)
+      for (int r = 0; r < Directions; ++r) limit = std::max(limit, std::abs(prediction[(1 + Directions) * n + 1 + r]));
+  const int periods = options.periodic ? options.max_periods : 1;
+  bool moved = false;
+  Memory before, reset_memory;
+  long reset = -1;
+  result.status = options.periodic ? Status::not_periodic : Status::converged;
+  for (result.periods = 1; result.periods <= periods; ++result.periods) {
+    before = memory;
+    start = {.sample = reset, .memory = reset_memory};
+    for (int n = 0; n < samples; ++n) {
+      const Step step =
+          sample_step<Directions>(prediction + (1 + Directions) * n, law.friction, options.slip_return, memory);
+      for (int r = 0; r <= Directions; ++r) result.force(n, r) = step.force[r];
+      for (int r = 0; r < Directions; ++r) result.slip_force(n, 1 + r) = memory.slip_force[r];
+      result.slip_force(n, 0) = step.state == SampleState::separated ? prediction[(1 + Directions) * n] : 0;
+      result.state[static_cast<std::size_t>(n)] = step.state;
+      moved = moved || step.state != SampleState::stuck;
+      if (step.state == SampleState::separated || (Directions == 1 && step.state == SampleState::slipping)) {
+        reset = static_cast<long>(result.periods - 1) * samples + n;
+        reset_memory = memory;
+      }
+    }
+    double change = 0;
+    for (int r = 0; r < Directions; ++r)
+      change = std::max(change, std::abs(memory.slip_force[r] - before.slip_force[r]));
+    if (options.periodic && change <= options.tolerance * limit) {
+      result.status = Status::converged;
+      break;
+    }
+  }
+  result.periods = std::min(result.periods, periods);
+  result.always_stuck = !moved;
+
+  // Increments of X_T with trapezoidal normal forces; the sample before the first is the last one.
+  result.slip_distance = result.slip_load = 0;
+  result.friction_margin = kInfinity;
+  result.always_closed = result.always_separated = true;
+  for (int n = 0; n < samples; ++n) {
+    const bool separated = result.state[static_cast<std::size_t>(n)] == SampleState::separated;
+    result.always_closed = result.always_closed && !separated;
+    result.always_separated = result.always_separated && separated;
+    double square = 0, traction = 0;
+    for (int r = 0; r < Directions; ++r) {
+      const double previous = n > 0 ? result.slip_force(n - 1, 1 + r) : before.slip_force[r];
+      square += std::pow(result.slip_force(n, 1 + r) - previous, 2);
+      traction += std::pow(result.force(n, 1 + r), 2);
+    }
+    if (!separated)
+      result.friction_margin =
+          std::min(result.friction_margin, std::max(0.0, law.friction * result.force(n, 0) - std::sqrt(traction)));
+    const double load = (result.force(n, 0) + result.force((n + samples - 1) % samples, 0)) / 2;
+    if (load <= 0 || square <= 0) continue;
+    const double distance = std::sqrt(square) / law.tangential_penalty;
+    result.slip_distance += distance;
+    result.slip_load += load * distance;
+  }
+  if (result.always_separated) result.friction_margin = 0;
+  result.slip_end.setZero();
+  for (int r = 0; r < Directions; ++r) result.slip_end(r) = memory.slip_force[r] / law.tangential_penalty;
+}
+
+template <int Directions>
+void run(const Eigen::Ref<const Eigen::MatrixXd>& prediction, const NodeLaw& law, const numerics::FourierBasis& basis,
+         const MarchOptions& options, bool with_derivative, MarchResult& result) {
+  // Sample by sample in memory: the march visits all directions of a sample together.
+  const Eigen::Matrix<double, Eigen::Dynamic, 1 + Directions, Eigen::RowMajor> rows = prediction;
+  DerivativeStart start;
+  march_node<Directions>(rows.data(), law, basis.samples(), options, start, result);
+  if (with_derivative) differentiate<Directions>(rows.data(), law, basis, options.slip_return, start, result);
+}
+
+}  // namespace
+
+void march(const Eigen::Ref<const Eigen::MatrixXd>& prediction, const NodeLaw& law, const numerics::FourierBasis& basis,
+           const MarchOptions& options, bool with_derivative, MarchResult& result) {
+  const Eigen::Index directions = prediction.cols();
+  assert(directions == 2 || directions == 3);
+  assert(prediction.rows() == basis.samples());
+  result.force.resize(basis.samples(), directions);
+  result.slip_force.resize(basis.samples(), directions);
+  result.state.resize(static_cast<std::size_t>(basis.samples()));
+  if (directions == 2)
+    run<1>(prediction, law, basis, options, with_derivative, result);
+  else
+    run<2>(prediction, law, basis, options, with_derivative, result);
+}
+
+void carry_nothing(const Eigen::Ref<const Eigen::MatrixXd>& prediction, double tangential_penalty,
+                   Eigen::Index coefficients, MarchResult& result) {
+  const Eigen::Index d = prediction.cols(), m = d * coefficients, last = prediction.rows() - 1;
+  result = MarchResult{};
+  result.periods = 1;
+  result.force.setZero(prediction.rows(), d);
+  result.slip_force = prediction;
+  result.state.assign(static_cast<std::size_t>(prediction.rows()), SampleState::separated);
+  result.always_separated = true;
+  for (Eigen::Index r = 0; r + 1 < d; ++r) result.slip_end(r) = prediction(last, 1 + r) / tangential_penalty;
+  result.force_derivative.setZero(m, m);
+  result.slip_load_derivative.setZero(m);
+}
+
+}  // namespace dovetail::contact

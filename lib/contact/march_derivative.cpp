@@ -1,0 +1,195 @@
+#include <algorithm>
+#include <cmath>
+
+#include "contact/sample_step.hpp"
+
+namespace dovetail::contact {
+namespace {
+
+// Derivatives are rows over the coefficients of lambda_u, direction by direction while marching: index r K + k.
+template <int Directions>
+struct Tangent {
+  Eigen::MatrixXd slip_force;  // S = d lambda_x,T, column r, [m, d-1]
+  Eigen::MatrixXd previous;    // S of the sample before
+  Eigen::VectorXd angle;       // d angle [m]
+};
+
+// d lambda_x,T after a slip: d lambda_u,T - limit n d(angle) - mu t d lambda_u,N.
+template <int Directions>
+void slip_tangent(const Step& step, const Memory& before, const Memory& after, double friction, const double* row,
+                  Eigen::Index coefficients, Tangent<Directions>& tangent) {
+  const Eigen::Index k = coefficients;
+  if constexpr (Directions == 1) {
+    const double sign = std::copysign(1.0, step.trial[0]);
+    for (Eigen::Index j = 0; j < k; ++j) {
+      tangent.slip_force(j, 0) = -sign * friction * row[j];
+      tangent.slip_force(k + j, 0) = row[j];
+    }
+  } else {
+    double* s0 = tangent.slip_force.col(0).data();
+    double* s1 = tangent.slip_force.col(1).data();
+    double* angle = tangent.angle.data();
+    const Eigen::Index m = 3 * k;
+    // d(angle) = weight_0 d pre_0 + weight_1 d pre_1 + weight_N d lambda_N + keep d(angle before)
+    double w0 = 0, w1 = 0, wn = 0, keep = 0;
+    if (step.rotated) {
+      const double c = std::cos(before.angle), s = std::sin(before.angle);
+      const double along = c * step.trial[0] + s * step.trial[1], across = c * step.trial[1] - s * step.trial[0];
+      const double sum = step.limit + along, scale = 2 / (sum * sum + across * across);
+      w0 = scale * (-sum * s - across * c);
+      w1 = scale * (sum * c - across * s);
+      wn = -scale * across * friction;
+      keep = 1 + scale * (-sum * along - across * across);
+    } else {
+      const double square = step.trial[0] * step.trial[0] + step.trial[1] * step.trial[1];
+      if (square > 0) {
+        w0 = -step.trial[1] / square;
+        w1 = step.trial[0] / square;
+      }
+    }
+    for (Eigen::Index j = 0; j < m; ++j) angle[j] = keep * angle[j] - w0 * s0[j] - w1 * s1[j];
+    for (Eigen::Index j = 0; j < k; ++j) {
+      angle[j] += wn * row[j];
+      angle[k + j] += w0 * row[j];
+      angle[2 * k + j] += w1 * row[j];
+    }
+    const double t0 = std::cos(after.angle), t1 = std::sin(after.angle);
+    const double a0 = step.limit * t1, a1 = -step.limit * t0;
+    for (Eigen::Index j = 0; j < m; ++j) {
+      s0[j] = a0 * angle[j];
+      s1[j] = a1 * angle[j];
+    }
+    for (Eigen::Index j = 0; j < k; ++j) {
+      s0[j] -= friction * t0 * row[j];
+      s1[j] -= friction * t1 * row[j];
+      s0[k + j] += row[j];
+      s1[2 * k + j] += row[j];
+    }
+  }
+}
+
+template <int Directions>
+void separation_tangent(const double* row, Eigen::Index k, Tangent<Directions>& tangent) {
+  tangent.slip_force.setZero();
+  for (int r = 0; r < Directions; ++r)
+    for (Eigen::Index j = 0; j < k; ++j) tangent.slip_force((1 + r) * k + j, r) = row[j];
+}
+
+// D from direction-by-direction to coefficient-by-coefficient order of rows and columns.
+void reorder(const Eigen::MatrixXd& by_direction, Eigen::Index k, Eigen::Index d, Eigen::MatrixXd& result) {
+  result.resize(d * k, d * k);
+  for (Eigen::Index s = 0; s < d; ++s)
+    for (Eigen::Index l = 0; l < k; ++l)
+      for (Eigen::Index r = 0; r < d; ++r)
+        for (Eigen::Index j = 0; j < k; ++j) result(j * d + r, l * d + s) = by_direction(r * k + j, s * k + l);
+}
+
+}  // namespace
+
+template <int Directions>
+void differentiate(const double* prediction, const NodeLaw& law, const numerics::FourierBasis& basis, SlipReturn rule,
+                   const DerivativeStart& start, MarchResult& result) {
+  constexpr Eigen::Index d = 1 + Directions;
+  const Eigen::Index k = basis.coefficients(), m = d * k;
+  const int samples = basis.samples();
+  result.slip_load_derivative.setZero(m);
+  if (result.always_stuck) {
+    result.force_derivative.setIdentity(m, m);
+    return;
+  }
+  // Row n of the table, contiguous: columns of the transposed one.
+  const Eigen::MatrixXd rows = basis.synthesis_table().transpose();
+  const Eigen::MatrixXd& analysis = basis.analysis_table();
+  Tangent<Directions> tangent{.slip_force = Eigen::MatrixXd::Zero(m, Directions),
+                              .previous = Eigen::MatrixXd::Zero(m, Directions),
+                              .angle = Eigen::VectorXd::Zero(m)};
+  Memory memory = start.memory;
+  if (start.sample < 0) {
+    memory = {};
+    for (int r = 0; r < Directions; ++r) memory.slip_force[r] = law.tangential_penalty * law.slip_origin(r);
+  } else {
+    const auto n = static_cast<int>(start.sample % samples);
+    const double* row = rows.col(n).data();
+    if (prediction[d * n] > 0) {
+      if constexpr (Directions == 1) {
+        Step step;
+        step.state = SampleState::slipping;
+        // lambda_T = lambda_u,T - lambda_x,T points along the slip.
+        step.trial[0] = prediction[d * n + 1] - memory.slip_force[0];
+        slip_tangent<Directions>(step, memory, memory, law.friction, row, k, tangent);
+      }
+    } else {
+      separation_tangent<Directions>(row, k, tangent);
+    }
+  }
+
+  // lambda_T = lambda_u,T - lambda_x,T: D_T = I - sum_n a_n S_n, with S constant while the node sticks, so one product
+  // over the runs of constant S is enough.
+  Eigen::MatrixXd run_weights(k, samples + 1), run_slopes(m * Directions, samples + 1);
+  Eigen::Index runs = 0;
+  Eigen::VectorXd weight = Eigen::VectorXd::Zero(k);
+  const auto close_run = [&] {
+    run_weights.col(runs) = weight;
+    Eigen::Map<Eigen::MatrixXd>(run_slopes.col(runs).data(), m, Directions) = tangent.slip_force;
+    ++runs;
+    weight.setZero();
+  };
+  Eigen::MatrixXd derivative = Eigen::MatrixXd::Identity(m, m);
+  Eigen::VectorXd load_slope = Eigen::VectorXd::Zero(m);
+  const long last = static_cast<long>(result.periods) * samples;
+  const long last_period = last - samples;
+  for (long i = start.sample + 1; i < last; ++i) {
+    const auto n = static_cast<int>(i % samples);
+    const bool counts = i >= last_period;
+    const double* row = rows.col(n).data();
+    const Memory before = memory;
+    const Step step = sample_step<Directions>(prediction + d * n, law.friction, rule, memory);
+    const bool changes = step.state != SampleState::stuck;
+    if (changes) {
+      if (counts) {
+        close_run();
+        tangent.previous = tangent.slip_force;
+      }
+      if (step.state == SampleState::separated)
+        separation_tangent<Directions>(row, k, tangent);
+      else
+        slip_tangent<Directions>(step, before, memory, law.friction, row, k, tangent);
+    }
+    if (!counts) continue;
+    weight += analysis.col(n);
+    if (step.state == SampleState::separated)
+      derivative.topLeftCorner(k, k).noalias() -= analysis.col(n) * rows.col(n).transpose();
+    if (!changes) continue;
+    const int earlier = (n + samples - 1) % samples;
+    const bool loaded_before = prediction[d * earlier] > 0, loaded = prediction[d * n] > 0;
+    const double load = (result.force(n, 0) + result.force(earlier, 0)) / 2;
+    double delta[2] = {0, 0}, square = 0;
+    for (int r = 0; r < Directions; ++r) {
+      delta[r] = memory.slip_force[r] - before.slip_force[r];
+      square += delta[r] * delta[r];
+    }
+    if (load <= 0 || square <= 0) continue;
+    const double length = std::sqrt(square);
+    for (int r = 0; r < Directions; ++r)
+      load_slope += (load * delta[r] / length) * (tangent.slip_force.col(r) - tangent.previous.col(r));
+    if (loaded) load_slope.head(k) += (length / 2) * rows.col(n);
+    if (loaded_before) load_slope.head(k) += (length / 2) * rows.col(earlier);
+  }
+  close_run();
+
+  const Eigen::MatrixXd product = run_weights.leftCols(runs) * run_slopes.leftCols(runs).transpose();
+  for (int r = 0; r < Directions; ++r) derivative.middleRows((1 + r) * k, k) -= product.middleCols(r * m, m);
+  // Analysis times synthesis is the identity only to rounding: where nothing separates, say so exactly.
+  if (result.always_separated) derivative.setZero();
+  reorder(derivative, k, d, result.force_derivative);
+  for (Eigen::Index r = 0; r < d; ++r)
+    for (Eigen::Index j = 0; j < k; ++j)
+      result.slip_load_derivative(j * d + r) = load_slope(r * k + j) / law.tangential_penalty;
+}
+
+template void differentiate<1>(const double*, const NodeLaw&, const numerics::FourierBasis&, SlipReturn,
+                               const DerivativeStart&, MarchResult&);
+template void differentiate<2>(const double*, const NodeLaw&, const numerics::FourierBasis&, SlipReturn,
+                               const DerivativeStart&, MarchResult&);
+
+}  // namespace dovetail::contact

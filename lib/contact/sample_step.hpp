@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cmath>
+
+#include "contact/march.hpp"
+
+namespace dovetail::contact {
+
+/// State of a node between two samples: lambda_x,T and the direction of the last slip.
+struct Memory {
+  double slip_force[2] = {0, 0};  ///< lambda_x,T, N
+  double angle = 0;               ///< of lambda_T at the last slip (two tangential directions)
+  bool slipped = false;           ///< at the last sample
+};
+
+/// What one sample did.
+struct Step {
+  SampleState state = SampleState::separated;
+  double force[3] = {0, 0, 0};  ///< lambda
+  bool rotated = false;         ///< the second-order return was used
+  double trial[2] = {0, 0};     ///< pre_T
+  double limit = 0;             ///< mu lambda_N
+};
+
+/// One sample of the contact law for `Directions` tangential directions; updates `memory`.
+template <int Directions>
+inline Step sample_step(const double* prediction, double friction, SlipReturn rule, Memory& memory) {
+  Step step;
+  const double normal = prediction[0];
+  if (!(normal > 0)) {
+    for (int r = 0; r < Directions; ++r) memory.slip_force[r] = prediction[1 + r];
+    memory.slipped = false;
+    return step;
+  }
+  step.force[0] = normal;
+  step.limit = friction * normal;
+  double square = 0;
+  for (int r = 0; r < Directions; ++r) {
+    step.trial[r] = prediction[1 + r] - memory.slip_force[r];
+    square += step.trial[r] * step.trial[r];
+  }
+  if (friction > 0 && square <= step.limit * step.limit) {
+    for (int r = 0; r < Directions; ++r) step.force[1 + r] = step.trial[r];
+    step.state = SampleState::stuck;
+    memory.slipped = false;
+    return step;
+  }
+  step.state = SampleState::slipping;
+  if constexpr (Directions == 1) {
+    step.force[1] = std::copysign(step.limit, step.trial[0]);
+  } else {
+    const double along = std::cos(memory.angle) * step.trial[0] + std::sin(memory.angle) * step.trial[1];
+    const double across = std::cos(memory.angle) * step.trial[1] - std::sin(memory.angle) * step.trial[0];
+    // A slip that reverses has no rotation to follow; the first-order return takes it.
+    if (rule == SlipReturn::second_order && memory.slipped && along > 0) {
+      step.rotated = true;
+      memory.angle += 2 * std::atan2(across, step.limit + along);
+    } else {
+      memory.angle = std::atan2(step.trial[1], step.trial[0]);
+    }
+    step.force[1] = step.limit * std::cos(memory.angle);
+    step.force[2] = step.limit * std::sin(memory.angle);
+  }
+  for (int r = 0; r < Directions; ++r) memory.slip_force[r] = prediction[1 + r] - step.force[1 + r];
+  memory.slipped = true;
+  return step;
+}
+
+/// Where the derivative pass may start: after the last sample before the last period that forgot all history, or
+/// at the very beginning.
+struct DerivativeStart {
+  long sample = -1;  ///< absolute index of that sample; -1: the beginning
+  Memory memory;     ///< after it
+};
+
+/// Differentiates the march from `start` to the end of period `result.periods`.
+template <int Directions>
+void differentiate(const double* prediction, const NodeLaw& law, const numerics::FourierBasis& basis, SlipReturn rule,
+                   const DerivativeStart& start, MarchResult& result);
+
+}  // namespace dovetail::contact

@@ -1,0 +1,57 @@
+#include "numerics/dense_lu.hpp"
+
+#include <cblas.h>
+#include <lapacke.h>
+
+#include <cassert>
+
+namespace dovetail::numerics {
+
+void set_blas_threads(int threads) {
+  openblas_set_num_threads(threads);
+}
+
+void DenseLu::factorise(Eigen::MatrixXd matrix) {
+  assert(matrix.rows() == matrix.cols());
+  factors_ = std::move(matrix);
+  status_ = Status::converged;
+  const auto n = static_cast<lapack_int>(factors_.rows());
+  pivots_.resize(static_cast<std::size_t>(n));
+  if (n == 0) return;
+  one_norm_ = factors_.cwiseAbs().colwise().sum().maxCoeff();
+  if (!factors_.allFinite()) {
+    status_ = Status::not_finite;
+    return;
+  }
+  const lapack_int info = LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, n, n, factors_.data(), n, pivots_.data());
+  if (info != 0) status_ = Status::singular;
+}
+
+Eigen::MatrixXd DenseLu::solve_with(char transposed, Eigen::MatrixXd right_hand_side) const {
+  assert(status_ == Status::converged && right_hand_side.rows() == size());
+  const auto n = static_cast<lapack_int>(size());
+  const auto m = static_cast<lapack_int>(right_hand_side.cols());
+  if (n == 0 || m == 0) return right_hand_side;
+  LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, transposed, n, m, factors_.data(), n, pivots_.data(), right_hand_side.data(),
+                      n);
+  return right_hand_side;
+}
+
+Eigen::MatrixXd DenseLu::solve(Eigen::MatrixXd right_hand_side) const {
+  return solve_with('N', std::move(right_hand_side));
+}
+
+Eigen::MatrixXd DenseLu::solve_transposed(Eigen::MatrixXd right_hand_side) const {
+  return solve_with('T', std::move(right_hand_side));
+}
+
+double DenseLu::reciprocal_condition() const {
+  if (status_ != Status::converged) return 0;
+  if (size() == 0) return 1;
+  double reciprocal = 0;
+  const auto n = static_cast<lapack_int>(size());
+  LAPACKE_dgecon(LAPACK_COL_MAJOR, '1', n, factors_.data(), n, one_norm_, &reciprocal);
+  return reciprocal;
+}
+
+}  // namespace dovetail::numerics

@@ -1,0 +1,93 @@
+#include "numerics/newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <limits>
+
+namespace dovetail::numerics {
+namespace {
+
+struct Search {
+  Eigen::VectorXd x, residual;
+  double norm = std::numeric_limits<double>::infinity();
+  double fraction = 0;
+  bool sufficient = false;
+};
+
+// Backtracks from the full step; the minimiser of the quadratic through |r|^2 at 0 (slope -2 |r|^2) and at t guides
+// the next fraction. Keeps the best point in case none decreases enough.
+Search backtrack(const NewtonSystem& system, const Eigen::VectorXd& x, const Eigen::VectorXd& step, double norm,
+                 double reference, double first, const NewtonParams& params, NewtonStats& stats) {
+  Search best;
+  for (double t = first; t >= params.smallest_step * first;) {
+    const Eigen::VectorXd candidate = x + t * step;
+    Eigen::VectorXd residual = system.residual(candidate);
+    ++stats.evaluations;
+    const double trial = residual.norm();
+    if (std::isfinite(trial) && trial < best.norm)
+      best = {.x = candidate, .residual = std::move(residual), .norm = trial, .fraction = t, .sufficient = false};
+    if (std::isfinite(trial) && trial <= (1 - params.decrease * t) * reference) {
+      best.sufficient = true;
+      return best;
+    }
+    const double ratio = std::isfinite(trial) ? (trial / norm) * (trial / norm) : 1e4;
+    t *= std::clamp(t / (ratio - 1 + 2 * t), 0.1, 0.5);
+  }
+  return best;
+}
+
+}  // namespace
+
+NewtonStats newton(const NewtonSystem& system, Eigen::VectorXd& x, const NewtonParams& params) {
+  NewtonStats stats;
+  Eigen::VectorXd residual = system.residual(x);
+  ++stats.evaluations;
+  double norm = residual.norm();
+  Eigen::VectorXd best_x = x;
+  double best_norm = norm;
+  std::deque<double> recent{norm};
+  int failed = 0;
+  Eigen::VectorXd step;
+  const auto finish = [&](Status status) {
+    stats.status = status;
+    stats.residual = best_norm;
+    x = best_x;
+    return stats;
+  };
+  if (!std::isfinite(norm)) return finish(Status::not_finite);
+  while (norm > params.tolerance) {
+    if (stats.iterations >= params.max_iterations) return finish(Status::iteration_limit);
+    if (const Status solved = system.newton_step(step); solved != Status::converged) return finish(solved);
+    ++stats.iterations;
+    if (!step.allFinite()) return finish(Status::not_finite);
+    const double largest = step.cwiseAbs().maxCoeff();
+    const double first = params.max_step > 0 && largest > params.max_step ? params.max_step / largest : 1.0;
+    const double reference = *std::max_element(recent.begin(), recent.end());
+    Search found = backtrack(system, x, step, norm, reference, first, params, stats);
+    if (!std::isfinite(found.norm)) return finish(Status::not_finite);
+    if (!found.sufficient) {
+      // At a kink the Newton direction of one side may not descend at all; a few such steps leave it behind.
+      if (++failed > params.max_failed_searches) return finish(Status::stalled);
+      recent.clear();
+    }
+    stats.reduction = found.norm / norm;
+    x = found.x;
+    norm = found.norm;
+    recent.push_back(norm);
+    if (static_cast<int>(recent.size()) > params.memory) recent.pop_front();
+    if (norm < best_norm) {
+      best_norm = norm;
+      best_x = x;
+    }
+    if (system.accepted && !system.accepted(stats.iterations, norm)) return finish(Status::interrupted);
+    // newton_step works on the last point evaluated, which after a failed search is not the one accepted.
+    if (norm > params.tolerance && !found.sufficient) {
+      residual = system.residual(x);
+      ++stats.evaluations;
+    }
+  }
+  return finish(Status::converged);
+}
+
+}  // namespace dovetail::numerics

@@ -1,0 +1,86 @@
+#include "response/preload.hpp"
+
+#include "response/real_block.hpp"
+#include "response/solve.hpp"
+
+namespace dovetail::response {
+namespace {
+
+struct Level {
+  Status status = Status::iteration_limit;
+  int iterations = 0;
+  Eigen::MatrixXd displacement;
+  ResidualState state;
+};
+
+// The contact problem of harmonic 0 at one load level, with the slip of the level before.
+Level solve_level(const std::shared_ptr<const CondensedModel>& model, double scale, const ContactCondition& condition,
+                  const PreloadOptions& options, const Eigen::MatrixXd& start) {
+  const auto system = std::make_shared<const HarmonicSystem>(harmonic_system(*model, 0, 0, scale));
+  Level level;
+  level.status = system->status;
+  if (level.status != Status::converged) return level;
+  const contact::PseudoPenalty penalty = contact::pseudo_penalty(model->local_stiffness(), model->directions(),
+                                                                 options.normal_penalty, options.tangential_penalty);
+  for (const double ratio : contact::kPenaltyCascade) {
+    const SteadyResidual residual(model, system, numerics::FourierBasis(0, 1), penalty.scaled(ratio), condition,
+                                  {.periodic = false});
+    for (const bool closed : {false, true}) {
+      if (!closed && start.size() == 0) continue;
+      Attempt attempt = solve(residual, closed ? residual.closed_start() : start, Method::newton, options.tolerance,
+                              options.max_iterations);
+      level.iterations += attempt.iterations;
+      level.status = attempt.status;
+      level.displacement = std::move(attempt.displacement);
+      if (level.status != Status::converged) continue;
+      residual.evaluate(level.displacement, false, level.state);
+      return level;
+    }
+  }
+  return level;
+}
+
+}  // namespace
+
+Preload quasi_static(const std::shared_ptr<const CondensedModel>& model, const PreloadOptions& options,
+                     const Eigen::VectorXd& wear_depth) {
+  if (std::vector<Violation> found = violations(options); !found.empty()) throw InputError(std::move(found));
+  const Eigen::Index nodes = model->nodes(), d = model->directions();
+  const reduction::ContactNodes& contact = model->contact();
+  ContactCondition condition{.wear_depth = wear_depth, .released = {}, .slip_origin = contact.slip_origin};
+  Preload preload;
+  preload.slip_origin = contact.slip_origin;
+  Eigen::MatrixXd displacement;
+  ResidualState state;
+  // An interference fit presses before any load does. Without one there is nothing to solve at load zero.
+  const bool pressed = nodes > 0 && contact.gap.minCoeff() < 0;
+  for (int step = pressed ? 0 : 1; step <= options.steps; ++step) {
+    const double scale = static_cast<double>(step) / options.steps;
+    Level level = solve_level(model, scale, condition, options, displacement);
+    preload.iterations += level.iterations;
+    preload.status = level.status;
+    if (level.status != Status::converged) {
+      if (step == 0) continue;
+      return preload;
+    }
+    displacement = level.displacement;
+    state = std::move(level.state);
+    for (Eigen::Index i = 0; i < nodes; ++i)
+      condition.slip_origin.row(i) = state.nodes[static_cast<std::size_t>(i)].slip_end.head(d - 1).transpose();
+  }
+  preload.displacement = displacement;
+  preload.force = state.force;
+  preload.slip_origin = condition.slip_origin;
+  preload.pressure.resize(nodes);
+  preload.friction_use = Eigen::VectorXd::Zero(nodes);
+  for (Eigen::Index i = 0; i < nodes; ++i) {
+    const double normal = preload.force(i * d), limit = contact.friction(i) * normal;
+    preload.pressure(i) = normal / contact.area(i);
+    if (limit > 0) preload.friction_use(i) = preload.force.segment(i * d + 1, d - 1).norm() / limit;
+  }
+  const HarmonicStiffness at = model->harmonic(0, 0, false);
+  preload.full_displacement = model->recover(at, preload.displacement.cast<std::complex<double>>()).real();
+  return preload;
+}
+
+}  // namespace dovetail::response

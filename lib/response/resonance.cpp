@@ -1,0 +1,190 @@
+#include "response/resonance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <optional>
+
+#include "response/amplitude.hpp"
+#include "response/real_block.hpp"
+
+namespace dovetail::response {
+namespace {
+
+// Fourier coefficients of one output and their total derivative with respect to omega.
+struct OutputSlope {
+  Eigen::VectorXd value, slope;
+};
+
+OutputSlope output_slope(const SteadyState& state, Eigen::Index output) {
+  const SteadyResidual& residual = state.linearisation->residual();
+  const CondensedModel& model = residual.model();
+  const Eigen::MatrixXd response = state.linearisation->response_to_frequency();
+  Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(state.outputs.rows(), state.outputs.cols());
+  for (std::size_t h = 0; h < residual.system().harmonics.size(); ++h) {
+    const HarmonicStiffness& at = residual.system().harmonics[h];
+    const auto j = static_cast<Eigen::Index>(h);
+    const Eigen::VectorXcd change =
+        model.output_gradient(at) * harmonic_of(response, j) +
+        model.output_slope(static_cast<int>(h), state.omega, at, harmonic_of(state.displacement, j));
+    put_harmonic(change, j, slope);
+  }
+  return {.value = state.outputs.row(output).transpose(), .slope = slope.row(output).transpose()};
+}
+
+// A point of the response curve near its peak.
+struct Point {
+  double omega = 0, amplitude = 0, slope = 0;
+  std::complex<double> pole;  // of the one-mode model 1/Y = (pole - omega)/R through this point
+  SteadyState state;
+};
+
+class PeakSearch {
+ public:
+  PeakSearch(const std::shared_ptr<const CondensedModel>& model, const ContactCondition& condition,
+             const SteadyOptions& options, const ResonanceOptions& peak)
+      : model_(model), condition_(condition), options_(options), peak_(peak) {
+    options_.linearise = true;
+  }
+
+  // The response at omega, continued from the last point; halves the way when that does not converge.
+  bool go(double omega) {
+    for (int halving = 0; halving < 8 && result_.solves < peak_.max_solves; ++halving) {
+      Eigen::MatrixXd guess = guess_;
+      if (now_.state.linearisation)
+        guess = now_.state.displacement + (omega - now_.omega) * now_.state.linearisation->response_to_frequency();
+      SteadyState state = steady_state(model_, omega, condition_, options_, guess);
+      ++result_.solves;
+      result_.jacobians += state.iterations;
+      last_status_ = state.status == Status::converged && !state.linearisation ? Status::singular : state.status;
+      if (last_status_ == Status::converged) {
+        accept(std::move(state));
+        return true;
+      }
+      if (!now_.state.linearisation) return false;
+      omega = (omega + now_.omega) / 2;
+    }
+    return false;
+  }
+
+  Resonance run(double start, const Eigen::MatrixXd& guess) {
+    guess_ = guess;
+    const double lowest = start * (1 - peak_.search_range), highest = start * (1 + peak_.search_range);
+    bool reached = go(start);
+    // At an undamped glued resonance the condensed stiffness has a pole: step beside it.
+    for (int i = 1; !reached && i <= 4; ++i) reached = go(start * (1 + 1e-6 * std::pow(10, i - 1) * (i % 2 ? 1 : -1)));
+    if (!reached) return finish(last_status_);
+    double before = 0, slope_before = 0;
+    bool has_before = false;
+    while (result_.solves < peak_.max_solves) {
+      double step = predicted_step(has_before, before, slope_before);
+      if (std::abs(step) <= 0.2 * peak_.frequency_tolerance * now_.omega && curved_down_)
+        return finish(Status::converged);
+      if (lower_ && upper_) {
+        if (*upper_ - *lower_ <= peak_.frequency_tolerance * now_.omega) return finish(Status::converged);
+        const double target = now_.omega + step;
+        if (!(target > *lower_ && target < *upper_) || stalling()) step = (*lower_ + *upper_) / 2 - now_.omega;
+      }
+      const double target = std::clamp(now_.omega + step, lowest, highest);
+      if (target == now_.omega) return finish(Status::no_bracket);
+      before = now_.omega;
+      slope_before = now_.slope / now_.amplitude;
+      has_before = true;
+      if (!go(target)) return finish(result_.solves >= peak_.max_solves ? Status::iteration_limit : last_status_);
+    }
+    return finish(Status::iteration_limit);
+  }
+
+ private:
+  void accept(SteadyState state) {
+    const AmplitudeSlope at = amplitude_slope(state, peak_.output);
+    const OutputSlope first = output_slope(state, peak_.output);
+    now_.omega = state.omega;
+    now_.amplitude = at.amplitude;
+    now_.slope = at.slope;
+    const std::complex<double> y(first.value(1), -first.value(2)), dy(first.slope(1), -first.slope(2));
+    now_.pole = dy != 0.0 ? now_.omega + y / dy : std::complex<double>(now_.omega, 1e-3 * now_.omega);
+    now_.state = std::move(state);
+    if (now_.slope > 0 && (!lower_ || now_.omega > *lower_)) lower_ = now_.omega;
+    if (now_.slope <= 0 && (!upper_ || now_.omega < *upper_)) upper_ = now_.omega;
+    // Two peaks, or a fold, can cross the marks: keep the newest one.
+    if (lower_ && upper_ && *lower_ >= *upper_) (now_.slope > 0 ? upper_ : lower_).reset();
+    widths_.push_back(lower_ && upper_ ? *upper_ - *lower_ : kInfinity);
+  }
+
+  // Far away towards the pole of the one-mode model, near by along the secant of the logarithmic slope.
+  double predicted_step(bool has_before, double before, double slope_before) {
+    const double width = std::max(std::abs(now_.pole.imag()), 1e-9 * now_.omega);
+    const double to_pole = now_.pole.real() - now_.omega;
+    const double slope = now_.slope / now_.amplitude;
+    curved_down_ = false;
+    if (std::abs(to_pole) > 0.5 * width && !(lower_ && upper_)) {
+      const double limit = 0.05 * now_.omega;
+      double step = std::clamp(to_pole, -limit, limit);
+      // The slope knows better on which side the maximum is.
+      if ((step > 0) != (now_.slope > 0)) step = std::copysign(std::min(2 * width, limit), now_.slope);
+      return step;
+    }
+    double curvature = -1 / (width * width);
+    if (has_before && before != now_.omega) {
+      const double secant = (slope - slope_before) / (now_.omega - before);
+      if (secant < 0) curvature = secant;
+    }
+    curved_down_ = true;
+    return std::clamp(-slope / curvature, -4 * width, 4 * width);
+  }
+
+  // Three points without halving the bracket: the slope has a kink there, so bisect.
+  [[nodiscard]] bool stalling() const {
+    const std::size_t n = widths_.size();
+    return n > 3 && widths_[n - 1] > 0.5 * widths_[n - 4];
+  }
+
+  Resonance finish(Status status) {
+    result_.status = status;
+    result_.omega = now_.omega;
+    result_.amplitude = now_.amplitude;
+    result_.slope = now_.slope;
+    result_.state = std::move(now_.state);
+    return std::move(result_);
+  }
+
+  const std::shared_ptr<const CondensedModel>& model_;
+  const ContactCondition& condition_;
+  SteadyOptions options_;
+  const ResonanceOptions& peak_;
+  Eigen::MatrixXd guess_;
+  Point now_;
+  Resonance result_;
+  Status last_status_ = Status::no_bracket;
+  std::optional<double> lower_, upper_;
+  std::vector<double> widths_;
+  bool curved_down_ = false;
+};
+
+}  // namespace
+
+AmplitudeSlope amplitude_slope(const SteadyState& state, Eigen::Index output) {
+  const OutputSlope slope = output_slope(state, output);
+  const Extremes ends = extremes(slope.value);
+  // The extremes are stationary in time: only the coefficients move them, to first order.
+  const Eigen::Index k = slope.value.size();
+  const double change = (fourier_row(ends.tau_maximum, k) - fourier_row(ends.tau_minimum, k)).dot(slope.slope) / 2;
+  return {.amplitude = ends.amplitude(), .slope = change};
+}
+
+Resonance resonance(const std::shared_ptr<const CondensedModel>& model, double omega_start,
+                    const ContactCondition& condition, const SteadyOptions& options,
+                    const ResonanceOptions& resonance_options, const Eigen::MatrixXd& guess) {
+  std::vector<Violation> found = violations(resonance_options);
+  const auto outputs = static_cast<int>(model->output_names().size());
+  if (resonance_options.output >= outputs)
+    found.push_back({.file = {},
+                     .key = "output",
+                     .value = std::to_string(resonance_options.output),
+                     .allowed = "must be < " + std::to_string(outputs)});
+  if (!found.empty()) throw InputError(std::move(found));
+  return PeakSearch(model, condition, options, resonance_options).run(omega_start, guess);
+}
+
+}  // namespace dovetail::response

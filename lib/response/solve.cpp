@@ -1,0 +1,86 @@
+#include "response/solve.hpp"
+
+#include <algorithm>
+
+#include "numerics/newton.hpp"
+#include "numerics/powell.hpp"
+#include "response/linearisation.hpp"
+
+namespace dovetail::response {
+namespace {
+
+// Residuals are forces relative to the excitation; unknowns are penalty forces eps U relative to it. Both are O(1).
+struct Scaled {
+  const SteadyResidual& problem;
+  Eigen::VectorXd unit;  // displacement per unit unknown, vec(U)
+  double force = 1;
+  ResidualState state;
+
+  explicit Scaled(const SteadyResidual& residual)
+      : problem(residual), unit(residual.unknowns()), force(residual.system().force_scale) {
+    const Eigen::Index nc = residual.model().contact_size();
+    for (Eigen::Index j = 0; j < unit.size(); ++j) unit(j) = force / residual.penalty_of(j % nc);
+  }
+  [[nodiscard]] Eigen::MatrixXd displacement(const Eigen::VectorXd& x) const {
+    const Eigen::VectorXd u = unit.cwiseProduct(x);
+    return u.reshaped(problem.model().contact_size(), problem.basis().coefficients());
+  }
+  Eigen::VectorXd residual(const Eigen::VectorXd& x) {
+    problem.evaluate(displacement(x), false, state);
+    return state.residual.reshaped() / force;
+  }
+  Status newton_step(Eigen::VectorXd& step) {
+    const Eigen::MatrixXd at = state.displacement;
+    problem.evaluate(at, true, state);
+    const Linearisation linear(problem, state);
+    if (linear.status() != Status::converged) return linear.status();
+    step = linear.solve(-state.residual.reshaped()).cwiseQuotient(unit);
+    return Status::converged;
+  }
+  Eigen::MatrixXd jacobian(const Eigen::VectorXd& x) {
+    problem.evaluate(displacement(x), true, state);
+    return problem.jacobian(state) * (unit / force).asDiagonal();
+  }
+};
+
+// What is left of forces after cancellation: a few units in the last place of the largest terms of f.
+double rounding_floor(const Scaled& scaled) {
+  return 4e-15 * (scaled.problem.system().force.norm() + scaled.state.prediction.norm()) / scaled.force;
+}
+
+}  // namespace
+
+Attempt solve(const SteadyResidual& residual, const Eigen::MatrixXd& start, Method method, double tolerance,
+              int max_iterations) {
+  Scaled scaled(residual);
+  Eigen::VectorXd x = Eigen::VectorXd(start.reshaped()).cwiseQuotient(scaled.unit);
+  scaled.residual(x);
+  const double goal = std::max(tolerance, rounding_floor(scaled));
+  Attempt attempt;
+  if (method == Method::newton) {
+    const numerics::NewtonSystem system{.residual = [&](const Eigen::VectorXd& at) { return scaled.residual(at); },
+                                        .newton_step = [&](Eigen::VectorXd& step) { return scaled.newton_step(step); }};
+    const numerics::NewtonStats stats =
+        numerics::newton(system, x, {.tolerance = goal, .max_iterations = max_iterations});
+    attempt = {.status = stats.status,
+               .iterations = stats.iterations,
+               .evaluations = stats.evaluations,
+               .residual = stats.residual,
+               .displacement = {}};
+  } else {
+    const numerics::ResidualFunction function = [&](const Eigen::VectorXd& at) { return scaled.residual(at); };
+    numerics::JacobianFunction jacobian = {};
+    if (method == Method::powell) jacobian = [&](const Eigen::VectorXd& at) { return scaled.jacobian(at); };
+    const numerics::PowellStats stats =
+        numerics::powell(function, jacobian, x, {.tolerance = goal, .max_evaluations = 20 * max_iterations});
+    attempt = {.status = stats.status,
+               .iterations = stats.jacobians,
+               .evaluations = stats.evaluations,
+               .residual = stats.residual,
+               .displacement = {}};
+  }
+  attempt.displacement = scaled.displacement(x);
+  return attempt;
+}
+
+}  // namespace dovetail::response

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "response/residual.hpp"
+
+namespace dovetail::response {
+
+/// One attempt to solve f(U) = 0 with one method, pseudo-penalty and start.
+struct Attempt {
+  Status status = Status::iteration_limit;
+  int iterations = 0;   ///< Jacobians
+  int evaluations = 0;  ///< residuals
+  double residual = 0;  ///< |f| / force scale
+  Eigen::MatrixXd displacement;
+};
+
+enum class Method { newton, powell, powell_fd };
+
+/// `tolerance` is relative to the excitation; it is raised to what rounding of the forces leaves when that is more.
+[[nodiscard]] Attempt solve(const SteadyResidual& residual, const Eigen::MatrixXd& start, Method method,
+                            double tolerance, int max_iterations);
+
+}  // namespace dovetail::response

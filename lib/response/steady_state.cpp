@@ -1,0 +1,126 @@
+#include "response/steady_state.hpp"
+
+#include <string>
+
+#include "response/solve.hpp"
+#include "response/summary.hpp"
+
+namespace dovetail::response {
+namespace {
+
+contact::MarchOptions march_options(const SteadyOptions& options) {
+  return {.slip_return = options.slip_return == "second_order" ? contact::SlipReturn::second_order
+                                                               : contact::SlipReturn::first_order,
+          .periodic = true,
+          .max_periods = options.max_periods,
+          .tolerance = options.periodic_tolerance};
+}
+
+// Everything tried for one steady state, in order, until something converges.
+class Search {
+ public:
+  Search(const std::shared_ptr<const CondensedModel>& model, std::shared_ptr<const HarmonicSystem> system,
+         const ContactCondition& condition, const SteadyOptions& options)
+      : model_(model),
+        system_(std::move(system)),
+        condition_(condition),
+        options_(options),
+        basis_(options.harmonics, options.samples) {}
+
+  [[nodiscard]] SteadyResidual problem(double ratio) const {
+    const contact::PseudoPenalty penalty = contact::pseudo_penalty(
+        model_->local_stiffness(), model_->directions(), options_.normal_penalty, options_.tangential_penalty);
+    return {
+        model_, system_, basis_, penalty.scaled(ratio * options_.penalty_scale), condition_, march_options(options_)};
+  }
+
+  // Tries one start; true when it converged. Keeps the attempt if it is the best so far.
+  bool attempt(double ratio, const Eigen::MatrixXd& start, Method method) {
+    const SteadyResidual residual = problem(ratio);
+    Attempt found = solve(residual, start.size() > 0 ? start : residual.closed_start(), method, options_.tolerance,
+                          options_.max_iterations);
+    iterations_ += found.iterations;
+    evaluations_ += found.evaluations;
+    if (found.status == Status::converged || best_.displacement.size() == 0 || found.residual < best_.residual) {
+      best_ = std::move(found);
+      ratio_ = ratio;
+      return best_.status == Status::converged;
+    }
+    return false;
+  }
+
+  void run(const Eigen::MatrixXd& guess) {
+    const Method first = options_.solver == "powell"      ? Method::powell
+                         : options_.solver == "powell_fd" ? Method::powell_fd
+                                                          : Method::newton;
+    if (guess.size() > 0 && attempt(1, guess, first)) return;
+    if (attempt(1, {}, first)) return;
+    if (!options_.penalty_cascade) return;
+    for (const double ratio : contact::kPenaltyCascade) {
+      if (ratio == 1 || !attempt(ratio, {}, first)) continue;
+      // The answer depends slightly on eps: from this one the most accurate eps is often within reach.
+      const Attempt fallback = best_;
+      if (!attempt(1, fallback.displacement, first)) {
+        best_ = fallback;
+        ratio_ = ratio;
+      }
+      return;
+    }
+    if (options_.solver == "auto") attempt(1, {}, Method::powell);
+  }
+
+  [[nodiscard]] SteadyState result() const {
+    const SteadyResidual residual = problem(ratio_);
+    ResidualState state;
+    residual.evaluate(best_.displacement, options_.linearise, state);
+    SteadyState steady;
+    summarise(residual, state, steady);
+    steady.iterations = iterations_;
+    steady.evaluations = evaluations_;
+    steady.penalty_ratio = ratio_;
+    steady.status = best_.status;
+    if (steady.status == Status::converged && state.status != Status::converged) steady.status = state.status;
+    if (steady.status != Status::converged || !options_.linearise) return steady;
+    auto linear = std::make_shared<const Linearisation>(residual, std::move(state));
+    if (linear->status() == Status::converged && !linear->regularised()) steady.linearisation = std::move(linear);
+    return steady;
+  }
+
+ private:
+  std::shared_ptr<const CondensedModel> model_;
+  std::shared_ptr<const HarmonicSystem> system_;
+  const ContactCondition& condition_;
+  const SteadyOptions& options_;
+  numerics::FourierBasis basis_;
+  Attempt best_;
+  double ratio_ = 1;
+  int iterations_ = 0, evaluations_ = 0;
+};
+
+}  // namespace
+
+SteadyState steady_state(const std::shared_ptr<const CondensedModel>& model, double omega,
+                         const ContactCondition& condition, const SteadyOptions& options,
+                         const Eigen::MatrixXd& guess) {
+  validate(options);
+  if (!kPositive.contains(omega))
+    throw InputError({.file = {}, .key = "omega", .value = shortest(omega), .allowed = kPositive.phrase()});
+  const Eigen::Index columns = 2 * options.harmonics + 1;
+  if (guess.size() > 0 && (guess.rows() != model->contact_size() || guess.cols() != columns))
+    throw InputError({.file = {},
+                      .key = "guess",
+                      .value = std::to_string(guess.rows()) + " x " + std::to_string(guess.cols()),
+                      .allowed = "must be " + std::to_string(model->contact_size()) + " x " + std::to_string(columns)});
+  auto system = std::make_shared<const HarmonicSystem>(harmonic_system(*model, options.harmonics, omega));
+  if (system->status != Status::converged) {
+    SteadyState steady;
+    steady.status = system->status;
+    steady.omega = omega;
+    return steady;
+  }
+  Search search(model, std::move(system), condition, options);
+  search.run(guess);
+  return search.result();
+}
+
+}  // namespace dovetail::response
