@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/errors.hpp"
 #include "geometry/size_field.hpp"
 #include "geometry/triangulation.hpp"
 
@@ -47,10 +48,20 @@ std::vector<double> graded_parts(double from, double to, double length, const Po
   return fractions;
 }
 
+const Chain& finite(const Chain& chain) {
+  for (const Edge& e : chain)
+    if (!std::isfinite(e.length()) || !e.start.allFinite())
+      throw InputError({.file = {}, .key = "profile", .value = e.name, .allowed = "must be of finite length"});
+  return chain;
+}
+
 class Builder {
  public:
   Builder(const Chain& chain, const MeshSizes& sizes)
-      : chain_(chain), sizes_(sizes), size_(element_sizes(chain, sizes)), edges_(static_cast<int>(chain.size())) {
+      : chain_(finite(chain)),
+        sizes_(sizes),
+        size_(element_sizes(chain_, sizes)),
+        edges_(static_cast<int>(chain.size())) {
     assert(edges_ % 2 == 0);
   }
 

@@ -10,7 +10,7 @@ namespace dovetail::geometry {
 
 /// Carries the interior nodes of a body along with its boundary: `K_ii u_i = -K_ib u_b`, K the
 /// plane-strain stiffness of linear triangles on the reference mesh with Poisson's ratio 0.3 and Young's
-/// modulus 1/area. Linear in u_b; exact for affine motions. Factorised once.
+/// modulus 1/area. Linear in u_b and exact for rigid displacements. Factorised once.
 class ElasticMotion {
  public:
   explicit ElasticMotion(const CornerMesh& reference, const std::vector<int>& prescribed);

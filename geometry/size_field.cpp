@@ -45,7 +45,8 @@ double wanted_on(const Edge& e, const MeshSizes& sizes) {
   if (e.name.starts_with("flank")) return e.length() / sizes.flank_elements;
   if (!e.is_arc()) return sizes.bulk_size;
   const auto named = [&e](const char* part) { return e.name.find(part) != std::string::npos; };
-  return (named("fillet") ? 1.0 : named("blend") ? 4.0 : 2.0) * sizes.fillet_fraction * e.radius;
+  if (named("blend")) return 0.4 * e.radius;
+  return (named("fillet") ? 1 : 2) * sizes.fillet_fraction * e.radius;
 }
 
 }  // namespace

@@ -28,8 +28,8 @@ class SizeField {
 
 /// Sizes asked for by one body of the section:
 /// - a bearing flank: its length / flank_elements;
-/// - a fillet: fillet_fraction * radius; a blend four times, other arcs twice that (the peak stress sits in the
-///   fillets);
+/// - a fillet: fillet_fraction * radius, other arcs twice that: the peak stress sits in the fillets;
+/// - a blend (no stress is read there): 0.4 radius;
 /// - a wall of thickness t, measured along the inward normal of the boundary: t/2, i.e. at least two
 ///   quadratic elements through every wall;
 /// - away from these the size grows by a quarter of the distance up to bulk_size.

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "core/options.hpp"
 
 namespace dovetail::geometry {
 namespace {
@@ -33,6 +34,10 @@ constexpr double kCrowded = 0.6;         // closer points are removed
 constexpr int kRounds = 4;
 constexpr int kRelaxations = 10;
 
+std::size_t index(int i) {
+  return static_cast<std::size_t>(i);
+}
+
 double cross(const Vector2d& a, const Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
@@ -53,24 +58,40 @@ class Filling {
     }
     for (int i = 0; i < kRelaxations; ++i) relax();
     std::vector<std::array<int, 3>> elements = triangles();
+    reject_lost_walls(elements);
     improve_worst(elements);
     return {std::move(points_), std::move(elements)};
   }
 
  private:
+  [[noreturn]] void reject(int wall) const {
+    throw InputError(
+        {.file = {},
+         .key = "profile",
+         .value = "boundary near x = " + shortest(at(wall).x()) + " m, y = " + shortest(at(wall).y()) + " m",
+         .allowed = "must not cross or touch itself: the dimensions do not fit together"});
+  }
+
   void reject_crossings() const {
+    for (int i = 0; i < walls_; ++i)
+      if (!at(i).allFinite() || at(i) == at((i + 1) % walls_)) reject(i);
     const auto segment = [this](int i) {
       const Vector2d &a = at(i), &b = at((i + 1) % walls_);
       return Kernel::Segment_2({a.x(), a.y()}, {b.x(), b.y()});
     };
     for (int i = 0; i < walls_; ++i)
       for (int j = i + 2; j < walls_; ++j)
-        if ((j + 1) % walls_ != i && CGAL::do_intersect(segment(i), segment(j)))
-          throw InputError({.file = {},
-                            .key = "profile",
-                            .value = "boundary near x = " + std::to_string(at(i).x()) +
-                                     " m, y = " + std::to_string(at(i).y()) + " m",
-                            .allowed = "must not cross itself: the dimensions do not fit together"});
+        if ((j + 1) % walls_ != i && CGAL::do_intersect(segment(i), segment(j))) reject(i);
+  }
+
+  /// A boundary that folds back on itself leaves sides without a triangle.
+  void reject_lost_walls(const std::vector<std::array<int, 3>>& elements) const {
+    std::vector<int> uses(index(walls_), 0);
+    for (const auto& t : elements)
+      for (std::size_t i = 0; i < 3; ++i)
+        if (t[i] < walls_ && t[(i + 1) % 3] == (t[i] + 1) % walls_) ++uses[index(t[i])];
+    for (int i = 0; i < walls_; ++i)
+      if (uses[index(i)] != 1) reject(i);
   }
 
   const Vector2d& at(int i) const { return points_[static_cast<std::size_t>(i)]; }

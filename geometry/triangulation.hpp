@@ -18,7 +18,7 @@ struct Triangulation {
 /// split. Interior points are circumcentres of too large triangles of the constrained Delaunay
 /// triangulation, kept clear of the boundary, then relaxed towards the centroids of their
 /// neighbourhoods (weighted so that the size field is respected). Deterministic.
-/// Throws InputError when the polygon crosses itself. Cost about 0.1 s for 2000 points.
+/// Throws InputError when the polygon crosses or touches itself. Cost about 0.1 s for 2000 points.
 [[nodiscard]] Triangulation triangulate(const std::vector<Eigen::Vector2d>& boundary, const SizeField& size);
 
 }  // namespace dovetail::geometry
