@@ -30,7 +30,7 @@ struct MeshedSector {
 /// meshed with its own topology.
 class MeshFamily {
  public:
-  /// Cost: about 0.3 s with the default sizes. Throws InputError when a size is out of range or the
+  /// Cost: about 0.1 s with the default sizes. Throws InputError when a size is out of range or the
   /// boundary of the reference crosses itself.
   explicit MeshFamily(const ProfileParameters& reference, const MeshSizes& sizes = {}, const MeshLimits& limits = {});
   ~MeshFamily();
@@ -39,7 +39,8 @@ class MeshFamily {
   MeshFamily(const MeshFamily&) = delete;
   MeshFamily& operator=(const MeshFamily&) = delete;
 
-  /// Cost: a few ms. May be called from several threads at once.
+  /// Cost: below 1 ms with the default sizes, 0.1 s more when meshed afresh. May be called from several threads at
+  /// once.
   [[nodiscard]] MeshedSector mesh_of(const ProfileParameters& parameters) const;
   /// The same when the profile of these parameters is at hand.
   [[nodiscard]] MeshedSector mesh_of(const Profile& profile, const ProfileParameters& parameters) const;
