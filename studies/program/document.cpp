@@ -168,7 +168,7 @@ Document parse_document(std::string text, std::string file) {
   return document;
 }
 
-void apply(Document& document, std::span<const Override> overrides) {
+void apply_overrides(Document& document, std::span<const Override> overrides) {
   std::vector<Violation> refused;
   for (const Override& given : overrides) {
     Node* table = &document.root;

@@ -68,6 +68,6 @@ struct Document {
 
 /// Replaces or creates the values, later ones winning. Throws InputError for a path through something
 /// that is not a section; keys that do not exist are found when the study is read.
-void apply(Document& document, std::span<const Override> overrides);
+void apply_overrides(Document& document, std::span<const Override> overrides);
 
 }  // namespace dovetail::studies

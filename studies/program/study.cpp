@@ -152,7 +152,7 @@ Study read_study(const Document& document) {
 
 Study load_study(const std::string& file, std::span<const Override> overrides) {
   Document document = load_document(file);
-  apply(document, overrides);
+  apply_overrides(document, overrides);
   return read_study(document);
 }
 

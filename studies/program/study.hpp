@@ -29,7 +29,7 @@ struct Study {
 /// limits, an objective that is missing.
 [[nodiscard]] Study read_study(const Document& document);
 
-/// load_document, apply and read_study in one.
+/// load_document, apply_overrides and read_study in one.
 [[nodiscard]] Study load_study(const std::string& file, std::span<const Override> overrides = {});
 
 /// The text that fixes what an evaluation of this scene computes: every key and value, one per line.

@@ -1,0 +1,112 @@
+#!/usr/bin/env bash
+# The program as its users call it:  cli_test.sh PATH_OF_DOVETAIL
+# Checks exit statuses, that every problem is one sentence on standard error, that nothing is left behind on wrong
+# input, and that JSON has standard output to itself.
+set -u
+dovetail=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+failures=0
+
+fail() { echo "FAILED: $*"; sed 's/^/    out: /' out; sed 's/^/    err: /' err; failures=$((failures + 1)); }
+
+# expect STATUS ARGUMENTS...: runs the program, leaving its output in the files out and err.
+expect() {
+  local status=$1
+  shift
+  "$dovetail" "$@" > out 2> err < /dev/null
+  local got=$?
+  [ "$got" = "$status" ] || fail "dovetail $* gave status $got, not $status"
+}
+says() { grep -qF -- "$1" err || fail "standard error does not say: $1"; }
+answers() { grep -qF -- "$1" out || fail "standard output does not say: $1"; }
+lines() { [ "$(wc -l < err)" = "$1" ] || fail "standard error has $(wc -l < err) lines, not $1"; }
+silent() { [ ! -s out ] || fail "standard output is not empty"; }
+absent() { [ ! -e "$1" ] || fail "$1 was left behind"; }
+
+# Help and version
+expect 0 --version; answers "dovetail "
+expect 0 --help; answers "dovetail new mine.toml"
+for command in run evaluate reduce response wear export report check new; do
+  expect 0 "$command" --help; answers "$command"
+done
+
+# Wrong arguments: one line, status 2
+expect 2; lines 1
+expect 2 --bogus; lines 1
+expect 2 bogus; lines 1
+expect 2 check; lines 1
+expect 2 check --bogus x.toml; lines 1; says "--bogus"
+expect 2 wear x.toml --method guess; lines 1
+expect 2 response x.toml --from 1 --to 2 --points many; lines 1
+expect 2 response x.toml --from nan --to 2 --points 2; lines 1; says "--from = nan: must be > 0"
+expect 2 response x.toml --from 1 --to -2 --points 0; lines 2; says "--to = -2: must be > 0"; says "--points = 0"
+expect 2 wear x.toml --method asymptote --frequency 0; lines 1; says "--frequency = 0: must be > 0"
+
+# A new study is valid and not overwritten
+expect 0 new s.toml
+expect 0 check s.toml; answers "s.toml: valid"; lines 0
+cp s.toml kept.toml
+expect 2 new s.toml; says "s.toml: exists already"; lines 1
+cmp -s s.toml kept.toml || fail "new changed an existing file"
+expect 2 new missing/s.toml; says "does not exist"; lines 1
+
+# Files that are no studies
+: > empty.toml
+head -c 400 s.toml > truncated.toml
+head -c 5000 "$dovetail" > binary.toml
+printf 'a = [1,\n' > broken.toml
+for file in empty truncated binary broken; do
+  for command in "check $file.toml" "evaluate $file.toml --json o.json" "run $file.toml -o o" \
+    "reduce $file.toml -o o.h5" "response $file.toml --from 1 --to 2 --points 2 --json o.json" \
+    "wear $file.toml --method asymptote --json o.json" "export $file.toml --format dxf -o o.dxf"; do
+    # shellcheck disable=SC2086
+    expect 2 $command; silent; says "$file.toml"
+    for left in o o.json o.h5 o.dxf; do absent $left; done
+  done
+done
+expect 2 check nowhere.toml; says "nowhere.toml: cannot be read: "; lines 1
+expect 2 check .; says "it is a directory"; lines 1
+expect 2 evaluate nowhere.toml --json -; silent
+
+# Each wrong value is one sentence with its line; several at once
+sed 's/^neck_width_mm = .*/neck_width_mm = -3/' s.toml > wrong.toml
+line=$(grep -n '^neck_width_mm' wrong.toml | cut -d: -f1)
+expect 2 check wrong.toml; lines 1; says "wrong.toml:$line: geometry.neck_width_mm = -3: must be > 0"
+sed -e 's/^neck_width_mm = .*/neck_width_mm = nan/' -e 's/^friction = .*/friction = "high"/' \
+  -e 's/^tip_force_n/tip_force/' s.toml > wrong.toml
+expect 2 evaluate wrong.toml --json out.json; lines 4; silent; absent out.json
+says "geometry.neck_width_mm = nan"; says 'contact.friction = "high"'; says "did you mean loading.tip_force_n?"
+
+# --set
+expect 0 check s.toml --set geometry.neck_width_mm=9 --set solver.solver=newton --set contact.friction=0.4
+expect 2 check s.toml --set geometry.neck_width_mm=-3; lines 1; says "--set geometry.neck_width_mm=-3: must be > 0"
+expect 2 check s.toml --set geometry.neck_wdth_mm=3; lines 1; says "did you mean geometry.neck_width_mm?"
+expect 2 check s.toml --set geometry --set =3; lines 2; says "must be KEY=VALUE"
+expect 2 evaluate s.toml --harmonics 0; lines 1; says "--harmonics 0: must be >= 1"
+expect 2 response s.toml --from 1 --to 2 --points 2 --tolerance nan; lines 1; says "--tolerance nan"
+
+# Model files
+printf '\x89HDF\r\n\x1a\n and no more' > torn.h5
+for file in torn.h5 nowhere.h5; do
+  expect 2 response $file --from 1 --to 2 --points 2 --json -; silent; says "$file"
+  expect 2 wear $file --method history --json o.json; silent; says "$file"; absent o.json
+done
+expect 2 wear torn.h5 --method asymptote --set contact.friction=1; lines 1; says "--set contact.friction=1"
+
+# run: directories are not overwritten
+mkdir full && touch full/mine
+expect 2 run s.toml -o full; lines 1; says "full: exists already; give --resume"
+expect 2 run s.toml -o s.toml; lines 1; says "s.toml: is not a directory"
+sed '/^\[\[variable/,$d' s.toml > fixed.toml
+expect 2 run fixed.toml -o o; says "has no [[variable]]"; absent o
+
+# export and report
+expect 0 export s.toml --format dxf -o s.dxf; [ -s s.dxf ] || fail "no s.dxf"
+expect 2 export s.toml --format dwg -o s.dwg; lines 1; says "must be one of dxf"; absent s.dwg
+expect 2 export full --format dxf -o f.dxf; lines 1; says "holds no best design"; absent f.dxf
+expect 2 export s.toml --format dxf -o missing/s.dxf; lines 1
+
+[ "$failures" = 0 ] && echo "all passed"
+exit "$((failures > 0))"

@@ -1,0 +1,172 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "optimizer/journal.hpp"
+#include "studies/program/commands.hpp"
+#include "studies/program/output_file.hpp"
+#include "tests/unit/studies/sample_study.hpp"
+
+namespace dovetail::studies {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+/// A new directory that goes with the test.
+class Run : public testing::Test {
+ protected:
+  void SetUp() override {
+    directory_ = fs::temp_directory_path() /
+                 ("dovetail_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::remove_all(directory_);
+    fs::create_directories(directory_);
+    std::string text = replaced(study_template("sample"), "max_evaluations = 100", "max_evaluations = 40");
+    write_file(study(), text);
+  }
+  void TearDown() override { fs::remove_all(directory_); }
+
+  [[nodiscard]] std::string study() const { return (directory_ / "study.toml").string(); }
+  [[nodiscard]] fs::path results() const { return directory_ / "out"; }
+
+  int run(bool resume, const EvaluatorFactory& factory) {
+    const RunOptions options{.study = study(), .directory = results().string(), .resume = resume};
+    out_.str("");
+    err_.str("");
+    return run_study(options, {.out = out_, .err = err_}, factory);
+  }
+
+  fs::path directory_;
+  std::ostringstream out_, err_;
+};
+
+/// A bowl with its bottom at (10, 3, 9), in place of the physics.
+optimizer::Evaluation bowl(std::span<const double> x) {
+  optimizer::Evaluation evaluation;
+  const double volume =
+      1 + std::pow((x[0] - 10) / 30, 2) + std::pow((x[1] - 3) / 13, 2) + std::pow((x[2] - 9) / 1.5, 2);
+  evaluation.responses = {
+      {"asymptotic_wear_volume_m3", volume * 1e-10}, {"contact_pressure_mean_pa", 100e6}, {"post_width_m", 8e-3}};
+  return evaluation;
+}
+
+EvaluatorFactory counted(int& calls) {
+  return [&calls](const Study&) -> optimizer::Evaluator {
+    return [&calls](std::span<const double> x) {
+      ++calls;
+      return bowl(x);
+    };
+  };
+}
+
+TEST_F(Run, WritesAStudyThatEvaluatesToTheBestDesign) {
+  int calls = 0;
+  ASSERT_EQ(run(false, counted(calls)), kDone) << err_.str();
+  EXPECT_LE(calls, 40);
+  const Study best = load_study((results() / "best.toml").string());
+  const auto records = optimizer::read_journal(results() / "journal.jsonl").records;
+  double least = kInfinity;
+  std::vector<double> x;
+  for (const auto& record : records)
+    if (record.evaluation.responses.at("asymptotic_wear_volume_m3") < least) {
+      least = record.evaluation.responses.at("asymptotic_wear_volume_m3");
+      x = record.x;
+    }
+  EXPECT_LT(least, bowl(std::vector<double>{0, 0, 8.5}).responses.at("asymptotic_wear_volume_m3"));
+  EXPECT_EQ(optimizer::parameter(best.scene, "geometry.flank_mismatch_um"), x[0]);
+  EXPECT_EQ(optimizer::parameter(best.scene, "geometry.flank_crown_um"), x[1]);
+  EXPECT_EQ(optimizer::parameter(best.scene, "geometry.neck_width_mm"), x[2]);
+  EXPECT_TRUE(fs::exists(results() / "best.dxf"));
+  EXPECT_THAT(err_.str(), HasSubstr("evaluation 1/40: "));
+  EXPECT_THAT(err_.str(), HasSubstr(" to go"));
+}
+
+TEST_F(Run, RefusesAnExistingDirectory) {
+  fs::create_directories(results());
+  write_file(results() / "notes.txt", "mine");
+  int calls = 0;
+  try {
+    run(false, counted(calls));
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("exists already; give --resume"));
+  }
+  EXPECT_EQ(calls, 0);
+}
+
+TEST_F(Run, ResumesWithoutComputingAgain) {
+  int first = 0;
+  // The process dies in the 15th evaluation.
+  const EvaluatorFactory dying = [&first](const Study&) -> optimizer::Evaluator {
+    return [&first](std::span<const double> x) {
+      if (++first == 15) throw std::runtime_error("power cut");
+      return bowl(x);
+    };
+  };
+  EXPECT_THROW(run(false, dying), std::runtime_error);
+  int second = 0;
+  ASSERT_EQ(run(true, counted(second)), kDone) << err_.str();
+  const std::string resumed = out_.str();
+  fs::remove_all(results());
+  int whole = 0;
+  ASSERT_EQ(run(false, counted(whole)), kDone);
+  EXPECT_EQ(14 + second, whole);
+  EXPECT_THAT(resumed, HasSubstr("14 of them stored before"));
+}
+
+TEST_F(Run, ResumingAnotherStudyIsRefused) {
+  int calls = 0;
+  ASSERT_EQ(run(false, counted(calls)), kDone);
+  std::ifstream stream(study());
+  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  write_file(study(), replaced(text, "friction = 0.5", "friction = 0.4"));
+  EXPECT_THROW(run(true, counted(calls)), InputError);
+}
+
+TEST_F(Run, WithoutAFeasibleDesignNothingIsCalledBest) {
+  const EvaluatorFactory poor = [](const Study&) -> optimizer::Evaluator {
+    return [](std::span<const double> x) {
+      optimizer::Evaluation evaluation = bowl(x);
+      evaluation.responses["post_width_m"] = 1e-3;
+      return evaluation;
+    };
+  };
+  EXPECT_EQ(run(false, poor), kNotConverged);
+  EXPECT_THAT(err_.str(), HasSubstr("no feasible design was found"));
+  EXPECT_FALSE(fs::exists(results() / "best.toml"));
+}
+
+TEST_F(Run, NeedsVariablesAndLeavesNothingWithoutThem) {
+  write_file(study(), study_template("s").substr(0, study_template("s").find("# What the optimiser may change")));
+  int calls = 0;
+  EXPECT_THROW(run(false, counted(calls)), InputError);
+  EXPECT_FALSE(fs::exists(results()));
+}
+
+TEST(OutputFile, FailuresLeaveNothingBehind) {
+  const fs::path directory = fs::temp_directory_path() / "dovetail_output_file";
+  fs::remove_all(directory);
+  fs::create_directories(directory);
+  EXPECT_THROW(write_file(directory / "missing" / "a.json", "x"), InputError);
+  EXPECT_THROW(write_file(directory, "x"), InputError);
+  write_file(directory / "a.json", "old");
+  EXPECT_THROW(write_file_by(directory / "a.json",
+                             [](const fs::path& place) {
+                               std::ofstream(place) << "half";
+                               throw std::runtime_error("no more");
+                             }),
+               std::runtime_error);
+  std::ifstream stream(directory / "a.json");
+  std::string kept;
+  stream >> kept;
+  EXPECT_EQ(kept, "old");
+  EXPECT_EQ(std::distance(fs::directory_iterator(directory), fs::directory_iterator()), 1);
+  fs::remove_all(directory);
+}
+
+}  // namespace
+}  // namespace dovetail::studies

@@ -1,0 +1,242 @@
+#include "studies/program/study.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "tests/unit/studies/sample_study.hpp"
+
+namespace dovetail::studies {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+const std::string& sample() {
+  static const std::string text = study_template("sample");
+  return text;
+}
+
+Study read(const std::string& text) {
+  return read_study(parse_document(text, "s.toml"));
+}
+
+/// Every key of the scene that the template writes as "leaf = value" in its section.
+struct Place {
+  optimizer::Parameter parameter;
+  std::string section, leaf;
+};
+std::vector<Place> places() {
+  std::vector<Place> found;
+  for (const optimizer::Parameter& p : optimizer::scene_parameters()) {
+    const std::size_t dot = p.key.rfind('.');
+    const std::string section = p.key.substr(0, dot);
+    if (section == "geometry.left" || section == "geometry.right" || section == "material.disk") continue;
+    found.push_back({p, section, p.key.substr(dot + 1)});
+  }
+  return found;
+}
+
+/// The sample with the line of that key replaced.
+std::string with_line(const Place& place, const std::string& line) {
+  const std::size_t section = sample().find("\n[" + place.section + "]\n");
+  EXPECT_NE(section, std::string::npos) << place.section;
+  const std::size_t begin = sample().find("\n" + place.leaf + " = ", section);
+  EXPECT_NE(begin, std::string::npos) << place.leaf;
+  std::string text = sample();
+  text.replace(begin + 1, text.find('\n', begin + 1) - begin - 1, line);
+  return text;
+}
+
+TEST(Study, TemplateReadsAsTheDefaults) {
+  const Study study = read(sample());
+  EXPECT_EQ(study.name, "s");
+  EXPECT_EQ(study.title, "sample");
+  EXPECT_EQ(optimizer::parameters(study.scene), optimizer::parameters(optimizer::Scene{}));
+  EXPECT_EQ(study.problem.space.size(), 3U);
+  EXPECT_EQ(study.problem.constraints.size(), 2U);
+}
+
+TEST(Study, EveryRequiredKeyIsMissedByName) {
+  int required = 0;
+  for (const Place& place : places()) {
+    const std::string told = complaints(with_line(place, ""));
+    if (place.parameter.required) {
+      EXPECT_THAT(told, HasSubstr(place.parameter.key + ": is missing; it must be")) << place.parameter.key;
+      ++required;
+    } else {
+      EXPECT_EQ(told, "") << place.parameter.key;
+    }
+  }
+  EXPECT_GT(required, 10);
+}
+
+TEST(Study, EveryKeyRefusesAWrongTypeWithItsLine) {
+  for (const Place& place : places()) {
+    const bool text = place.parameter.kind == optimizer::Parameter::Kind::text;
+    const std::string told = complaints(with_line(place, place.leaf + (text ? " = 3" : " = \"three\"")));
+    EXPECT_THAT(told, testing::MatchesRegex("s\\.toml:[0-9]+: [^\n]*")) << place.parameter.key;
+    EXPECT_THAT(told, HasSubstr(place.parameter.key + (text ? " = 3: must be" : " = \"three\": must be a")));
+  }
+}
+
+TEST(Study, EveryNumberRefusesNotANumberAndInfinity) {
+  for (const Place& place : places()) {
+    if (place.parameter.kind == optimizer::Parameter::Kind::text) continue;
+    for (const std::string value : {"nan", "inf", "-inf"})
+      EXPECT_THAT(complaints(with_line(place, place.leaf + " = " + value)),
+                  HasSubstr(place.parameter.key + " = " + value + ": must be a"));
+  }
+}
+
+TEST(Study, EveryNumberKeepsItsRange) {
+  for (const Place& place : places()) {
+    const Range& range = place.parameter.range;
+    const bool whole = place.parameter.kind == optimizer::Parameter::Kind::whole;
+    if (place.parameter.kind == optimizer::Parameter::Kind::text) continue;
+    for (const double bound : {range.lower, range.upper}) {
+      if (!std::isfinite(bound)) continue;
+      const double step = bound == range.lower ? -1 : 1;
+      std::string value = shortest(bound + step);
+      if (!whole && value.find_first_of(".e") == std::string::npos) value += ".0";
+      EXPECT_THAT(complaints(with_line(place, place.leaf + " = " + value)), HasSubstr(": " + range.phrase()))
+          << place.parameter.key << " = " << value;
+    }
+  }
+}
+
+TEST(Study, WholeNumbersRefuseFractions) {
+  EXPECT_THAT(complaints(replaced(sample(), "harmonics = 3", "harmonics = 3.5")),
+              HasSubstr("solver.harmonics = 3.5: must be a whole number >= 1"));
+}
+
+TEST(Study, EveryProblemIsToldAtOnceInTheOrderOfTheFile) {
+  std::string text = replaced(sample(), "speed_rpm = 10000", "speed_rpm = -1");
+  text = replaced(text, "neck_width_mm = 8.5", "nek_width_mm = 8.5");
+  text = replaced(text, "friction = 0.5", "friction = nan");
+  const std::string told = complaints(text);
+  const std::size_t speed = told.find("scene.speed_rpm = -1: must be > 0");
+  const std::size_t neck = told.find("geometry.nek_width_mm = 8.5: unknown key; did you mean geometry.neck_width_mm?");
+  const std::size_t friction = told.find("contact.friction = nan: must be a number >= 0");
+  EXPECT_NE(speed, std::string::npos) << told;
+  EXPECT_NE(neck, std::string::npos) << told;
+  EXPECT_NE(friction, std::string::npos) << told;
+  EXPECT_LT(speed, neck);
+  EXPECT_LT(neck, friction);
+  EXPECT_THAT(told, HasSubstr("geometry.neck_width_mm: is missing"));
+}
+
+TEST(Study, UnknownSectionsAndKeysElsewhereAreNamed) {
+  EXPECT_THAT(complaints(replaced(sample(), "\n[contact]", "\n[contacts]")),
+              HasSubstr("contacts = {...}: unknown section; did you mean contact?"));
+  EXPECT_THAT(complaints(replaced(sample(), "\n[contact]\n", "\n[contact]\ntip_force_n = 3\n")),
+              HasSubstr("contact.tip_force_n = 3: unknown key; did you mean loading.tip_force_n?"));
+}
+
+TEST(Study, SectionsThatAreNoneAreRefused) {
+  EXPECT_THAT(complaints("scene = 3\nvariable = 2\n"), HasSubstr("s.toml:1: scene = 3: must be a section, [scene]"));
+  EXPECT_THAT(complaints("variable = 2\n"), HasSubstr("variable = 2: must be written as [[variable]]"));
+  EXPECT_THAT(complaints("[variable]\nkey = \"a\"\n"), HasSubstr("must be written as [[variable]]"));
+}
+
+TEST(Study, AnEmptyFileMissesWhatIsRequired) {
+  const std::string told = complaints("");
+  EXPECT_THAT(told, HasSubstr("s.toml: scene.type: is missing; it must be section"));
+  EXPECT_THAT(told, HasSubstr("s.toml: geometry.flank_angle_deg: is missing"));
+  EXPECT_THAT(told, Not(HasSubstr("objective")));
+}
+
+TEST(Study, OtherSceneTypesAreRefused) {
+  EXPECT_THAT(complaints(replaced(sample(), "type = \"section\"", "type = \"solid\"")),
+              HasSubstr("scene.type = \"solid\": must be section"));
+}
+
+TEST(Study, FlankKeysSetBothSidesAndOneSideOverrides) {
+  const Study study = read(sample() + "\n[geometry.left]\nflank_angle_deg = 48.0\n");
+  EXPECT_DOUBLE_EQ(study.scene.geometry.left.angle, 48 * std::numbers::pi / 180);
+  EXPECT_DOUBLE_EQ(study.scene.geometry.right.angle, 50 * std::numbers::pi / 180);
+  const std::string both_sides = "[geometry.left]\nflank_angle_deg = 48\n[geometry.right]\nflank_angle_deg = 52\n";
+  const Study split = read(without(sample(), "flank_angle_deg") + both_sides);
+  EXPECT_DOUBLE_EQ(split.scene.geometry.right.angle, 52 * std::numbers::pi / 180);
+  EXPECT_THAT(complaints(without(sample(), "flank_angle_deg") + "[geometry.left]\nflank_angle_deg = 48\n"),
+              HasSubstr("geometry.flank_angle_deg: is missing"));
+}
+
+TEST(Study, TheDiskIsOfTheBladesMaterialUnlessGiven) {
+  const std::string steel = replaced(sample(), "density_kg_m3 = 4430", "density_kg_m3 = 7800");
+  EXPECT_EQ(read(steel).scene.disk.density, 7800);
+  EXPECT_EQ(read(replaced(steel, "# density_kg_m3 = 4430", "density_kg_m3 = 8000")).scene.disk.density, 8000);
+}
+
+TEST(Study, VariablesAreChecked) {
+  const auto variable = [](const std::string& body) { return complaints(sample() + "\n[[variable]]\n" + body); };
+  EXPECT_THAT(variable("key = \"geometry.neck_width_mm\"\nlower = 8.0\nupper = 9.0\n"),
+              HasSubstr("variable[3].key = \"geometry.neck_width_mm\": is already a variable"));
+  EXPECT_THAT(variable("key = \"geometry.left.flank_crown_um\"\nlower = 0\nupper = 9.0\n"),
+              HasSubstr("sets the same dimension as the variable geometry.flank_crown_um"));
+  EXPECT_THAT(variable("key = \"geometry.flank_angel_deg\"\nlower = 45\nupper = 55\n"),
+              HasSubstr("did you mean \"geometry.flank_angle_deg\"?"));
+  EXPECT_THAT(variable("key = \"flank_angle_deg\"\nlower = 45\nupper = 55\n"),
+              HasSubstr("did you mean \"geometry.flank_angle_deg\"?"));
+  EXPECT_THAT(variable("key = \"geometry.flank_angle_deg\"\nlower = 45\nupper = 95\n"),
+              HasSubstr("variable[3].upper = 95: must be >= 5 and <= 85"));
+  EXPECT_THAT(variable("key = \"geometry.flank_angle_deg\"\nlower = 55\nupper = 45\n"),
+              HasSubstr("variable[3].upper = 45: must be > lower = 55"));
+  EXPECT_THAT(variable("key = \"geometry.flank_angle_deg\"\nlower = 52\nupper = 55\n"),
+              HasSubstr("geometry.flank_angle_deg = 50: is the start of variable[3] and must be between"));
+  EXPECT_THAT(variable("key = \"geometry.flank_angle_deg\"\nlower = 52\nupper = 55\nstart = 56\n"),
+              HasSubstr("variable[3].start = 56: must be between lower = 52 and upper = 55"));
+  EXPECT_THAT(variable("key = \"geometry.sectors\"\nlower = 40\nupper = 50\n"), HasSubstr("it is not a real number"));
+  EXPECT_THAT(variable("key = \"material.blade.density_kg_m3\"\nlower = 4000\nupper = 5000\n"),
+              HasSubstr("unless material.disk.density_kg_m3 is given"));
+  EXPECT_THAT(variable("lower = nan\n"), HasSubstr("variable[3].key: is missing"));
+  EXPECT_THAT(variable("key = 3\nlower = 4\nupper = 5\nunit = \"mm\"\n"), HasSubstr("variable[3].unit"));
+}
+
+TEST(Study, AVariableOfBothFlanksConflictsWithOneFixed) {
+  EXPECT_THAT(complaints(sample() + "\n[geometry.left]\nflank_crown_um = 2\n"),
+              HasSubstr("cannot vary both flanks while geometry.left.flank_crown_um fixes one of them"));
+}
+
+TEST(Study, ObjectivesAreChecked) {
+  const std::string none =
+      replaced(sample(), "[[objective]]\nresponse = \"asymptotic_wear_volume_m3\"\nweight = 1\n", "");
+  EXPECT_THAT(complaints(none), HasSubstr("objective: is missing"));
+  EXPECT_THAT(complaints(replaced(sample(), "response = \"asymptotic_wear_volume_m3\"",
+                                  "response = \"asymptotic_wear_volume\"")),
+              HasSubstr("did you mean \"asymptotic_wear_volume_m3\"?"));
+  EXPECT_THAT(complaints(replaced(sample(), "weight = 1\n", "weight = 0\n")), HasSubstr("objective[0].weight = 0"));
+  EXPECT_THAT(complaints(sample() + "\n[[objective]]\nresponse = \"mass_kg\"\n"),
+              HasSubstr("objective[0].scale: is missing"));
+}
+
+TEST(Study, ConstraintsAreChecked) {
+  const auto limit = [](const std::string& body) { return complaints(sample() + "\n[[constraint]]\n" + body); };
+  EXPECT_THAT(limit("response = \"mass_kg\"\n"), HasSubstr("constraint[2]: needs an upper or a lower limit"));
+  EXPECT_THAT(limit("response = \"mass_kg\"\nlower = 2\nupper = 1\n"),
+              HasSubstr("contradicts the other limit of mass_kg: nothing is >= 2 and <= 1"));
+  EXPECT_THAT(limit("response = \"post_width_m\"\nupper = 1e-3\n"), HasSubstr("nothing is >= 0.004 and <= 0.001"));
+  EXPECT_THAT(limit("response = \"resonance_drift\"\nupper = 0\n"), HasSubstr("constraint[2].scale: is missing"));
+  EXPECT_THAT(limit("response = \"mass_kg\"\nupper = inf\n"), HasSubstr("constraint[2].upper = inf: must be a finite"));
+  EXPECT_EQ(limit("response = \"mass_kg\"\nlower = 1\nupper = 2\n"), "");
+}
+
+TEST(Study, ContradictionsAcrossKeysNameTheirPlace) {
+  EXPECT_THAT(complaints(replaced(sample(), "harmonics = 3", "harmonics = 100")),
+              testing::MatchesRegex("s.toml:[0-9]+: solver.samples = 128: must be >= .* = 202"));
+}
+
+TEST(Study, TheNameIsAFolder) {
+  EXPECT_THAT(complaints("name = \"../out\"\n" + sample()), HasSubstr("name = \"../out\": must be letters"));
+  EXPECT_EQ(read_study(parse_document(sample(), "/a/fan/study.toml")).name, "fan");
+}
+
+TEST(Study, ExportFormatsAreKnown) {
+  EXPECT_THAT(complaints(replaced(sample(), "formats = [\"dxf\"]", "formats = [\"dwg\"]")),
+              HasSubstr("export.formats = \"dwg\": must be one of dxf"));
+  EXPECT_THAT(complaints(replaced(sample(), "formats = [\"dxf\"]", "formats = \"dxf\"")), HasSubstr("must be a list"));
+}
+
+}  // namespace
+}  // namespace dovetail::studies
