@@ -34,7 +34,7 @@ Rule overlap_rule(double overlap, double flank_length) {
   const double depth = overlap / flank_length;
   return {
       .name = "no_overlap",
-      .margin = -depth / 1e-3,
+      .margin = overlap > 0 ? -depth / 1e-3 : 0,
       .sentence = overlap > 0
                       ? fmt::format("blade and disk overlap by {:.4g} mm2, {:.4g} mm deep on the mean over the flanks",
                                     overlap * 1e6, depth * 1e3)

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <random>
 
+#include "geometry/exact_section.hpp"
 #include "geometry/flank_form.hpp"
 #include "geometry/measures.hpp"
 #include "tests/unit/geometry/random_design.hpp"
@@ -139,6 +140,18 @@ TEST(FinishedBlade, StaysClosedAndInsideTheNominalBlade) {
     // Besides the gap, fillets and corners change by about a third of the end gaps (45 um at most) times their 2-4 mm.
     EXPECT_GT(removed, 0);
     EXPECT_NEAR(removed, expected, 2 * 8e-3 * 45e-6 / 2);
+  }
+}
+
+TEST(FinishedBlade, NeverEntersTheDisk) {
+  std::mt19937 generator(5);
+  for (int trial = 0; trial < 20; ++trial) {
+    ProfileParameters p;
+    p.left = random_form(generator);
+    p.right = random_form(generator);
+    const Chain blade = finished_blade(p);
+    EXPECT_TRUE(is_simple(blade));
+    EXPECT_LE(overlap_area(blade, build_profile(p).disk), kFlankArcError * (p.left.length + p.right.length));
   }
 }
 
