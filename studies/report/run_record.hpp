@@ -1,0 +1,137 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fem/mesh.hpp"
+#include "geometry/profile.hpp"
+#include "optimizer/problem.hpp"
+#include "optimizer/run.hpp"
+
+namespace dovetail::report {
+
+using Numbers = std::vector<double>;
+
+/// The contact nodes of one design, flank by flank from the neck side to the root side; all lists have Nc entries.
+struct ContactRecord {
+  std::vector<std::string> flank_names;  ///< "left", "right"
+  std::vector<std::int64_t> flank;       ///< index into flank_names
+  Numbers along_m;                       ///< along the flank from its neck-side node
+  Numbers x_m, y_m;
+  Numbers area_m2;
+  Numbers gap_m;  ///< initial, unloaded
+  Numbers preload_pressure_pa;
+  Numbers wear_rate_m_per_cycle;  ///< of the unworn state at the unworn resonance
+  Numbers depth_m;                ///< asymptotic wear depth, both surfaces together, nodal answer
+  Numbers interpolated_depth_m;   ///< the same with the edge of the worn zone between nodes
+};
+
+/// Amplitude of the aerofoil tip over the excitation frequency; three lists of one length. Where `status` is not
+/// "converged" the amplitude is NaN.
+struct ResponseCurve {
+  Numbers frequency_hz, amplitude_m;
+  std::vector<std::string> status;
+};
+
+/// Natural frequencies of the glued bladed disk at speed over its nodal diameters.
+struct NodalDiameterRecord {
+  std::vector<std::int64_t> nodal_diameter;  ///< [D]
+  std::int64_t modes = 0;                    ///< M
+  Numbers frequency_hz;                      ///< [D, M] row by row, ascending in a row; negative: unstable
+  std::vector<std::string> status;           ///< [D]
+};
+
+/// Largest von Mises stress over one period of the unworn resonance at the nodes of the fillets of one body.
+struct FilletRecord {
+  std::string name;  ///< "blade" or "disk"
+  Numbers x_m, y_m;  ///< nodes
+  Numbers von_mises_pa;
+  double aggregate_pa = 0, maximum_pa = 0;
+};
+
+/// Wear over cycles; lists of S states, state 0 unworn.
+struct HistoryRecord {
+  std::string status, end;  ///< of wear::History
+  Numbers cycles, worn_volume_m3, depth_max_m, amplitude_m, frequency_hz;
+  std::vector<std::int64_t> profile_states;  ///< [P] states whose depths are kept
+  Numbers profile_depth_m;                   ///< [P, Nc] row by row
+};
+
+/// The mesh of the section and nodal fields on it; without elements: not kept.
+struct FieldRecord {
+  fem::Mesh mesh;
+  Numbers displacement_m;  ///< [n, 2] of the preload (spin-up)
+  Numbers von_mises_pa;    ///< [n] of the preload
+};
+
+/// Everything shown or exported of one design. Pieces that could not be computed are empty; `notes` says why.
+struct DesignRecord {
+  std::string status;                             ///< of its evaluation
+  std::map<std::string, double> parameters;       ///< KEY as for --set -> value in the study file's unit
+  std::map<std::string, double> responses;        ///< name with SI unit -> value
+  std::map<std::string, double> error_estimates;  ///< response -> error bar, SI
+  geometry::Profile profile;                      ///< nominal section, m
+  geometry::Chain finished_blade;                 ///< the blade with the form of its flanks
+  ContactRecord contact;
+  ResponseCurve unworn, worn;  ///< with friction
+  ResponseCurve glued;         ///< the linear model without contact, same force and damping
+  NodalDiameterRecord nodal_diameters;
+  std::vector<FilletRecord> fillets;
+  std::optional<HistoryRecord> history;
+  FieldRecord fields;
+  std::vector<std::string> notes;  ///< sentences for people
+};
+
+/// One candidate of the run.
+struct EvaluationRecord {
+  Numbers x;  ///< design-space order, file units
+  std::string phase;
+  std::string status;  ///< of the evaluation
+  bool feasible = false;
+  double objective = 0;  ///< NaN unless computed
+  double violation = 0;  ///< sum of what constraints and rules are broken by
+  Numbers constraints;   ///< c in the order of constraint_names, NaN unless computed
+  double seconds = 0;
+  std::map<std::string, double> responses;
+  std::map<std::string, double> error_estimates;
+  std::vector<std::string> messages;
+};
+
+/// With what the results were made.
+struct Provenance {
+  std::string program_version;
+  std::string date_utc;  ///< ISO 8601, when the record was made
+  std::string compiler;
+  std::map<std::string, std::string> libraries;  ///< name -> version
+  std::map<std::string, std::string> options;    ///< of the optimiser, key -> value as text
+  std::string study_file, study_text;            ///< name and verbatim content
+};
+
+/// A finished or interrupted run with everything its report shows.
+struct RunRecord {
+  std::string name, title;
+  std::string status;  ///< of optimizer::OptimizationResult
+  std::string message;
+  double seconds = 0;  ///< of the last call
+  optimizer::Problem problem;
+  std::vector<EvaluationRecord> evaluations;
+  std::optional<std::size_t> best;          ///< index of the best feasible evaluation
+  std::optional<std::size_t> least_broken;  ///< without `best`
+  std::optional<std::size_t> baseline;      ///< index of the start
+  std::optional<DesignRecord> best_design, baseline_design;
+  Provenance provenance;
+};
+
+/// The part of a record that follows from the run alone: problem, evaluations, best, baseline (the start), status,
+/// options and provenance with today's date. Left for the caller: name, title, seconds, version, study text, designs.
+[[nodiscard]] RunRecord record_run(const optimizer::Problem& problem, const optimizer::OptimizerOptions& options,
+                                   const optimizer::OptimizationResult& result);
+
+/// Compiler and versions of the libraries this program is built with and the current date; version and study empty.
+[[nodiscard]] Provenance provenance();
+
+}  // namespace dovetail::report

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace dovetail::report {
+
+/// A unit engineers read, for values kept in SI.
+struct Unit {
+  std::string symbol;  ///< "µm", "mm³", "MPa"; empty: a plain number
+  double si = 1;       ///< one of it in SI
+};
+
+/// The unit for values up to `largest` (SI magnitude) of a quantity whose SI unit is `si_unit` ("m", "m^3", "Pa", ...;
+/// another one is kept). m: m, mm, µm, nm; m^3: mm³; Pa: Pa, MPa; kg: kg, g; J: J, mJ, µJ.
+[[nodiscard]] Unit readable_unit(std::string_view si_unit, double largest);
+
+/// SI unit of a response or data set by the ending of its name ("_m3", "_pa", ...); empty when it has none.
+[[nodiscard]] std::string si_unit_of(std::string_view name);
+
+/// A response's name in words without its unit: "asymptotic wear volume".
+[[nodiscard]] std::string words(std::string_view name);
+
+/// `digits` significant digits, no exponent between 1e-4 and 1e6, true minus sign; "–" for NaN.
+[[nodiscard]] std::string significant(double value, int digits = 4);
+
+/// Value with its error bar in a unit, rounded to the bar's first two digits: "0.7812 ± 0.0013".
+[[nodiscard]] std::string with_error(double value, double error, const Unit& unit);
+
+}  // namespace dovetail::report
