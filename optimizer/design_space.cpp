@@ -15,15 +15,19 @@ DesignSpace::DesignSpace(std::vector<DesignVariable> variables) : variables_(std
   std::set<std::string> seen;
   for (const DesignVariable& v : variables_) {
     const std::string at = v.key.empty() ? "variable" : v.key;
-    if (v.key.empty()) found.push_back({.file = {}, .key = "variable", .value = "", .allowed = "must name the key it varies"});
-    if (!seen.insert(v.key).second) found.push_back({.file = {}, .key = at, .value = v.key, .allowed = "must be varied only once"});
+    if (v.key.empty())
+      found.push_back({.file = {}, .key = "variable", .value = "", .allowed = "must name the key it varies"});
+    if (!seen.insert(v.key).second)
+      found.push_back({.file = {}, .key = at, .value = v.key, .allowed = "must be varied only once"});
     if (!std::isfinite(v.lower) || !std::isfinite(v.upper) || !(v.lower < v.upper) ||
         !std::isfinite(v.upper - v.lower)) {
-      found.push_back({.file = {}, .key = at + ".upper",
+      found.push_back({.file = {},
+                       .key = at + ".upper",
                        .value = shortest(v.upper),
                        .allowed = "must be finite and > lower = " + shortest(v.lower)});
     } else if (!(v.start >= v.lower && v.start <= v.upper)) {
-      found.push_back({.file = {}, .key = at + ".start",
+      found.push_back({.file = {},
+                       .key = at + ".start",
                        .value = shortest(v.start),
                        .allowed = Range{.lower = v.lower, .upper = v.upper}.phrase()});
     }

@@ -189,7 +189,7 @@ SearchOutcome nlopt_search(const std::string& name, SearchFunctions& functions, 
   if (algorithm->constraints == Constraints::augmented_lagrangian)
     return augmented_lagrangian(*algorithm, functions, start, step, seed);
   Penalty penalty;
-  if (algorithm->constraints == Constraints::exact_penalty) penalty.weight = 100;
+  if (algorithm->constraints == Constraints::exact_penalty) penalty.weight = 10;
   std::vector<double> point = start;
   return minimise(*algorithm, functions, penalty, point, step, seed);
 }

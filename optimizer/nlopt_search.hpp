@@ -11,7 +11,7 @@ namespace dovetail::optimizer {
 /// | cobyla | own: linear models | no |
 /// | bobyqa, neldermead, sbplx | augmented Lagrangian around it, see below | no |
 /// | isres | own: stochastic ranking; global, runs to the end of the budget | no |
-/// | crs2, direct_l | exact penalty f + 100 sum max(0, c); global | no |
+/// | crs2, direct_l | exact penalty f + 10 sum max(0, c); global | no |
 /// | mma, slsqp | own | yes |
 ///
 /// Augmented Lagrangian [Powell 1969; Hestenes 1969; Rockafellar 1973]: minimise

@@ -120,7 +120,7 @@ Judgement judge(const Problem& problem, const Evaluation& evaluation, double tol
     if (!std::string_view(name).starts_with(kRulePrefix)) continue;
     // A rule that could not be measured is taken as broken by its whole normalisation.
     const double c = std::isfinite(value) ? value : 1.0;
-    judgement.rules = std::max(judgement.rules.value_or(c), c);
+    if (c != 0) judgement.rules = std::max(judgement.rules.value_or(c), c);
     judgement.violation += std::max(0.0, c);
     met = met && c <= tolerance;
   }

@@ -41,7 +41,8 @@ void check(const Problem& problem);
 /// Names of the response constraints in the order algorithms see them: "peak_amplitude_m:upper", ...
 [[nodiscard]] std::vector<std::string> constraint_names(const Problem& problem);
 
-/// Prefix of geometric rules in Evaluation::constraints; c = -margin, normalised, c <= 0 is met.
+/// Prefix of geometric rules in Evaluation::constraints; c = -margin, normalised, c <= 0 is met. Exactly 0 says that
+/// the rule is kept without saying how far.
 inline constexpr const char* kRulePrefix = "rule:";
 
 /// One evaluation seen through the problem.
@@ -49,9 +50,10 @@ struct Judgement {
   bool computed = false;                 ///< converged with every response of the problem finite
   double objective = 0;                  ///< NaN unless computed
   std::vector<double> constraints = {};  ///< c in the order of constraint_names, NaN unless computed
-  std::optional<double> rules = {};      ///< largest c of the rules reported; an infeasible candidate without any has 1
-  double violation = 0;                  ///< sum of max(0, c) over rules and constraints known
-  bool feasible = false;                 ///< computed, and no c above the tolerance
+  std::optional<double> rules =
+      {};                 ///< largest c != 0 of the rules reported; an infeasible candidate without any has 1
+  double violation = 0;   ///< sum of max(0, c) over rules and constraints known
+  bool feasible = false;  ///< computed, and no c above the tolerance
 };
 
 /// Judges with the exact constraints: feasible when every c <= tolerance. Pure; never throws.

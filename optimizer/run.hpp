@@ -32,9 +32,9 @@ struct Progress {
 
 /// What a run is connected to. All optional.
 struct RunHooks {
-  Journal* journal = nullptr;                     ///< answers what it holds, records what is new
-  std::function<void(const Progress&)> progress;  ///< may throw: the run ends and the exception reaches the caller
-  const std::atomic<bool>* stop = nullptr;        ///< looked at between evaluations
+  Journal* journal = nullptr;                          ///< answers what it holds, records what is new
+  std::function<void(const Progress&)> progress = {};  ///< may throw: the run ends and the exception reaches the caller
+  const std::atomic<bool>* stop = nullptr;             ///< looked at between evaluations
 };
 
 struct SearchStatistics {

@@ -60,10 +60,10 @@ SearchValue SearchFunctions::seen(const Candidate& candidate) const {
   if (judgement.computed) {
     value.objective = judgement.objective / scale_;
     for (std::size_t j = 0; j < value.constraints.size(); ++j) value.constraints[j] = judgement.constraints[j] + margin;
-    value.constraints.push_back(std::min(judgement.rules.value_or(kUnknownRules), kMostViolation) + margin);
+    value.constraints.push_back(std::min(judgement.rules.value_or(kUnknownRules), kMostViolation));
   } else if (candidate.evaluation.status == "infeasible") {
     value.objective = level_ + std::min(judgement.violation, kMostViolation);
-    value.constraints.push_back(std::min(judgement.rules.value_or(1.0), kMostViolation) + margin);
+    value.constraints.push_back(std::min(judgement.rules.value_or(1.0), kMostViolation));
   } else {
     value.objective = level_ + kFailed;
     value.constraints.push_back(1.0);

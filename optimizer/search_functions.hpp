@@ -25,7 +25,8 @@ struct SearchGradient {
 /// Objective and constraints as functions of unit coordinates for a library that knows nothing of failures.
 ///
 /// With f_s the median |objective| of the computed candidates so far, frozen at construction:
-/// - computed: f/f_s; every c + constraint_margin; the rules as their largest c, or -0.01 when none is reported.
+/// - computed: f/f_s; every response c + constraint_margin; the rules as their largest c, or -0.01 when none is
+/// reported.
 /// - infeasible (rule broken, no physics): level + v, with v the sum of the broken rules and level the worst scaled
 ///   objective so far, at most 1 above the best; response constraints as at the best; the rules as their largest c.
 ///   So the way back into the geometry is downhill.

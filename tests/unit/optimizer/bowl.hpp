@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cmath>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "optimizer/run.hpp"
+
+namespace dovetail::optimizer {
+
+/// A bowl over [-1, 3] x [0, 10] with its bottom, 1, at (1, 4); "height" = y is limited to 6.
+inline Problem bowl_problem() {
+  Problem problem;
+  problem.space = DesignSpace({{.key = "geometry.a_um", .lower = -1, .upper = 3, .start = 0},
+                               {.key = "geometry.b_deg", .lower = 0, .upper = 10, .start = 8}});
+  problem.objective = {{.response = "bowl"}};
+  problem.constraints = {{.response = "height", .lower = {}, .upper = 6}};
+  return problem;
+}
+
+inline Evaluation bowl(std::span<const double> x) {
+  Evaluation e;
+  e.responses["bowl"] = 1 + std::pow(x[0] - 1, 2) + std::pow((x[1] - 4) / 3, 2);
+  e.responses["height"] = x[1];
+  return e;
+}
+
+/// A candidate that breaks a rule by `violation`: no physics.
+inline Evaluation broken(double violation) {
+  Evaluation e;
+  e.status = "infeasible";
+  e.feasible = false;
+  e.constraints["rule:wall"] = violation;
+  return e;
+}
+
+inline Evaluation failed() {
+  Evaluation e;
+  e.status = "steady_state: iteration_limit";
+  return e;
+}
+
+inline OptimizerOptions bowl_options(std::string algorithm) {
+  OptimizerOptions options;
+  options.max_evaluations = 120;
+  options.scan_evaluations = algorithm == "scan" ? 0 : 6;  // a scan alone takes the whole budget
+  options.algorithm = std::move(algorithm);
+  return options;
+}
+
+}  // namespace dovetail::optimizer

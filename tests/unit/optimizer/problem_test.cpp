@@ -1,0 +1,142 @@
+#include "optimizer/problem.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "bowl.hpp"
+#include "core/errors.hpp"
+
+namespace dovetail::optimizer {
+namespace {
+
+Problem two_terms() {
+  Problem problem = bowl_problem();
+  problem.objective = {{.response = "asymptotic_wear_volume_m3", .weight = 2, .scale = 1e-10},
+                       {.response = "resonance_drift", .weight = 1, .scale = 1e-3, .absolute = true}};
+  problem.constraints = {{.response = "peak_amplitude_m", .lower = 2e-3, .upper = 8e-3},
+                         {.response = "resonance_drift", .lower = {}, .upper = 0, .scale = 1e-3}};
+  return problem;
+}
+
+Evaluation typical() {
+  Evaluation e;
+  e.responses = {{"asymptotic_wear_volume_m3", 3e-10}, {"resonance_drift", -5e-4}, {"peak_amplitude_m", 1e-2}};
+  return e;
+}
+
+TEST(Problem, WeighsAndScalesTheTerms) {
+  const Judgement judgement = judge(two_terms(), typical(), 0);
+  EXPECT_TRUE(judgement.computed);
+  EXPECT_DOUBLE_EQ(judgement.objective, 2 * 3 + 0.5);
+}
+
+TEST(Problem, NormalisesConstraints) {
+  EXPECT_THAT(constraint_names(two_terms()),
+              ::testing::ElementsAre("peak_amplitude_m:upper", "peak_amplitude_m:lower", "resonance_drift:upper"));
+  const Judgement judgement = judge(two_terms(), typical(), 0);
+  ASSERT_EQ(judgement.constraints.size(), 3U);
+  EXPECT_DOUBLE_EQ(judgement.constraints[0], 0.25);
+  EXPECT_DOUBLE_EQ(judgement.constraints[1], -4);
+  EXPECT_DOUBLE_EQ(judgement.constraints[2], -0.5);
+  EXPECT_FALSE(judgement.feasible);
+  EXPECT_DOUBLE_EQ(judgement.violation, 0.25);
+  EXPECT_TRUE(judge(two_terms(), typical(), 0.25).feasible);
+}
+
+TEST(Problem, JudgesRules) {
+  Evaluation e = typical();
+  e.responses["peak_amplitude_m"] = 5e-3;
+  EXPECT_TRUE(judge(two_terms(), e, 0).feasible);
+  e.constraints["rule:simple"] = 0;
+  EXPECT_TRUE(judge(two_terms(), e, 0).feasible);
+  EXPECT_FALSE(judge(two_terms(), e, 0).rules);
+  e.constraints["rule:wall"] = -0.2;
+  EXPECT_DOUBLE_EQ(judge(two_terms(), e, 0).rules.value(), -0.2);
+  e.constraints["rule:cutter"] = 0.1;
+  e.constraints["something else"] = 3;
+  const Judgement judgement = judge(two_terms(), e, 0);
+  EXPECT_FALSE(judgement.feasible);
+  EXPECT_DOUBLE_EQ(judgement.rules.value(), 0.1);
+  EXPECT_DOUBLE_EQ(judgement.violation, 0.1);
+  EXPECT_DOUBLE_EQ(judge(two_terms(), broken(0.3), 0).violation, 0.3);
+}
+
+TEST(Problem, TakesAnInfeasibleCandidateWithoutRulesAsBroken) {
+  Evaluation e;
+  e.status = "infeasible";
+  const Judgement judgement = judge(two_terms(), e, 0);
+  EXPECT_FALSE(judgement.computed);
+  EXPECT_TRUE(std::isnan(judgement.objective));
+  EXPECT_DOUBLE_EQ(judgement.rules.value(), 1);
+  EXPECT_DOUBLE_EQ(judgement.violation, 1);
+}
+
+TEST(Problem, AnnotatesConstraintsAndMissingValues) {
+  Evaluation e = typical();
+  annotate(two_terms(), 0, e);
+  EXPECT_TRUE(e.converged());
+  EXPECT_FALSE(e.feasible);
+  EXPECT_DOUBLE_EQ(e.constraints.at("peak_amplitude_m:upper"), 0.25);
+  e.responses["resonance_drift"] = std::nan("");
+  annotate(two_terms(), 0, e);
+  EXPECT_EQ(e.status, "response: resonance_drift is not finite");
+  EXPECT_FALSE(e.feasible);
+  Evaluation without = typical();
+  without.responses.erase("peak_amplitude_m");
+  annotate(two_terms(), 0, without);
+  EXPECT_EQ(without.status, "response: peak_amplitude_m is missing");
+  annotate(two_terms(), 0, without);
+  EXPECT_EQ(without.status, "response: peak_amplitude_m is missing");
+}
+
+TEST(Problem, SuggestsTheNearestResponse) {
+  Problem problem = two_terms();
+  problem.objective[0].response = "asymptotic_wear_volume";
+  try {
+    require_responses(problem, typical());
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("did you mean asymptotic_wear_volume_m3?"));
+  }
+  EXPECT_NO_THROW(require_responses(two_terms(), typical()));
+}
+
+TEST(Problem, ReportsEverythingWrong) {
+  Problem problem = two_terms();
+  problem.objective[0].scale = 0;  // two terms need scales
+  problem.objective[1].weight = 0;
+  problem.constraints[0].lower = 9e-3;  // above upper
+  problem.constraints[1].scale = 0;     // limit 0
+  problem.constraints.push_back({.response = "mass_kg", .lower = {}, .upper = {}});
+  try {
+    check(problem);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.violations().size(), 5U) << error.what();
+  }
+  EXPECT_NO_THROW(check(two_terms()));
+}
+
+TEST(Problem, AssemblesGradients) {
+  Evaluation e = typical();
+  e.derivatives = {{"asymptotic_wear_volume_m3", {1e-10, 2e-10}},
+                   {"resonance_drift", {1e-3, 0}},
+                   {"peak_amplitude_m", {8e-3, 4e-3}}};
+  const auto found = gradient(two_terms(), e);
+  ASSERT_TRUE(found);
+  // The drift is negative: d|r| = -dr.
+  EXPECT_DOUBLE_EQ(found->objective[0], 2 * 1 - 1);
+  EXPECT_DOUBLE_EQ(found->objective[1], 4);
+  EXPECT_DOUBLE_EQ(found->constraints[0][0], 1);
+  EXPECT_DOUBLE_EQ(found->constraints[1][0], -4);
+  EXPECT_DOUBLE_EQ(found->constraints[2][0], 1);
+  e.derivatives["peak_amplitude_m"][1] = std::nan("");
+  EXPECT_FALSE(gradient(two_terms(), e));
+  e.derivatives.erase("peak_amplitude_m");
+  EXPECT_FALSE(gradient(two_terms(), e));
+}
+
+}  // namespace
+}  // namespace dovetail::optimizer
