@@ -76,8 +76,7 @@ std::string dynamics(const Scene& scene, CandidateResult& result) {
   fillet_responses(scene, result);
   evaluation.timings_s["stress"] = watch.lap();
 
-  result.asymptote =
-      wear::asymptote(model.reduction.model, result.unworn->omega, steady, {}, {}, &result.unworn->state);
+  result.asymptote = wear::asymptote(model.condensed, result.unworn->omega, {}, steady, {}, &result.unworn->state);
   evaluation.timings_s["asymptote"] = watch.lap();
   const wear::Asymptote& asymptote = *result.asymptote;
   if (asymptote.verdict != wear::Verdict::asymptote)
@@ -88,7 +87,7 @@ std::string dynamics(const Scene& scene, CandidateResult& result) {
   responses["asymptotic_wear_depth_max_m"] = asymptote.interpolated_largest_depth;
 
   const wear::Drift drift =
-      wear::resonance_drift(model.reduction.model, *result.unworn, asymptote.interpolated_depth, steady, {});
+      wear::resonance_drift(model.condensed, *result.unworn, {}, asymptote.interpolated_depth, steady, {});
   result.worn = drift.worn;
   evaluation.timings_s["worn_resonance"] = watch.lap();
   if (result.worn->status != Status::converged) return "worn_resonance: " + std::string(to_string(result.worn->status));
