@@ -18,7 +18,7 @@ enum class SlipReturn {
 struct MarchOptions {
   SlipReturn slip_return = SlipReturn::first_order;
   bool periodic = true;      ///< false: march the samples once and stop (a quasi-static path)
-  int max_periods = 100;     ///< periods marched before giving up, >= 1
+  int max_periods = 2000;    ///< periods marched before giving up, >= 1
   double tolerance = 1e-10;  ///< change of lambda_x,T over a period relative to the largest limit force, > 0
 };
 

@@ -33,7 +33,7 @@ void slip_tangent(const Step& step, const Memory& before, const Memory& after, d
     // d(angle) = weight_0 d pre_0 + weight_1 d pre_1 + weight_N d lambda_N + keep d(angle before)
     double w0 = 0, w1 = 0, wn = 0, keep = 0;
     if (step.rotated) {
-      const double c = std::cos(before.angle), s = std::sin(before.angle);
+      const double c = before.direction[0], s = before.direction[1];
       const double along = c * step.trial[0] + s * step.trial[1], across = c * step.trial[1] - s * step.trial[0];
       const double sum = step.limit + along, scale = 2 / (sum * sum + across * across);
       w0 = scale * (-sum * s - across * c);
@@ -53,7 +53,7 @@ void slip_tangent(const Step& step, const Memory& before, const Memory& after, d
       angle[k + j] += w0 * row[j];
       angle[2 * k + j] += w1 * row[j];
     }
-    const double t0 = std::cos(after.angle), t1 = std::sin(after.angle);
+    const double t0 = after.direction[0], t1 = after.direction[1];
     const double a0 = step.limit * t1, a1 = -step.limit * t0;
     for (Eigen::Index j = 0; j < m; ++j) {
       s0[j] = a0 * angle[j];

@@ -9,7 +9,7 @@ namespace dovetail::contact {
 /// State of a node between two samples: lambda_x,T and the direction of the last slip.
 struct Memory {
   double slip_force[2] = {0, 0};  ///< lambda_x,T, N
-  double angle = 0;               ///< of lambda_T at the last slip (two tangential directions)
+  double direction[2] = {1, 0};   ///< of lambda_T at the last slip (two tangential directions)
   bool slipped = false;           ///< at the last sample
 };
 
@@ -49,17 +49,25 @@ inline Step sample_step(const double* prediction, double friction, SlipReturn ru
   if constexpr (Directions == 1) {
     step.force[1] = std::copysign(step.limit, step.trial[0]);
   } else {
-    const double along = std::cos(memory.angle) * step.trial[0] + std::sin(memory.angle) * step.trial[1];
-    const double across = std::cos(memory.angle) * step.trial[1] - std::sin(memory.angle) * step.trial[0];
+    double* const direction = memory.direction;
+    const double along = direction[0] * step.trial[0] + direction[1] * step.trial[1];
     // A slip that reverses has no rotation to follow; the first-order return takes it.
     if (rule == SlipReturn::second_order && memory.slipped && along > 0) {
       step.rotated = true;
-      memory.angle += 2 * std::atan2(across, step.limit + along);
-    } else {
-      memory.angle = std::atan2(step.trial[1], step.trial[0]);
+      // tan(phi / 2) = across / sum
+      const double across = direction[0] * step.trial[1] - direction[1] * step.trial[0], sum = step.limit + along;
+      const double scale = 1 / (sum * sum + across * across);
+      const double cosine = scale * (sum * sum - across * across), sine = 2 * scale * sum * across;
+      const double first = cosine * direction[0] - sine * direction[1];
+      direction[1] = sine * direction[0] + cosine * direction[1];
+      direction[0] = first;
+    } else if (square > 0) {
+      const double inverse = 1 / std::sqrt(square);
+      direction[0] = step.trial[0] * inverse;
+      direction[1] = step.trial[1] * inverse;
     }
-    step.force[1] = step.limit * std::cos(memory.angle);
-    step.force[2] = step.limit * std::sin(memory.angle);
+    step.force[1] = step.limit * direction[0];
+    step.force[2] = step.limit * direction[1];
   }
   for (int r = 0; r < Directions; ++r) memory.slip_force[r] = prediction[1 + r] - step.force[1 + r];
   memory.slipped = true;

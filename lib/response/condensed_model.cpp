@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "numerics/dense_product.hpp"
 #include "response/contact_model_check.hpp"
 
 namespace dovetail::response {
@@ -175,7 +176,7 @@ HarmonicStiffness CondensedModel::harmonic(int h, double omega, bool with_slope,
     if (h == 0)
       at.stiffness.real().noalias() -= ci.real() * at.internal_shape.real();
     else
-      at.stiffness.noalias() -= ci * at.internal_shape;
+      at.stiffness -= numerics::product(ci, at.internal_shape);
   }
   at.force -= ci * at.internal_force;
   if (!with_slope) return at;
@@ -186,10 +187,10 @@ HarmonicStiffness CondensedModel::harmonic(int h, double omega, bool with_slope,
   const Eigen::MatrixXcd ii_slope = dynamic.slope(damping_.ii, mass_.ii);
   const Eigen::MatrixXcd weighted = modal_ ? Eigen::MatrixXcd(ii_slope.col(0).asDiagonal() * at.internal_shape)
                                            : Eigen::MatrixXcd(ii_slope * at.internal_shape);
-  at.stiffness_slope.noalias() += at.internal_shape.transpose() * weighted;
+  at.stiffness_slope += numerics::transposed_product(at.internal_shape, weighted);
   at.force_slope = weighted.transpose() * at.internal_force;
   if (!ci_slope.isZero(0)) {
-    const Eigen::MatrixXcd cross = ci_slope * at.internal_shape;
+    const Eigen::MatrixXcd cross = numerics::product(ci_slope, at.internal_shape);
     at.stiffness_slope -= cross + cross.transpose();
     at.force_slope -= ci_slope * at.internal_force;
   }

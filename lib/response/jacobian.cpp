@@ -2,6 +2,7 @@
 #include <cassert>
 #include <numeric>
 
+#include "numerics/dense_product.hpp"
 #include "response/residual.hpp"
 
 namespace dovetail::response {
@@ -26,13 +27,14 @@ std::vector<NodeRows> by_node(const std::vector<Eigen::Index>& rows, Eigen::Inde
   return groups;
 }
 
-void scatter(const Eigen::MatrixXd& block, const std::vector<Eigen::Index>& place, double* const* columns) {
+void scatter(const Eigen::MatrixXd& block, Eigen::Index first, const std::vector<Eigen::Index>& place,
+             double* const* columns) {
   const bool contiguous = place.back() - place.front() + 1 == static_cast<Eigen::Index>(place.size()) &&
                           std::is_sorted(place.begin(), place.end());
   for (Eigen::Index j = 0; j < block.cols(); ++j) {
-    const double* from = block.col(j).data();
+    const double* from = block.col(j).data() + first;
     if (contiguous)
-      std::copy(from, from + block.rows(), columns[j] + place.front());
+      std::copy(from, from + place.size(), columns[j] + place.front());
     else
       for (std::size_t p = 0; p < place.size(); ++p) columns[j][place[p]] = from[p];
   }
@@ -54,27 +56,28 @@ void SteadyResidual::assemble(const ResidualState& state, const std::vector<Eige
     complements.push_back((1 - regularisation) * complement);
     assert(complements.back().cols() == m);
   }
-  Eigen::MatrixXd cosine, sine;
+  // Cosine columns of a harmonic are E_c Re - E_s Im, sine columns E_c Im + E_s Re: one product gives both.
+  Eigen::MatrixXd left, right, both;
   for (std::size_t h = 0; h < system_->harmonics.size(); ++h) {
-    const auto j = static_cast<Eigen::Index>(h);
-    const Eigen::MatrixXd re = system_->harmonics[h].stiffness.real(), im = system_->harmonics[h].stiffness.imag();
+    const Eigen::Index first = h == 0 ? 0 : 2 * static_cast<Eigen::Index>(h) - 1;
+    const Eigen::MatrixXcd& stiffness = system_->harmonics[h].stiffness;
     for (std::size_t g = 0; g < groups.size(); ++g) {
-      const Eigen::Index node = groups[g].node;
-      const Eigen::Index first = h == 0 ? 0 : 2 * j - 1;
+      const Eigen::Index rows_here = complements[g].rows(), node = groups[g].node;
       const auto on_cosine = complements[g].middleCols(first * d, d);
-      const auto re_rows = re.middleRows(node * d, d);
       if (h == 0) {
-        cosine.noalias() = on_cosine * re_rows;
+        left = on_cosine;
+        right = stiffness.middleRows(node * d, d).real();
       } else {
         const auto on_sine = complements[g].middleCols((first + 1) * d, d);
-        const auto im_rows = im.middleRows(node * d, d);
-        cosine.noalias() = on_cosine * re_rows;
-        cosine.noalias() -= on_sine * im_rows;
-        sine.noalias() = on_cosine * im_rows;
-        sine.noalias() += on_sine * re_rows;
-        scatter(sine, groups[g].place, columns.data() + (first + 1) * nc);
+        left.resize(2 * rows_here, 2 * d);
+        left << on_cosine, -on_sine, on_sine, on_cosine;
+        right.resize(2 * d, nc);
+        right.topRows(d) = stiffness.middleRows(node * d, d).real();
+        right.bottomRows(d) = stiffness.middleRows(node * d, d).imag();
       }
-      scatter(cosine, groups[g].place, columns.data() + first * nc);
+      numerics::product(left, right, both);
+      scatter(both, 0, groups[g].place, columns.data() + first * nc);
+      if (h > 0) scatter(both, rows_here, groups[g].place, columns.data() + (first + 1) * nc);
     }
   }
   // + D eps on the node's own columns; D = I - complement.

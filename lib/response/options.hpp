@@ -18,7 +18,7 @@ struct SteadyOptions {
   double penalty_scale = 1;       ///< multiplies both, > 0
   bool penalty_cascade = true;    ///< try other ratios when a solve fails
   std::string slip_return = "first_order";  ///< first_order | second_order
-  int max_periods = 100;                    ///< marched before a node counts as not periodic, >= 2
+  int max_periods = 2000;                   ///< marched before a node counts as not periodic, >= 2
   double periodic_tolerance = 1e-10;        ///< of the slip state, relative to the largest limit force, > 0
   bool linearise = true;                    ///< factorise the Jacobian at the solution, for predictors and derivatives
 };

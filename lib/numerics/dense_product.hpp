@@ -1,0 +1,14 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace dovetail::numerics {
+
+/// C = A B on OpenBLAS, which picks the widest vector instructions of the machine at run time where Eigen, built
+/// portably, cannot. C is resized. Worth it from about 10^4 multiplications.
+void product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, Eigen::MatrixXd& c);
+[[nodiscard]] Eigen::MatrixXcd product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b);
+/// A^T B (without conjugation).
+[[nodiscard]] Eigen::MatrixXcd transposed_product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b);
+
+}  // namespace dovetail::numerics
