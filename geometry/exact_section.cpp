@@ -6,7 +6,6 @@
 #include <CGAL/Gps_circle_segment_traits_2.h>
 #include <CGAL/Surface_sweep_2_algorithms.h>
 
-#include <cassert>
 #include <cmath>
 #include <iterator>
 #include <list>
