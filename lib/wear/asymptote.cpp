@@ -2,140 +2,39 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
 #include <utility>
 
 #include "wear/archard.hpp"
 #include "wear/history.hpp"
-#include "wear/release.hpp"
+#include "wear/passes.hpp"
 
 namespace dovetail::wear {
 
 namespace {
 
 using Eigen::Index;
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-/// How the release loop ended.
-enum class Ending { settled, nothing_holds, failed };
-
-/// What the loop knows about the nodes.
-struct Passes {
-  std::vector<bool> released;
-  VectorXd margin;  // smallest friction margin met so far, of nodes that never slipped
-  VectorXd excess;  // overload relieved by slip in the pass that released the node
-  response::SteadyState state;
-};
-
-std::vector<bool> loaded_nodes(const response::SteadyState& state, const std::vector<bool>& released) {
-  std::vector<bool> loaded(released.size());
-  for (std::size_t i = 0; i < loaded.size(); ++i) loaded[i] = !released[i] && state.nodes[i].carries_load;
-  return loaded;
-}
-
-Ending release_slipping(Release& release, double threshold, const AsymptoteOptions& options, const Control& control,
-                        Passes& passes, Asymptote& result) {
-  const std::size_t nodes = passes.released.size();
-  for (int pass = 0;; ++pass) {
-    const std::vector<bool> loaded = loaded_nodes(passes.state, passes.released);
-    std::vector<bool> next = passes.released;
-    bool slipping = false;
-    bool held = false;
-    for (std::size_t i = 0; i < nodes; ++i) {
-      if (!loaded[i]) continue;
-      const auto node = static_cast<Index>(i);
-      const bool slips = passes.state.wear_rate[node] > threshold;
-      next[i] = slips;
-      if (slips)
-        passes.excess[node] = slip_excess(release.model(), passes.state, node);
-      else
-        passes.margin[node] = std::min(passes.margin[node],
-                                       friction_margin(passes.state, node, release.model().contact().friction[node]));
-      slipping = slipping || slips;
-      held = held || !slips;
-    }
-    result.passes = pass;
-    if (!slipping) return Ending::settled;
-    if (std::all_of(next.begin(), next.end(), [](bool worn) { return worn; })) return Ending::nothing_holds;
-    if (pass == options.passes) {
-      result.status = Status::iteration_limit;
-      return Ending::failed;
-    }
-    response::SteadyState state = release.solve(next, passes.state.displacement, !held);
-    if (state.status != Status::converged) {
-      result.status = state.status;
-      return held || state.status == Status::interrupted ? Ending::failed : Ending::nothing_holds;
-    }
-    passes.released = std::move(next);
-    passes.state = std::move(state);
-    const VectorXd depth = release.depth(passes.released, passes.state);
-    control.report(pass + 1, worn_volume(release.model().contact(), depth), passes.state.wear_rate.maxCoeff());
-  }
-}
-
-/// Depths and volumes with the edges of the worn zone between nodes.
-void place_edges(Release& release, const AsymptoteOptions& options, const Passes& passes, Asymptote& result) {
-  const reduction::ContactNodes& contact = release.model().contact();
-  const std::vector<bool> loaded = loaded_nodes(passes.state, passes.released);
-  result.edges = find_edges(contact, passes.released, loaded, passes.margin);
-  if (result.edges.empty()) return;
-
-  std::map<std::vector<bool>, VectorXd> known;
-  const auto solve_without = [&](const std::vector<bool>& stuck) -> std::optional<response::SteadyState> {
-    std::vector<bool> released = passes.released;
-    std::vector<int> held;
-    for (std::size_t i = 0; i < stuck.size(); ++i) {
-      if (!stuck[i]) continue;
-      held.push_back(result.edges[i].worn);
-      released[static_cast<std::size_t>(held.back())] = false;
-    }
-    response::SteadyState state = release.solve_held(released, held, passes.state.displacement);
-    if (state.status != Status::converged) {
-      result.edge_status = state.status;
-      return std::nullopt;
-    }
-    known[stuck] = release.depth(released, state);
-    return state;
-  };
-  const auto depth_without = [&](const std::vector<bool>& stuck) -> std::optional<VectorXd> {
-    if (!known.contains(stuck) && !solve_without(stuck)) return std::nullopt;
-    return known.at(stuck);
-  };
-
-  // A node released early may not slip once the rest is worn: then the slip that released it counts, scaled well below
-  // the excess of a held node (which it overestimates, the node's own stiffness being an upper bound).
-  constexpr double kSlipShare = 0.1;
-  for (std::size_t i = 0; i < result.edges.size(); ++i) {
-    Edge& edge = result.edges[i];
-    std::vector<bool> stuck(result.edges.size(), false);
-    stuck[i] = true;
-    const std::optional<response::SteadyState> state = solve_without(stuck);
-    if (!state) return;
-    edge.excess = std::max(
-        {0.0, kSlipShare * passes.excess[edge.worn], -friction_margin(*state, edge.worn, contact.friction[edge.worn])});
-    edge.place();
-  }
-
-  const std::optional<VectorXd> depth =
-      interpolate_edges(result.edges, result.depth, options.tensor_edges, depth_without);
-  std::vector<Edge> retracted = result.edges;
-  for (Edge& edge : retracted) edge.theta = 0.0;
-  const std::optional<VectorXd> least = interpolate_edges(retracted, result.depth, options.tensor_edges, depth_without);
-  if (!depth || !least) return;
-  result.interpolated_depth = *depth;
-  result.interpolated_volume = worn_volume(contact, *depth);
-  result.interpolated_largest_depth = depth->maxCoeff();
-  const double other = worn_volume(contact, *least);
-  result.volume_bracket[0] = std::min(result.worn_volume, other);
-  result.volume_bracket[1] = std::max(result.worn_volume, other);
-}
 
 void set_depth(const reduction::ContactNodes& contact, const VectorXd& depth, Asymptote& result) {
   result.depth = result.interpolated_depth = depth;
   result.worn_volume = result.interpolated_volume = worn_volume(contact, depth);
   result.volume_bracket[0] = result.volume_bracket[1] = result.worn_volume;
   result.largest_depth = result.interpolated_largest_depth = depth.size() == 0 ? 0.0 : depth.maxCoeff();
+}
+
+void set_edges(const reduction::ContactNodes& contact, const PlacedEdges& placed, Asymptote& result) {
+  result.edges = placed.edges;
+  result.edge_status = placed.status;
+  if (placed.status != Status::converged || placed.edges.empty()) return;
+  result.interpolated_depth = interpolate_edges(placed.edges, result.depth, placed.states);
+  result.interpolated_volume = worn_volume(contact, result.interpolated_depth);
+  result.interpolated_largest_depth = result.interpolated_depth.maxCoeff();
+  std::vector<Edge> moved = placed.edges;
+  for (std::size_t end = 0; end < 2; ++end) {
+    for (Edge& edge : moved) edge.theta = static_cast<double>(end);
+    result.volume_bracket[end] = worn_volume(contact, interpolate_edges(moved, result.depth, placed.states));
+  }
+  std::sort(result.volume_bracket.begin(), result.volume_bracket.end());
 }
 
 /// Release found nothing that holds: nodes can stop wearing while they still carry load, which only a history sees.
@@ -193,17 +92,14 @@ Asymptote asymptote(const std::shared_ptr<const response::CondensedModel>& model
   if (std::vector<Violation> wrong = violations(options, "asymptote"); !wrong.empty())
     throw InputError(std::move(wrong));
 
-  const auto nodes = static_cast<std::size_t>(model->nodes());
   const reduction::ContactNodes& contact = model->contact();
   Release release(model, omega, start, steady, control);
   Asymptote result;
   result.certificate = std::numeric_limits<double>::quiet_NaN();
-  Passes passes{.released = std::vector<bool>(nodes, false),
-                .margin = VectorXd::Constant(model->nodes(), std::numeric_limits<double>::infinity()),
-                .excess = VectorXd::Zero(model->nodes()),
-                .state = {}};
+  Passes passes(model->nodes());
   const auto finish = [&] {
     result.released = passes.released;
+    result.passes = passes.count;
     result.solves = release.solves();
     result.jacobians = release.jacobians();
     return std::move(result);
@@ -219,7 +115,8 @@ Asymptote asymptote(const std::shared_ptr<const response::CondensedModel>& model
   const double fastest = result.unworn_rate.size() == 0 ? 0.0 : result.unworn_rate.maxCoeff();
   const double threshold = std::max(options.rate_threshold, options.relative_threshold * fastest);
 
-  const Ending ending = release_slipping(release, threshold, options, control, passes, result);
+  const Ending ending = release_slipping(release, threshold, options.passes, control, passes);
+  result.status = passes.status;
   result.steady = passes.state;
   result.rate = passes.state.wear_rate;
   if (ending == Ending::failed) return finish();
@@ -233,7 +130,7 @@ Asymptote asymptote(const std::shared_ptr<const response::CondensedModel>& model
 
   result.verdict = Verdict::asymptote;
   set_depth(contact, release.depth(passes.released, passes.state), result);
-  if (options.interpolate_edge) place_edges(release, options, passes, result);
+  if (options.interpolate_edge) set_edges(contact, place_edges(release, threshold, options.passes, passes), result);
   if (options.certify) {
     const response::SteadyState worn = release.solve_worn(result.depth, passes.state.displacement);
     if (worn.status == Status::converged) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -40,8 +41,6 @@ struct AsymptoteOptions {
   int confirm_steps = 200;
   // Place the edge of the worn zone between nodes (smooth in the design) besides the nodal answer.
   bool interpolate_edge = true;
-  // >= 1. Edges up to which all 2^n combinations of edge states are computed; beyond that one state per edge.
-  int tensor_edges = 2;
   // Solve once more with the worn gap and contact everywhere, and report the remaining rate.
   bool certify = true;
 };
@@ -54,13 +53,13 @@ struct Asymptote {
   std::vector<bool> released;         ///< [Nc] worn off: carries nothing any more
   double worn_volume = 0.0;           ///< m^3, nodal answer
   double largest_depth = 0.0;         ///< m, nodal answer
-  /// The same with the edge of the worn zone between nodes; equal to the nodal answer when not asked for or when
-  /// there is no edge. `volume_bracket` is what the edge's node spacing leaves open: the volumes with the edge
-  /// nodes stuck and with them released; their difference is the error bar.
+  /// The same with the edges of the worn zone between nodes: smooth in the design where the nodal answer jumps by a
+  /// node, and second order in the node spacing. Equal to the nodal answer when not asked for or without an edge.
+  /// `volume_bracket` are the volumes with all edges at one and at the other end of the spacing they lie in.
   double interpolated_volume = 0.0;         ///< m^3
   double interpolated_largest_depth = 0.0;  ///< m
   Eigen::VectorXd interpolated_depth;       ///< [Nc] m
-  double volume_bracket[2] = {0.0, 0.0};    ///< m^3, lower and upper
+  std::array<double, 2> volume_bracket{};   ///< m^3, lower and upper
   std::vector<Edge> edges;                  ///< edges of the worn zone and where they lie between nodes
   Status edge_status = Status::converged;   ///< of the extra states; otherwise the nodal answer is repeated
 

@@ -2,8 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cmath>
-#include <cstdint>
+#include <cassert>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -70,41 +69,13 @@ std::vector<Edge> find_edges(const reduction::ContactNodes& contact, const std::
   return edges;
 }
 
-std::optional<Eigen::VectorXd> interpolate_edges(
-    const std::vector<Edge>& edges, const Eigen::VectorXd& released_depth, int tensor_edges,
-    const std::function<std::optional<Eigen::VectorXd>(const std::vector<bool>&)>& depth_without) {
-  const std::size_t count = edges.size();
-  VectorXd depth = released_depth;
-  if (count == 0) return depth;
-  std::vector<bool> stuck(count, false);
-  if (count <= static_cast<std::size_t>(std::max(tensor_edges, 0)) && count < 16) {
-    depth.setZero();
-    for (std::uint32_t set = 0; set < (1u << count); ++set) {
-      double weight = 1.0;
-      for (std::size_t i = 0; i < count; ++i) {
-        stuck[i] = ((set >> i) & 1u) != 0;
-        weight *= stuck[i] ? 1.0 - edges[i].theta : edges[i].theta;
-      }
-      if (weight == 0.0) continue;
-      if (set == 0) {
-        depth += weight * released_depth;
-        continue;
-      }
-      const std::optional<VectorXd> state = depth_without(stuck);
-      if (!state) return std::nullopt;
-      depth += weight * *state;
-    }
-    return depth;
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    if (edges[i].theta >= 1.0) continue;
-    stuck.assign(count, false);
-    stuck[i] = true;
-    const std::optional<VectorXd> state = depth_without(stuck);
-    if (!state) return std::nullopt;
-    depth -= (1.0 - edges[i].theta) * (released_depth - *state);
-  }
-  return depth;
+Eigen::VectorXd interpolate_edges(const std::vector<Edge>& edges, const Eigen::VectorXd& found,
+                                  const std::vector<EdgeStates>& states) {
+  assert(edges.size() == states.size());
+  VectorXd depth = found;
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    depth += edges[i].held_weight() * (states[i].held - found) + edges[i].next_weight() * (states[i].next - found);
+  return depth.cwiseMax(0.0);
 }
 
 }  // namespace dovetail::wear

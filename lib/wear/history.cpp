@@ -138,6 +138,7 @@ History history(const std::shared_ptr<const response::CondensedModel>& model, do
   count(current);
   if (current.status != Status::converged) return finish(HistoryEnd::failed, current.status);
   run.accept(run.depth(), current.state);
+  const double limit = options.cycles > 0.0 ? options.cycles : kInfinity;
   double cycles = 0.0;
   records.push_back(run.record(cycles, current.state));
   result.steady = current.state;
@@ -147,7 +148,7 @@ History history(const std::shared_ptr<const response::CondensedModel>& model, do
     const VectorXd rate = result.steady.wear_rate;
     const double largest = rate.maxCoeff();
     if (largest <= worn_out) return finish(HistoryEnd::worn_out, Status::converged);
-    const double remaining = options.cycles - cycles;
+    const double remaining = limit - cycles;
     if (remaining <= 0.0) return finish(HistoryEnd::cycles, Status::converged);
     double jump = std::min(cycle_jump(rate, options.increment), remaining);
 
@@ -168,7 +169,7 @@ History history(const std::shared_ptr<const response::CondensedModel>& model, do
       ++result.rejected;
       if (halving == options.halvings) return finish(HistoryEnd::failed, next.status);
     }
-    cycles = jump == remaining ? options.cycles : cycles + jump;
+    cycles = jump == remaining ? limit : cycles + jump;
     result.steady = std::move(next.state);
     records.push_back(run.record(cycles, result.steady));
     control.report(step, records.back().volume, records.back().rate.maxCoeff());

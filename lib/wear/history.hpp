@@ -19,8 +19,8 @@ struct HistoryOptions {
   double increment = 1e-7;
   // >= 1. Steps at most.
   int steps = 200;
-  // > 0. Cycles at most; the last step is cut to end there exactly.
-  double cycles = kInfinity;
+  // >= 0. Cycles at most, 0: no limit; the last step is cut to end there exactly.
+  double cycles = 0.0;
   // in [0, 1). Worn out when the largest rate fell below this fraction of the first one.
   double rate_fraction = 1e-4;
   // >= 0. Worn out, too, when the largest rate fell below this, m per cycle: 1e-9 um.

@@ -74,7 +74,7 @@ response::SteadyState Release::solve(const std::vector<bool>& released, const Ma
 
 response::SteadyState Release::solve_held(const std::vector<bool>& released, const std::vector<int>& held,
                                           const MatrixXd& guess) {
-  constexpr double kHolds = 1e6;  // no traction of interest reaches this multiple of the pressure
+  constexpr double kHolds = 1e3;  // no traction of interest reaches this multiple of the pressure
   response::ContactCondition condition = start_;
   condition.released.assign(released.begin(), released.end());
   VectorXd friction = model_->contact().friction;

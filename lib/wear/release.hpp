@@ -41,6 +41,7 @@ class Release {
 
   [[nodiscard]] const response::CondensedModel& model() const { return *model_; }
   [[nodiscard]] const response::ContactCondition& start() const { return start_; }
+  [[nodiscard]] bool stopped() const { return control_->stopped(); }
   void count(int solves, int jacobians);
   [[nodiscard]] int solves() const { return solves_; }
   [[nodiscard]] int jacobians() const { return jacobians_; }
