@@ -27,7 +27,7 @@ struct ProfileParameters {
   double slot_fillet_radius = 2.0e-3;  ///< disk fillet between flank and slot floor (concave)
   double bottom_clearance = 0.5e-3;    ///< least distance between root bottom and slot floor, see profile.hpp
   double lobe_depth = 3.0e-3;          ///< of the flanks' neck-side ends below the rim, see profile.hpp
-  double shank_width = 10e-3;
+  double shank_width = 11e-3;
   double shank_height = 8e-3;  ///< from the straight neck's upper end to the platform
   double platform_width = 30e-3;
   double platform_thickness = 3e-3;
