@@ -14,9 +14,9 @@ namespace dovetail::response {
 
 /// What the contact is like, besides the model: empty members mean no wear, nothing released, the model's origin.
 struct ContactCondition {
-  Eigen::VectorXd wear_depth;   ///< W [Nc], m, both surfaces together; or empty
-  std::vector<char> released;   ///< [Nc] nonzero: the node carries no contact force; or empty
-  Eigen::MatrixXd slip_origin;  ///< X_T at which the march starts [Nc, d-1], m; or empty
+  Eigen::VectorXd wear_depth = {};   ///< W [Nc], m, both surfaces together; or empty
+  std::vector<char> released = {};   ///< [Nc] nonzero: the node carries no contact force; or empty
+  Eigen::MatrixXd slip_origin = {};  ///< X_T at which the march starts [Nc, d-1], m; or empty
 };
 
 /// All harmonics of the dynamic stiffness at one frequency.

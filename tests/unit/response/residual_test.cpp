@@ -1,0 +1,223 @@
+#include "response/residual.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <random>
+
+#include "response/amplitude.hpp"
+#include "response/linearisation.hpp"
+#include "response/steady_state.hpp"
+
+namespace dovetail::response {
+namespace {
+
+// A random structure held everywhere, with `nodes` contact nodes under pressure and strong excitation.
+reduction::ReducedModel random_model(Eigen::Index nodes, Eigen::Index tangential, bool general_damping) {
+  const Eigen::Index nc = nodes * (1 + tangential), ni = 6, n = nc + ni;
+  std::mt19937 generator(3);
+  std::normal_distribution<double> normal;
+  const auto draw = [&] { return normal(generator); };
+  const Eigen::MatrixXd a = Eigen::MatrixXd::NullaryExpr(n, n, draw);
+  reduction::ReducedModel model;
+  model.stiffness = a * a.transpose() / static_cast<double>(n) + 3 * Eigen::MatrixXd::Identity(n, n);
+  model.mass = Eigen::MatrixXd::Zero(n, n);
+  const Eigen::MatrixXd b = Eigen::MatrixXd::NullaryExpr(ni, ni, draw);
+  model.mass.topLeftCorner(ni, ni) = b * b.transpose() + Eigen::MatrixXd::Identity(ni, ni);
+  model.damping = 0.03 * model.stiffness + 0.02 * model.mass;
+  if (general_damping) model.damping(0, 0) += 0.7;
+  model.static_force = Eigen::VectorXd::Zero(n);
+  model.cosine_force = Eigen::MatrixXd::NullaryExpr(2, n, draw);
+  model.sine_force = Eigen::MatrixXd::NullaryExpr(1, n, draw);
+  model.contact.normal.resize(nodes);
+  model.contact.tangential.resize(nodes, tangential);
+  for (Eigen::Index i = 0; i < nodes; ++i) {
+    model.contact.normal(i) = static_cast<int>(ni + i * (1 + tangential));
+    model.static_force(model.contact.normal(i)) = 2;
+    for (Eigen::Index r = 0; r < tangential; ++r)
+      model.contact.tangential(i, r) = model.contact.normal(i) + 1 + static_cast<int>(r);
+  }
+  model.contact.area = Eigen::VectorXd::Constant(nodes, 0.5);
+  model.contact.gap = Eigen::VectorXd::NullaryExpr(nodes, [&] { return 0.1 * normal(generator); });
+  model.contact.friction = Eigen::VectorXd::Constant(nodes, 0.3);
+  model.contact.wear_coefficient = Eigen::VectorXd::Constant(nodes, 1e-3);
+  model.output_vectors = Eigen::MatrixXd::Identity(2, n);
+  model.output_names = {"a", "b"};
+  return model;
+}
+
+SteadyResidual problem(const std::shared_ptr<const CondensedModel>& model, double omega,
+                       const ContactCondition& condition, contact::SlipReturn rule = contact::SlipReturn::first_order) {
+  return {model,
+          std::make_shared<const HarmonicSystem>(harmonic_system(*model, 3, omega)),
+          numerics::FourierBasis(3, 64),
+          contact::pseudo_penalty(model->local_stiffness(), model->directions()),
+          condition,
+          {.slip_return = rule, .tolerance = 1e-13}};
+}
+
+bool same_branch(const ResidualState& a, const ResidualState& b) {
+  for (std::size_t i = 0; i < a.nodes.size(); ++i)
+    if (a.nodes[i].state != b.nodes[i].state || a.nodes[i].periods != b.nodes[i].periods) return false;
+  return true;
+}
+
+struct Kind {
+  const char* name;
+  Eigen::Index tangential;
+  contact::SlipReturn rule;
+};
+
+class Jacobian : public testing::TestWithParam<Kind> {};
+
+TEST_P(Jacobian, MatchesFiniteDifferencesAndItsOwnSolver) {
+  const auto model = std::make_shared<const CondensedModel>(random_model(5, GetParam().tangential, false));
+  ContactCondition condition;
+  condition.released = {0, 0, 1, 0, 0};
+  const SteadyResidual residual = problem(model, 1.3, condition, GetParam().rule);
+  std::mt19937 generator(5);
+  std::normal_distribution<double> normal;
+  const Eigen::Index nc = model->contact_size();
+  int compared = 0, mixed = 0;
+  for (int trial = 0; trial < 12; ++trial) {
+    const Eigen::MatrixXd at =
+        residual.closed_start() + Eigen::MatrixXd::NullaryExpr(nc, 7, [&] { return 0.02 * normal(generator); });
+    const Eigen::MatrixXd direction = Eigen::MatrixXd::NullaryExpr(nc, 7, [&] { return normal(generator); });
+    ResidualState base, plus, minus;
+    residual.evaluate(at, true, base);
+    const double h = 1e-7;
+    residual.evaluate(at + h * direction, false, plus);
+    residual.evaluate(at - h * direction, false, minus);
+    if (!same_branch(base, plus) || !same_branch(base, minus)) continue;
+    ++compared;
+    for (const contact::MarchResult& node : base.nodes) mixed += !node.always_stuck && !node.always_separated;
+    const Eigen::MatrixXd jacobian = residual.jacobian(base);
+    const Eigen::VectorXd exact = jacobian * direction.reshaped();
+    const Eigen::VectorXd difference = (plus.residual - minus.residual).reshaped() / (2 * h);
+    // Rounding 1e-16 |lambda_u| / h = 1e-8.
+    EXPECT_LT((exact - difference).norm(), 1e-7 * exact.norm());
+    const Linearisation linear(residual, base);
+    EXPECT_LT((linear.solve(exact) - direction.reshaped()).norm(), 1e-9 * direction.norm());
+    const Eigen::VectorXd back = jacobian.transpose() * direction.reshaped();
+    EXPECT_LT((linear.solve_transposed(back) - direction.reshaped()).norm(), 1e-9 * direction.norm());
+    // One Jacobian serves several right-hand sides and any rows.
+    const std::vector<Eigen::Index> rows{3, nc + 1, 4 * nc};
+    EXPECT_TRUE(residual.jacobian_rows(base, rows).isApprox(jacobian(rows, Eigen::all)));
+  }
+  EXPECT_GE(compared, 4);
+  EXPECT_GE(mixed, 4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, Jacobian,
+                         testing::Values(Kind{"Plane", 1, contact::SlipReturn::first_order},
+                                         Kind{"Space", 2, contact::SlipReturn::first_order},
+                                         Kind{"SpaceSecondOrder", 2, contact::SlipReturn::second_order}),
+                         [](const testing::TestParamInfo<Kind>& kind) { return std::string(kind.param.name); });
+
+TEST(CondensedModel, IsTheSchurComplementWithItsSlope) {
+  for (const bool general : {false, true}) {
+    const reduction::ReducedModel reduced = random_model(3, 2, general);
+    const CondensedModel model(reduced);
+    EXPECT_EQ(model.modal(), !general);
+    const double omega = 1.7, step = 1e-5;
+    for (const int h : {0, 1, 3}) {
+      const Eigen::MatrixXcd s = reduced.stiffness.cast<std::complex<double>>() +
+                                 std::complex<double>(0, h * omega) * reduced.damping -
+                                 h * h * omega * omega * reduced.mass;
+      const Eigen::MatrixXcd ii = s.topLeftCorner(6, 6), ci = s.bottomLeftCorner(9, 6);
+      const Eigen::MatrixXcd exact = s.bottomRightCorner(9, 9) - ci * ii.inverse() * ci.transpose();
+      const HarmonicStiffness at = model.harmonic(h, omega);
+      EXPECT_LT((at.stiffness - exact).norm(), 1e-12 * exact.norm());
+      const HarmonicStiffness up = model.harmonic(h, omega + step), down = model.harmonic(h, omega - step);
+      const Eigen::MatrixXcd slope = (up.stiffness - down.stiffness) / (2 * step);
+      EXPECT_LT((at.stiffness_slope - slope).norm(), 1e-8 * (1 + slope.norm()));
+      EXPECT_LT((at.force_slope - (up.force - down.force) / (2 * step)).norm(), 1e-8);
+      const Eigen::VectorXcd u = Eigen::VectorXcd::Random(9);
+      // Internal rows of S q = F hold for the recovered displacements.
+      Eigen::VectorXcd force = Eigen::VectorXcd::Zero(15);
+      if (h == 0) force = reduced.static_force;
+      if (h == 1)
+        force = reduced.cosine_force.row(0).transpose() -
+                std::complex<double>(0, 1) * reduced.sine_force.row(0).transpose();
+      const Eigen::VectorXcd left = s * model.recover(at, u);
+      EXPECT_LT((left - force).head(6).norm(), 1e-12 * (1 + force.norm()));
+      const Eigen::VectorXcd moved = (model.outputs(up, u) - model.outputs(down, u)) / (2 * step);
+      EXPECT_LT((model.output_slope(h, omega, at, u) - moved).norm(), 1e-8);
+      EXPECT_LT((model.outputs(at, u) - model.recover(at, u).head(2)).norm(), 1e-12);
+    }
+  }
+}
+
+TEST(CondensedModel, ReportsEverythingWrong) {
+  reduction::ReducedModel model = random_model(3, 1, false);
+  model.contact.area(1) = 0;
+  model.contact.normal(2) = 99;
+  model.static_force.resize(2);
+  try {
+    CondensedModel condensed(model);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.violations().size(), 3u);
+  }
+}
+
+TEST(Extremes, FindsTheLargestOfSeveral) {
+  // 3 cos + 2 sin(3.): dense sampling with 2e5 points is within (pi / 2e5)^2 of the extremes.
+  Eigen::VectorXd a = Eigen::VectorXd::Zero(7);
+  a << 0.3, 3, 0, 0, 0, 0.5, 2;
+  double low = 1e9, high = -1e9;
+  for (int i = 0; i < 200000; ++i) {
+    const double value = fourier_row(i * 2 * 3.14159265358979 / 200000, 7).dot(a);
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  const Extremes found = extremes(a);
+  EXPECT_NEAR(found.maximum, high, 1e-8);
+  EXPECT_NEAR(found.minimum, low, 1e-8);
+  EXPECT_NEAR(fourier_row(found.tau_maximum, 7).dot(a), found.maximum, 1e-14);
+  EXPECT_EQ(extremes(Eigen::VectorXd::Constant(1, 2.0)).amplitude(), 0);
+}
+
+TEST(SteadyState, RefusesBadOptions) {
+  const auto model = std::make_shared<const CondensedModel>(random_model(2, 1, false));
+  EXPECT_THROW((void)steady_state(model, 1, {}, {.harmonics = 3, .samples = 6}), InputError);
+  EXPECT_THROW((void)steady_state(model, -1, {}, {}), InputError);
+  EXPECT_THROW((void)steady_state(model, 1, {}, {.solver = "magic"}), InputError);
+  EXPECT_THROW((void)steady_state(model, 1, {}, {}, Eigen::MatrixXd::Zero(2, 7)), InputError);
+  EXPECT_THROW((void)steady_state(model, 1, {.wear_depth = Eigen::VectorXd::Zero(5)}, {}), InputError);
+}
+
+TEST(SteadyState, SolversAgree) {
+  const auto model = std::make_shared<const CondensedModel>(random_model(2, 1, false));
+  const SteadyState newton = steady_state(model, 1.3, {}, {.solver = "newton"});
+  ASSERT_EQ(newton.status, Status::converged);
+  for (const char* solver : {"powell", "powell_fd"}) {
+    const SteadyState other = steady_state(model, 1.3, {}, {.solver = solver});
+    ASSERT_EQ(other.status, Status::converged) << solver;
+    EXPECT_LT((other.displacement - newton.displacement).norm(), 1e-7 * newton.displacement.norm()) << solver;
+  }
+}
+
+TEST(Linearisation, PredictsWearAndFrequency) {
+  const auto model = std::make_shared<const CondensedModel>(random_model(4, 2, false));
+  const SteadyOptions options{.tolerance = 1e-13, .periodic_tolerance = 1e-13};
+  const double omega = 1.3, h = 1e-6;
+  const SteadyState at = steady_state(model, omega, {}, options);
+  ASSERT_EQ(at.status, Status::converged);
+  ASSERT_TRUE(at.linearisation);
+  const SteadyState up = steady_state(model, omega + h, {}, options, at.displacement);
+  const SteadyState down = steady_state(model, omega - h, {}, options, at.displacement);
+  const Eigen::MatrixXd slope = (up.displacement - down.displacement) / (2 * h);
+  EXPECT_LT((at.linearisation->response_to_frequency() - slope).norm(), 1e-5 * slope.norm());
+  const Eigen::VectorXd change = Eigen::Vector4d(1, 0, -0.5, 0.2);
+  const SteadyState more = steady_state(model, omega, {.wear_depth = h * change}, options, at.displacement);
+  const SteadyState less = steady_state(model, omega, {.wear_depth = -h * change}, options, at.displacement);
+  const Eigen::MatrixXd moved = (more.displacement - less.displacement) / (2 * h);
+  EXPECT_LT((at.linearisation->response_to_wear(change) - moved).norm(), 1e-5 * moved.norm());
+  const Eigen::VectorXd rate = (more.wear_rate - less.wear_rate) / (2 * h);
+  EXPECT_LT((at.linearisation->wear_rate_to_wear({0, 1, 2, 3}) * change - rate).norm(), 1e-5 * rate.norm());
+  EXPECT_GT(rate.norm(), 0);
+}
+
+}  // namespace
+}  // namespace dovetail::response
