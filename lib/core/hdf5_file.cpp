@@ -16,8 +16,10 @@ void File::fail(const std::string& object, const std::string& value, const std::
 
 File File::create(const std::string& path) {
   const Quiet quiet;
-  // Opened in the earliest format that holds the content: readable by HDF5 1.8 and later.
-  const hid_t id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  // From HDF5 1.8 on the structure of a file carries checksums, so that damage is noticed when it is read.
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
+  const hid_t id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
   if (id < 0) throw InputError({.file = path, .line = 0, .key = "/", .value = {}, .allowed = "cannot be written"});
   return {id, path};
 }
@@ -30,9 +32,12 @@ File File::open(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) refuse("the file does not exist");
   if (!std::filesystem::is_regular_file(path, error)) refuse("must be a file");
-  if (access(path.c_str(), R_OK) != 0) refuse("the file must be readable, but permission is denied");
+  if (::access(path.c_str(), R_OK) != 0) refuse("the file must be readable, but permission is denied");
   if (H5Fis_hdf5(path.c_str()) <= 0) refuse("must be an HDF5 file");
-  const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  // Closing the file closes every object in it, also those that reading a damaged file may have left open.
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+  const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access);
   if (id < 0) refuse("cannot be opened as HDF5: the file is truncated, damaged or being written");
   return {id, path};
 }

@@ -16,6 +16,9 @@ namespace dovetail::hdf5 {
 class Quiet {
  public:
   Quiet() {
+    // A damaged file can leave objects inside the library that it cannot close at exit and complains about on
+    // standard error; every file is closed explicitly here, so the library's own clean-up is not needed.
+    [[maybe_unused]] static const herr_t once = H5dont_atexit();
     H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   }

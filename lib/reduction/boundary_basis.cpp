@@ -40,19 +40,20 @@ Eigen::MatrixXd static_responses(const FullModel& full, const FloatingInverse& i
   const Eigen::MatrixXd loads = independent_loads(full);
   const Eigen::MatrixXd mass_modes = full.mass * modes.vectors;
   const Eigen::MatrixXd participation = modes.vectors.transpose() * loads;
-  // Loads are freed of the modes before the solve: the soft ones would otherwise dominate the response.
-  const Eigen::MatrixXd remaining = loads - mass_modes * participation;
+  // Loads are freed of the soft modes before the solve, whose responses would dominate; only of these, because
+  // the others are no exact eigenvectors and the static response is to be exact.
+  const Eigen::Index soft = modes.soft();
+  const Eigen::MatrixXd remaining = loads - mass_modes.leftCols(soft) * participation.topRows(soft);
   Eigen::MatrixXd x = inverse.apply(remaining);
+  const Eigen::VectorXd whole = (x.array() * remaining.array()).colwise().sum();
   remove(modes.vectors, mass_modes, x);
 
   Eigen::MatrixXd kept(full.size(), std::min(limit, x.cols()));
   Eigen::Index count = 0;
   for (Eigen::Index k = 0; k < x.cols() && count < kept.cols(); ++k) {
-    const Eigen::VectorXd compliance =
-        (modes.eigenvalues.array() > 0)
-            .select(participation.col(k).array().square() / modes.eigenvalues.array().cwiseMax(1e-300), 0.0);
-    const double energy = std::abs(x.col(k).dot(remaining.col(k)));
-    if (energy <= kNegligibleEnergy * (compliance.sum() + energy)) continue;
+    // The part of the response beyond the modes, against the whole of it without the soft ones.
+    const double energy = x.col(k).dot(full.stiffness * x.col(k));
+    if (!(energy > kNegligibleEnergy * std::abs(whole(k)))) continue;
     Eigen::MatrixXd candidate = x.col(k);
     const double size = std::sqrt(std::max(0.0, candidate.col(0).dot(full.mass * candidate.col(0))));
     if (!(size > 0)) continue;

@@ -1,13 +1,11 @@
 #include "reduction/free_modes.hpp"
 
-#include <Spectra/SymGEigsShiftSolver.h>
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <stdexcept>
+#include <random>
 #include <vector>
 
 namespace dovetail::reduction {
@@ -61,40 +59,7 @@ Eigen::MatrixXd FloatingInverse::apply(const Eigen::Ref<const Eigen::MatrixXd>& 
   return x;
 }
 
-void FloatingInverse::apply(const double* b, double* x) const {
-  const Eigen::Index internal = solver_.internal_size();
-  const Eigen::Index contact = solver_.contact_size();
-  Eigen::VectorXd load = Eigen::Map<const Eigen::VectorXd>(b, internal + contact);
-  Eigen::Map<Eigen::VectorXd> result(x, internal + contact);
-  if (rigid_.cols() > 0) load -= mass_rigid_ * (rigid_.transpose() * load).eval();
-  const Eigen::VectorXd on_contact = load.tail(contact) + solver_.response().transpose() * load.head(internal);
-  const Eigen::VectorXd displacement = schur_inverse_ * on_contact;
-  solver_.solve_internal(load.data(), x);
-  result.head(internal).noalias() += solver_.response() * displacement;
-  result.tail(contact) = displacement;
-  if (rigid_.cols() > 0) result -= rigid_ * (mass_rigid_.transpose() * result).eval();
-}
-
 namespace {
-
-struct InverseOperator {
-  using Scalar = double;
-  const FloatingInverse& inverse;
-  Eigen::Index rows() const { return inverse.mass().rows(); }
-  Eigen::Index cols() const { return rows(); }
-  void set_shift(const double&) {}
-  void perform_op(const double* b, double* x) const { inverse.apply(b, x); }
-};
-
-struct MassOperator {
-  using Scalar = double;
-  const Eigen::SparseMatrix<double>& mass;
-  Eigen::Index rows() const { return mass.rows(); }
-  Eigen::Index cols() const { return mass.cols(); }
-  void perform_op(const double* b, double* x) const {
-    Eigen::Map<Eigen::VectorXd>(x, mass.rows()).noalias() = mass * Eigen::Map<const Eigen::VectorXd>(b, mass.rows());
-  }
-};
 
 struct Pairs {
   Status status = Status::converged;
@@ -102,9 +67,16 @@ struct Pairs {
   Eigen::MatrixXd vectors;  // M-orthonormal
 };
 
+std::vector<Eigen::Index> by_magnitude(const Eigen::VectorXd& theta) {
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(theta.size()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::sort(order.begin(), order.end(),
+            [&](Eigen::Index a, Eigen::Index b) { return std::abs(theta(a)) > std::abs(theta(b)); });
+  return order;
+}
+
 // All pairs of M^(1/2) K^-1 M^(1/2) with theta = 1/lambda != 0; works for singular mass.
 Pairs dense_pairs(const FloatingInverse& inverse) {
-  const Eigen::Index n = inverse.mass().rows();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> mass{Eigen::MatrixXd(inverse.mass())};
   // Rounding may leave eigenvalues of a singular mass matrix slightly below zero.
   const Eigen::VectorXd roots = mass.eigenvalues().cwiseMax(0).cwiseSqrt();
@@ -112,11 +84,8 @@ Pairs dense_pairs(const FloatingInverse& inverse) {
   const Eigen::MatrixXd flexible = inverse.apply(root);
   const Eigen::MatrixXd product = root * flexible;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (product + product.transpose()));
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(n));
-  std::iota(order.begin(), order.end(), Eigen::Index{0});
   const Eigen::VectorXd& theta = eigen.eigenvalues();
-  std::sort(order.begin(), order.end(),
-            [&](Eigen::Index a, Eigen::Index b) { return std::abs(theta(a)) > std::abs(theta(b)); });
+  std::vector<Eigen::Index> order = by_magnitude(theta);
   const double threshold = 1e-14 * theta.cwiseAbs().maxCoeff();
   std::erase_if(order, [&](Eigen::Index k) { return std::abs(theta(k)) <= threshold; });
   Pairs pairs;
@@ -125,32 +94,88 @@ Pairs dense_pairs(const FloatingInverse& inverse) {
   return pairs;
 }
 
-Pairs lanczos_pairs(const FloatingInverse& inverse, Eigen::Index count, double tolerance, int restarts) {
-  InverseOperator inverse_operator{inverse};
-  MassOperator mass_operator{inverse.mass()};
-  const Eigen::Index size = std::min(inverse.mass().rows(), std::max(2 * count + 1, count + 20));
+// M-orthonormal columns with the span of `block`; nearly dependent ones are dropped.
+Eigen::MatrixXd orthonormal(const Eigen::SparseMatrix<double>& mass, const Eigen::MatrixXd& block) {
+  Eigen::MatrixXd columns = block;
+  for (int pass = 0; pass < 2; ++pass) {  // the second pass removes what rounding left in the first
+    const Eigen::MatrixXd gram = columns.transpose() * (mass * columns);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (gram + gram.transpose()));
+    const Eigen::VectorXd& squares = eigen.eigenvalues();
+    const double threshold = 1e-22 * squares.cwiseAbs().maxCoeff();
+    const Eigen::Index rank = (squares.array() > threshold).count();
+    columns = (columns * eigen.eigenvectors().rightCols(rank)).eval() *
+              squares.tail(rank).cwiseSqrt().cwiseInverse().asDiagonal();
+  }
+  return columns;
+}
+
+// Block Lanczos on K^-1 M with full re-orthogonalisation in the M-inner product, without restarts. Blocks read
+// the sparse factors once for several vectors, which is most of the cost.
+Pairs lanczos_pairs(const FloatingInverse& inverse, Eigen::Index count, double tolerance) {
+  constexpr Eigen::Index kBlock = 8;
+  // The softest pairs enter the reduction as exact eigenpairs; they converge long before the last ones.
+  constexpr double kSoft = 1e-2, kSoftTolerance = 1e-11;
+  const Eigen::SparseMatrix<double>& mass = inverse.mass();
+  const Eigen::Index n = mass.rows();
+  const Eigen::Index most = std::min(n, 12 * count + 200);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const Eigen::MatrixXd start = Eigen::MatrixXd::NullaryExpr(n, kBlock, [&] { return uniform(random); });
+  Eigen::MatrixXd block = orthonormal(mass, inverse.apply(start));
+
   Pairs pairs;
-  try {
-    Spectra::SymGEigsShiftSolver<InverseOperator, MassOperator, Spectra::GEigsMode::ShiftInvert> solver(
-        inverse_operator, mass_operator, count, size, 0.0);
-    solver.init();
-    solver.compute(Spectra::SortRule::LargestMagn, restarts, tolerance, Spectra::SortRule::SmallestMagn);
-    if (solver.info() != Spectra::CompInfo::Successful) {
-      pairs.status = Status::iteration_limit;
+  Eigen::MatrixXd space(n, most + kBlock), mass_space(n, most + kBlock);
+  Eigen::MatrixXd projected = Eigen::MatrixXd::Zero(most + kBlock, most + kBlock);  // V^T M K^-1 M V
+  Eigen::Index size = 0;
+  while (block.cols() > 0 && size + block.cols() <= most) {
+    const Eigen::Index width = block.cols();
+    space.middleCols(size, width) = block;
+    mass_space.middleCols(size, width).noalias() = mass * block;
+    size += width;
+    Eigen::MatrixXd next = inverse.apply(mass_space.middleCols(size - width, width));
+    for (int pass = 0; pass < 2; ++pass) {
+      const Eigen::MatrixXd part = mass_space.leftCols(size).transpose() * next;
+      next.noalias() -= space.leftCols(size) * part;
+      projected.block(0, size - width, size, width) += part;
+    }
+    projected.block(size - width, 0, width, size) = projected.block(0, size - width, size, width).transpose();
+    // |next y| is the residual of a Ritz pair whose last components are y.
+    const Eigen::MatrixXd gram = next.transpose() * (mass * next);
+    if (!gram.allFinite()) {
+      pairs.status = Status::not_finite;
       return pairs;
     }
-    pairs.values = solver.eigenvalues().cwiseInverse();
-    pairs.vectors = solver.eigenvectors();
-    if (!pairs.vectors.allFinite()) pairs.status = Status::not_finite;
-  } catch (const std::exception&) {
-    pairs.status = Status::stalled;
+    if (size >= count) {
+      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(projected.topLeftCorner(size, size));
+      std::vector<Eigen::Index> order = by_magnitude(ritz.eigenvalues());
+      order.resize(static_cast<std::size_t>(count));
+      const Eigen::VectorXd theta = ritz.eigenvalues()(order);
+      const Eigen::MatrixXd y = ritz.eigenvectors()(Eigen::all, order);
+      const double last = std::abs(theta(count - 1));
+      bool converged = true;
+      for (Eigen::Index k = 0; k < count && converged; ++k) {
+        const Eigen::VectorXd tail = y.col(k).tail(width);
+        const double residual = std::sqrt(std::max(0.0, tail.dot(gram * tail))) / std::abs(theta(k));
+        converged = residual <= (kSoft * std::abs(theta(k)) >= last ? kSoftTolerance : tolerance);
+      }
+      if (converged) {
+        pairs.values = theta;
+        pairs.vectors = space.leftCols(size) * y;
+        return pairs;
+      }
+    }
+    block = orthonormal(mass, next);
+    // The new block is orthogonal to the space only as far as `next` was large: repeat on unit vectors.
+    block -= space.leftCols(size) * (mass_space.leftCols(size).transpose() * block).eval();
+    block = orthonormal(mass, block);
   }
+  pairs.status = Status::iteration_limit;
   return pairs;
 }
 
 }  // namespace
 
-FreeModes free_modes(const FloatingInverse& inverse, int count, Eigen::Index limit, double tolerance, int restarts) {
+FreeModes free_modes(const FloatingInverse& inverse, int count, Eigen::Index limit, double tolerance) {
   const Eigen::Index n = inverse.mass().rows();
   const Eigen::Index rigid = inverse.rigid_modes().cols();
   Eigen::Index wanted = std::min(std::max<Eigen::Index>(count - rigid, inverse.negative()), limit - rigid);
@@ -158,7 +183,7 @@ FreeModes free_modes(const FloatingInverse& inverse, int count, Eigen::Index lim
   Pairs pairs;
   for (Eigen::Index asked = wanted + 1;; asked *= 2) {
     const bool dense = n <= kDenseSize || 3 * asked > n;
-    pairs = dense ? dense_pairs(inverse) : lanczos_pairs(inverse, asked, tolerance, restarts);
+    pairs = dense ? dense_pairs(inverse) : lanczos_pairs(inverse, asked, tolerance);
     result.status = pairs.status;
     if (pairs.status != Status::converged) return result;
     // Elastic modes may lie closer to zero than the negative ones; each of those must be in the basis, or

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <cmath>
 
 #include "core/status.hpp"
 #include "reduction/contact_solver.hpp"
@@ -19,9 +20,7 @@ class FloatingInverse {
   [[nodiscard]] const ContactSolver& solver() const { return solver_; }
   [[nodiscard]] const Eigen::SparseMatrix<double>& mass() const { return mass_; }
 
-  /// x = K^-1 b.
-  void apply(const double* b, double* x) const;
-  /// The same for the columns of b [n, k], in one block.
+  /// x = K^-1 b, b [n, k], in one block.
   [[nodiscard]] Eigen::MatrixXd apply(const Eigen::Ref<const Eigen::MatrixXd>& b) const;
 
  private:
@@ -37,12 +36,19 @@ struct FreeModes {
   Eigen::VectorXd eigenvalues;  ///< [m] (rad/s)^2, ascending
   Eigen::MatrixXd vectors;      ///< [n, m], M-orthonormal
   double first_neglected = 0;   ///< eigenvalue after the last kept one; infinite when none is left
+
+  /// Number of modes that are not positive or far below the last one: eigenpairs to full accuracy, which are
+  /// kept out of every linear system because their large responses would cancel.
+  [[nodiscard]] Eigen::Index soft() const {
+    return eigenvalues.size() == 0 ? 0 : (eigenvalues.array() <= 1e-3 * std::abs(eigenvalues.tail(1)(0))).count();
+  }
 };
 
 /// The `count` modes of K v = lambda M v nearest to lambda = 0, with all rigid and negative ones (which
-/// may make it more than `count`), at most `limit`. Shift-invert Lanczos at zero [Spectra]; small
-/// or nearly complete problems by a dense eigen-decomposition. M may be singular on the contact dofs.
-[[nodiscard]] FreeModes free_modes(const FloatingInverse& inverse, int count, Eigen::Index limit, double tolerance,
-                                   int restarts);
+/// may make it more than `count`), at most `limit`. Shift-invert block Lanczos at zero; small or nearly
+/// complete problems by a dense eigen-decomposition. M may be singular on the contact dofs. `tolerance` bounds
+/// the residual |K^-1 M v - v / lambda| lambda, whose square is the error of the eigenvalue; the softest modes
+/// are accurate to 1e-11. Statuses: `iteration_limit`, `not_finite`.
+[[nodiscard]] FreeModes free_modes(const FloatingInverse& inverse, int count, Eigen::Index limit, double tolerance);
 
 }  // namespace dovetail::reduction

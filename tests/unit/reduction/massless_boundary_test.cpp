@@ -1,0 +1,214 @@
+#include "reduction/massless_boundary.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+
+#include "reduction/accuracy.hpp"
+#include "reduction/validation.hpp"
+#include "tests/unit/reduction/truss_model.hpp"
+
+namespace dovetail::reduction {
+namespace {
+
+// Below the first glued mode of the trusses (about 60 rad/s with 4 columns and rows), so Z is bounded.
+constexpr double kAngular = 17.0;
+
+Eigen::VectorXd glued_frequencies(const FullModel& full) {
+  const Eigen::Index internal = full.internal_size();
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
+      Eigen::MatrixXd(full.stiffness).topLeftCorner(internal, internal),
+      Eigen::MatrixXd(full.mass).topLeftCorner(internal, internal));
+  return eigen.eigenvalues().cwiseSqrt();
+}
+
+// Deterministic loads without structure.
+Eigen::VectorXd some(Eigen::Index size, double phase) {
+  Eigen::VectorXd values(size);
+  for (Eigen::Index k = 0; k < size; ++k) values(k) = std::sin(phase + 2.4 * static_cast<double>(k));
+  return values;
+}
+
+class AtSpeed : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(StandstillAndSpinSoftened, AtSpeed, testing::Values(0.0, 1e-4, 5.0, 20.0));
+
+// A blade that floats at standstill has no static response to forces out of equilibrium.
+class Spinning : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(SpinSoftened, Spinning, testing::Values(5.0, 20.0));
+
+TEST_P(AtSpeed, AllModesAreExactWhenContactHasNoMass) {
+  const FullModel full = truss_model({.speed = GetParam(), .contact_mass = false});
+  const Reduction reduction = reduce(full, {.modes = 1000});
+  ASSERT_EQ(reduction.status, Status::converged) << reduction.message;
+  EXPECT_EQ(reduction.model.size(), full.size());
+  // Rounding: condition numbers near 1e4 times a few hundred operations.
+  for (double angular : {0.5 * kAngular, kAngular, 333.0, 1234.0}) {
+    const StiffnessError error = compare(full, reduction, std::vector{angular}).front();
+    EXPECT_LT(error.stiffness, 1e-8) << angular;
+    EXPECT_LT(error.flexibility, 1e-8) << angular;
+  }
+  const Eigen::VectorXd exact = glued_frequencies(full);
+  ASSERT_EQ(exact.size(), reduction.glued_frequencies.size());
+  EXPECT_LT((reduction.glued_frequencies.array() / exact.array() - 1).abs().maxCoeff(), 1e-9);
+}
+
+TEST_P(AtSpeed, StaticResponseHoldsWithFewModes) {
+  const FullModel full = truss_model({.speed = GetParam()});
+  const Reduction reduction = reduce(full, {.modes = 5});
+  ASSERT_EQ(reduction.status, Status::converged) << reduction.message;
+  // Contact springs k_c hold the floating blade: (K + B^T k_c B) u = f.
+  const Eigen::Index contact = full.contact_size();
+  const double spring = 3e5;
+  Eigen::MatrixXd held(full.stiffness);
+  held.diagonal().tail(contact).array() += spring;
+  const ReducedModel& model = reduction.model;
+  Eigen::MatrixXd held_reduced = model.stiffness;
+  held_reduced.diagonal().head(contact).array() += spring;
+
+  Eigen::MatrixXd loads(full.size(), 2), reduced_loads(model.size(), 2);
+  loads << full.static_force, full.cosine_force;
+  reduced_loads << model.static_force, model.cosine_force.transpose();
+  const Eigen::MatrixXd exact = held.partialPivLu().solve(loads);
+  const Eigen::MatrixXd q = held_reduced.partialPivLu().solve(reduced_loads);
+  const Eigen::MatrixXd u = reduction.recovery.apply(q, spring * q.topRows(contact));
+  for (int column = 0; column < 2; ++column)
+    EXPECT_LT((u.col(column) - exact.col(column)).norm(), 1e-9 * exact.col(column).norm());
+  EXPECT_LT((q.topRows(contact) - exact.bottomRows(contact)).norm(), 1e-9 * exact.bottomRows(contact).norm());
+  EXPECT_LT((model.output_vectors * q - full.outputs.transpose() * exact).norm(), 1e-9 * exact.norm());
+}
+
+TEST_P(Spinning, RecoveredFieldSolvesTheStaticEquationsForAnyContactForces) {
+  const FullModel full = truss_model({.speed = GetParam()});
+  const Reduction reduction = reduce(full, {.modes = 6});
+  ASSERT_EQ(reduction.status, Status::converged) << reduction.message;
+  const Eigen::Index contact = full.contact_size();
+  const Eigen::VectorXd lambda = some(contact, 0.3);
+  const ReducedModel& model = reduction.model;
+  Eigen::VectorXd load = model.static_force;
+  load.head(contact) -= lambda;
+  const Eigen::VectorXd q = model.stiffness.partialPivLu().solve(load);
+  const Eigen::VectorXd u = reduction.recovery.apply(q, lambda);
+  Eigen::VectorXd residual = full.stiffness * u - full.static_force;
+  residual.tail(contact) += lambda;
+  // |K| |u| eps is 1e-10 of the load; the reduced system loses some three digits more.
+  EXPECT_LT(residual.norm(), 1e-7 * full.static_force.norm());
+}
+
+TEST(MasslessBoundary, CountsRigidAndNegativeModes) {
+  // At standstill the blade floats; spin softening of -Omega^2 M turns its three rigid motions negative.
+  const Reduction standstill = reduce(truss_model({.speed = 0}), {.modes = 8});
+  EXPECT_EQ(standstill.rigid_modes, 3);
+  EXPECT_EQ(standstill.negative_modes, 0);
+  const Reduction spinning = reduce(truss_model({.speed = 20}), {.modes = 8});
+  EXPECT_EQ(spinning.rigid_modes, 0);
+  EXPECT_EQ(spinning.negative_modes, 3);
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(spinning.free_eigenvalues(k), -400, 1e-6);
+  EXPECT_GT(spinning.free_eigenvalues(3), 0);
+}
+
+TEST(MasslessBoundary, KeepsNegativeModesEvenWhenFewerAreAskedFor) {
+  const Reduction reduction = reduce(truss_model({.speed = 20}), {.modes = 0});
+  ASSERT_EQ(reduction.status, Status::converged) << reduction.message;
+  EXPECT_EQ((reduction.free_eigenvalues.array() < 0).count(), 3);
+}
+
+TEST(MasslessBoundary, ContactComesFirstAndCarriesNoMassOrDamping) {
+  const FullModel full = truss_model({.speed = 5});
+  const Reduction reduction = reduce(full, {.modes = 8, .damping_ratio = 0.02});
+  const ReducedModel& model = reduction.model;
+  const Eigen::Index contact = full.contact_size();
+  const Eigen::Index m = model.size() - contact;
+  EXPECT_TRUE(violations(model).empty());
+  EXPECT_EQ(model.contact.normal, Eigen::VectorXi::LinSpaced(4, 0, 6));
+  EXPECT_EQ(Eigen::VectorXi(model.contact.tangential.col(0)), Eigen::VectorXi::LinSpaced(4, 1, 7));
+  EXPECT_EQ(model.mass.topRows(contact).norm(), 0);
+  EXPECT_EQ(model.damping.topRows(contact).norm(), 0);
+  EXPECT_EQ(model.mass.bottomRightCorner(m, m), Eigen::MatrixXd::Identity(m, m));
+  // Modal damping of the glued modes: c = 2 zeta omega, omega^2 the stiffness.
+  for (Eigen::Index k = contact; k < model.size(); ++k)
+    EXPECT_NEAR(model.damping(k, k) / (2 * std::sqrt(model.stiffness(k, k))), 0.02, 1e-14);
+  EXPECT_EQ(Eigen::MatrixXd(model.damping - Eigen::MatrixXd(model.damping.diagonal().asDiagonal())).norm(), 0);
+}
+
+TEST(MasslessBoundary, LoadsAlreadyInTheBasisAddNoVectors) {
+  // Cosine force and first output are the same vector; the sine force is zero: three independent loads.
+  const Reduction reduction = reduce(truss_model({.speed = 5}), {.modes = 8});
+  EXPECT_EQ(reduction.free_eigenvalues.size(), 8 + 3);
+}
+
+TEST(MasslessBoundary, GluedModesConvergeAndTheirErrorIsEstimated) {
+  const FullModel full = truss_model({.columns = 5, .blade_rows = 6, .speed = 5});
+  const Eigen::VectorXd exact = glued_frequencies(full);
+  double previous = 1;
+  for (int modes : {10, 20, 40}) {
+    const Reduction reduction = reduce(full, {.modes = modes});
+    const double error = reduction.glued_frequencies(0) / exact(0) - 1;
+    EXPECT_GT(error, 0);  // less inertia: frequencies from above
+    EXPECT_LT(error, 0.5 * previous);
+    // First-order estimate: its own relative error is of the order of the ratio omega^2/omega_cut^2.
+    EXPECT_NEAR(reduction.frequency_error(0), error, 0.2 * error);
+    previous = error;
+  }
+}
+
+TEST(MasslessBoundary, ProjectedRecoveryEqualsRowsOfTheFullOne) {
+  const FullModel full = truss_model({.speed = 5});
+  const Reduction reduction = reduce(full, {.modes = 8});
+  Eigen::SparseMatrix<double> rows(2, full.size());
+  rows.insert(0, 3) = 2.0;
+  rows.insert(0, 11) = -1.0;
+  rows.insert(1, full.size() - 1) = 0.5;
+  const Eigen::MatrixXd q = some(reduction.model.size(), 1.0) * Eigen::RowVector3d(1, -2, 0.5);
+  const Eigen::MatrixXd lambda = some(full.contact_size(), 2.0) * Eigen::RowVector3d(3, 1, 1);
+  const Eigen::MatrixXd expected = rows * reduction.recovery.apply(q, lambda);
+  const Eigen::MatrixXd found = reduction.recovery.project(rows).apply(q, lambda);
+  EXPECT_LT((found - expected).norm(), 1e-13 * expected.norm());
+}
+
+TEST(MasslessBoundary, ReachesTheToleranceAskedFor) {
+  const FullModel full = truss_model({.columns = 6, .blade_rows = 8, .speed = 5});
+  const std::vector<double> angular = {15.0, 30.0, 45.0};
+  const Reduction coarse = reduce(full, {.modes = 4});
+  const double tolerance = compare(full, coarse, angular).back().flexibility / 20;
+  const Reduction reduction = reduce_to_tolerance(full, angular, tolerance, {.modes = 4});
+  ASSERT_EQ(reduction.status, Status::converged) << reduction.message;
+  EXPECT_GT(reduction.model.size(), coarse.model.size());
+  EXPECT_LT(reduction.model.size(), full.size());
+  // The estimate is first order: the true error may exceed it by some ten per cent.
+  for (const StiffnessError& error : compare(full, reduction, angular)) EXPECT_LT(error.flexibility, 1.2 * tolerance);
+  EXPECT_NEAR(reduction.glued_frequencies(0) / glued_frequencies(full)(0), 1.0, 1.2 * tolerance);
+}
+
+TEST(MasslessBoundary, SaysWhenNoNumberOfModesReachesTheTolerance) {
+  const Reduction reduction = reduce_to_tolerance(truss_model({.speed = 5}), std::vector{50.0}, 1e-30);
+  EXPECT_EQ(reduction.status, Status::iteration_limit);
+  EXPECT_GT(reduction.model.size(), 0);
+}
+
+TEST(MasslessBoundary, ReportsAGluedStructureThatIsNotPositiveDefinite) {
+  const Reduction reduction = reduce(truss_model({.speed = 1e4}));
+  EXPECT_EQ(reduction.status, Status::singular);
+  EXPECT_THAT(reduction.message, testing::HasSubstr("positive definite"));
+}
+
+TEST(MasslessBoundary, RefusesWrongSizesAndOptionsTogether) {
+  FullModel full = truss_model();
+  full.static_force.conservativeResize(5);
+  try {
+    (void)reduce(full, {.modes = -1});
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("static_force"),
+                                             testing::HasSubstr("reduction.modes = -1: must be >= 0")));
+  }
+}
+
+TEST(MasslessBoundary, RefusesContactDofsThatAreNotLast) {
+  FullModel full = truss_model();
+  std::swap(full.contact.normal(0), full.contact.tangential(0, 0));
+  EXPECT_THROW((void)reduce(full), InputError);
+}
+
+}  // namespace
+}  // namespace dovetail::reduction
