@@ -13,10 +13,10 @@ Status ContactSolver::factorise(const Eigen::SparseMatrix<double>& stiffness, Ei
   seconds_factorisation_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (status != Status::converged) return status;
 
-  const Eigen::SparseMatrix<double> coupling = stiffness.topRightCorner(internal, contact_size);
-  response_ = cholesky_.solve(Eigen::MatrixXd(-coupling));
+  coupling_ = stiffness.topRightCorner(internal, contact_size);
+  response_ = cholesky_.solve(Eigen::MatrixXd(-coupling_));
   const Eigen::SparseMatrix<double> corner = stiffness.bottomRightCorner(contact_size, contact_size);
-  const Eigen::MatrixXd schur = Eigen::MatrixXd(corner) + coupling.transpose() * response_;
+  const Eigen::MatrixXd schur = Eigen::MatrixXd(corner) + coupling_.transpose() * response_;
   schur_ = 0.5 * (schur + schur.transpose());
   return schur_.allFinite() ? Status::converged : Status::not_finite;
 }

@@ -20,14 +20,13 @@ class ContactSolver {
 
   [[nodiscard]] Eigen::Index internal_size() const { return response_.rows(); }
   [[nodiscard]] Eigen::Index contact_size() const { return response_.cols(); }
-  [[nodiscard]] const Eigen::MatrixXd& response() const { return response_; }  ///< T [n_i, nc]
-  [[nodiscard]] const Eigen::MatrixXd& schur() const { return schur_; }        ///< S [nc, nc]
+  [[nodiscard]] const Eigen::MatrixXd& response() const { return response_; }              ///< T [n_i, nc]
+  [[nodiscard]] const Eigen::MatrixXd& schur() const { return schur_; }                    ///< S [nc, nc]
+  [[nodiscard]] const Eigen::SparseMatrix<double>& coupling() const { return coupling_; }  ///< K_ir [n_i, nc]
   [[nodiscard]] double seconds_factorisation() const { return seconds_factorisation_; }
 
   /// K_ii^-1 b, b [n_i, k].
   [[nodiscard]] Eigen::MatrixXd solve_internal(const Eigen::Ref<const Eigen::MatrixXd>& b) const;
-  /// The same for one vector, without allocating.
-  void solve_internal(const double* b, double* x) const { cholesky_.solve(b, x); }
   /// b_r + T^T b_i [nc, k]: loads condensed onto the contact dofs, b [n, k].
   [[nodiscard]] Eigen::MatrixXd condense(const Eigen::Ref<const Eigen::MatrixXd>& b) const;
   /// [T; I] r [n, k]: static field of contact displacements r [nc, k].
@@ -35,6 +34,7 @@ class ContactSolver {
 
  private:
   numerics::SparseCholesky<double> cholesky_;
+  Eigen::SparseMatrix<double> coupling_;
   Eigen::MatrixXd response_, schur_;
   double seconds_factorisation_ = 0;
 };

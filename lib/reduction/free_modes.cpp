@@ -51,8 +51,11 @@ Eigen::MatrixXd FloatingInverse::apply(const Eigen::Ref<const Eigen::MatrixXd>& 
   Eigen::MatrixXd load = b;
   if (rigid_.cols() > 0) load -= mass_rigid_ * (rigid_.transpose() * b).eval();
   Eigen::MatrixXd x(load.rows(), load.cols());
-  const Eigen::MatrixXd contact = schur_inverse_ * solver_.condense(load);
-  x.topRows(internal) = solver_.solve_internal(load.topRows(internal));
+  const Eigen::MatrixXd held = solver_.solve_internal(load.topRows(internal));
+  // The load on the contact dofs through the sparse coupling: cheaper than through T once `held` is known.
+  const Eigen::MatrixXd contact =
+      schur_inverse_ * (load.bottomRows(solver_.contact_size()) - solver_.coupling().transpose() * held);
+  x.topRows(internal) = held;
   x.topRows(internal).noalias() += solver_.response() * contact;
   x.bottomRows(contact.rows()) = contact;
   if (rigid_.cols() > 0) x -= rigid_ * (mass_rigid_.transpose() * x).eval();
