@@ -1,11 +1,11 @@
 #include "numerics/sparse_modes.hpp"
 
-#include <Spectra/SymGEigsShiftSolver.h>
-
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <type_traits>
+#include <cstdint>
+#include <random>
 
 namespace dovetail::numerics {
 
@@ -15,44 +15,6 @@ template <class Scalar>
 using Column = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
 template <class Scalar>
 using Columns = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
-
-// A complex vector of n numbers is, as stored, a real vector of 2n; in it a Hermitian matrix acts as a real
-// symmetric one, so the same real Lanczos process serves both cases.
-template <class Scalar>
-constexpr Eigen::Index kReals = std::is_same_v<Scalar, double> ? 1 : 2;
-
-template <class ScalarT>
-class ShiftedInverse {
- public:
-  using Scalar = double;
-  explicit ShiftedInverse(const SparseCholesky<ScalarT>& cholesky) : cholesky_(cholesky) {}
-  Eigen::Index rows() const { return kReals<ScalarT> * cholesky_.size(); }
-  Eigen::Index cols() const { return rows(); }
-  void set_shift(double) {}  // the factorisation already contains it
-  void perform_op(const double* in, double* out) const {
-    cholesky_.solve(reinterpret_cast<const ScalarT*>(in), reinterpret_cast<ScalarT*>(out));
-  }
-
- private:
-  const SparseCholesky<ScalarT>& cholesky_;
-};
-
-template <class ScalarT>
-class MassProduct {
- public:
-  using Scalar = double;
-  explicit MassProduct(const Eigen::SparseMatrix<ScalarT>& mass) : mass_(mass) {}
-  Eigen::Index rows() const { return kReals<ScalarT> * mass_.rows(); }
-  Eigen::Index cols() const { return rows(); }
-  void perform_op(const double* in, double* out) const {
-    const Eigen::Map<const Column<ScalarT>> x(reinterpret_cast<const ScalarT*>(in), mass_.cols());
-    Eigen::Map<Column<ScalarT>> y(reinterpret_cast<ScalarT*>(out), mass_.rows());
-    y.noalias() = mass_ * x;
-  }
-
- private:
-  const Eigen::SparseMatrix<ScalarT>& mass_;
-};
 
 // Factorises K - sigma M, lowering sigma until it is positive definite.
 template <class Scalar>
@@ -77,70 +39,138 @@ Status factorise_shifted(const Eigen::SparseMatrix<Scalar>& stiffness, const Eig
     if (std::abs(mass.coeff(i, i)) > 0)
       largest = std::max(largest, std::abs(stiffness.coeff(i, i)) / std::abs(mass.coeff(i, i)));
   double lowered = std::min(-1e-10 * largest, -std::abs(shift));
-  for (int attempt = 0; attempt < 5 && status == Status::singular; ++attempt, lowered *= 100) {
+  for (int attempt = 0; attempt < 6 && status == Status::singular; ++attempt, lowered *= 100) {
     shift = lowered;
     status = factorise();
   }
   return status;
 }
 
-// Keeps the first `count` vectors that are independent in the inner product of the mass, orthonormalised.
+// Block Lanczos on A = (K - sigma M)^{-1} M, self-adjoint in the inner product of M: V^H M V = I and the block
+// tridiagonal T = V^H M A V. Blocks meet modes of equal frequency (the rigid motions of a floating body) that a single
+// starting vector would miss, and solve several right-hand sides at once. Fully reorthogonalised, never restarted.
 template <class Scalar>
-void keep_independent(const Eigen::SparseMatrix<Scalar>& mass, const Eigen::VectorXd& eigenvalues,
-                      const Columns<Scalar>& candidates, Eigen::Index count, Modes<Scalar>& modes) {
-  modes.vectors.resize(candidates.rows(), count);
-  modes.eigenvalues.resize(count);
-  Columns<Scalar> weighted(candidates.rows(), count);  // M times the vectors kept
-  Eigen::Index kept = 0;
-  for (Eigen::Index k = 0; k < candidates.cols() && kept < count; ++k) {
-    Column<Scalar> v = candidates.col(k);
-    for (int pass = 0; pass < 2; ++pass) v -= modes.vectors.leftCols(kept) * (weighted.leftCols(kept).adjoint() * v);
-    const Column<Scalar> mv = mass * v;
-    const double norm = std::sqrt(std::max(0.0, std::real(v.dot(mv))));
-    // The candidates have unit norm: what is left of the second of a pair is rounding, of a new mode O(1).
-    if (norm < 1e-3) continue;
-    modes.vectors.col(kept) = v / norm;
-    weighted.col(kept) = mv / norm;
-    modes.eigenvalues[kept++] = eigenvalues[k];
+class BlockLanczos {
+ public:
+  BlockLanczos(const Eigen::SparseMatrix<Scalar>& mass, const SparseCholesky<Scalar>& cholesky, Eigen::Index capacity)
+      : mass_(mass),
+        cholesky_(cholesky),
+        basis_(mass.rows(), std::min(mass.rows(), capacity + kBlockWidth)),
+        weighted_(basis_.rows(), basis_.cols()),
+        projected_(Columns<Scalar>::Zero(basis_.cols(), basis_.cols())) {
+    start_block();
   }
-  modes.vectors.conservativeResize(Eigen::NoChange, kept);
-  modes.eigenvalues.conservativeResize(kept);
-}
+
+  /// Vectors to which A has been applied.
+  Eigen::Index steps() const { return first_; }
+  bool complete() const { return first_ == mass_.rows(); }
+
+  void step() {
+    if (width_ == 0) start_block();
+    const Eigen::Index current = first_, width = width_;
+    Columns<Scalar> x = cholesky_.solve(weighted_.middleCols(current, width));
+    const Columns<Scalar> diagonal = weighted_.middleCols(current, width).adjoint() * x;
+    projected_.block(current, current, width, width) = 0.5 * (diagonal + diagonal.adjoint());
+    scale_ = std::max(scale_, diagonal.cwiseAbs().maxCoeff());
+    first_ += width;
+    for (int pass = 0; pass < 2; ++pass) orthogonalise(x);
+    coupling_ = append(x);
+    projected_.block(first_, current, width_, width) = coupling_;
+    projected_.block(current, first_, width, width_) = coupling_.adjoint();
+  }
+
+  /// Computes the Ritz pairs; true when the largest `count` have residuals below tolerance times their value.
+  bool converged(Eigen::Index count, double tolerance) {
+    ritz_.compute(projected_.topLeftCorner(first_, first_));
+    if (ritz_.info() != Eigen::Success || first_ < count) return false;
+    const Columns<Scalar> last = ritz_.eigenvectors().bottomRightCorner(coupling_.cols(), count);
+    const Eigen::VectorXd residual = (coupling_ * last).colwise().norm();
+    return (residual.array() <= tolerance * ritz_.eigenvalues().tail(count).array()).all();
+  }
+
+  /// Eigenvalues 1/theta + shift, ascending, and their vectors.
+  void extract(Eigen::Index count, Modes<Scalar>& modes) const {
+    const Columns<Scalar> chosen = ritz_.eigenvectors().rightCols(count).rowwise().reverse();
+    modes.vectors.noalias() = basis_.leftCols(first_) * chosen;
+    modes.eigenvalues = ritz_.eigenvalues().tail(count).reverse().cwiseInverse().array() + modes.shift;
+  }
+
+ private:
+  void orthogonalise(Columns<Scalar>& x) const {
+    const Columns<Scalar> overlap = weighted_.leftCols(first_).adjoint() * x;
+    x.noalias() -= basis_.leftCols(first_) * overlap;
+  }
+
+  /// Appends the independent part Q of x = Q R as the next block; returns R.
+  Columns<Scalar> append(Columns<Scalar>& x) {
+    Columns<Scalar> r = Columns<Scalar>::Zero(x.cols(), x.cols());
+    width_ = 0;
+    for (Eigen::Index c = 0; c < x.cols() && first_ + width_ < basis_.cols(); ++c) {
+      for (int pass = 0; pass < 2; ++pass) {
+        const Column<Scalar> overlap = weighted_.middleCols(first_, width_).adjoint() * x.col(c);
+        x.col(c) -= basis_.middleCols(first_, width_) * overlap;
+        r.col(c).head(width_) += overlap;
+      }
+      const Column<Scalar> mx = mass_ * x.col(c);
+      const double norm = std::sqrt(std::max(0.0, std::real(x.col(c).dot(mx))));
+      if (!(norm > 1e-14 * scale_)) continue;  // its direction is complete
+      basis_.col(first_ + width_) = x.col(c) / Scalar(norm);
+      weighted_.col(first_ + width_) = mx / Scalar(norm);
+      r(width_++, c) = norm;
+    }
+    return r.topRows(width_);
+  }
+
+  void start_block() {
+    std::mt19937_64 random(static_cast<std::uint64_t>(first_) + 1);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    Columns<Scalar> start(mass_.rows(), kBlockWidth);
+    for (Scalar& value : start.reshaped()) value = uniform(random);
+    // One application of A damps the stiffest directions.
+    Columns<Scalar> x = cholesky_.solve(start);
+    x.colwise().normalize();
+    for (int pass = 0; pass < 2; ++pass) orthogonalise(x);
+    append(x);
+  }
+
+  static constexpr Eigen::Index kBlockWidth = 4;
+
+  const Eigen::SparseMatrix<Scalar>& mass_;
+  const SparseCholesky<Scalar>& cholesky_;
+  Columns<Scalar> basis_, weighted_;  // V and M V
+  Columns<Scalar> projected_;         // T
+  Columns<Scalar> coupling_;          // block below the last one of T
+  Eigen::SelfAdjointEigenSolver<Columns<Scalar>> ritz_;
+  Eigen::Index first_ = 0, width_ = 0;  // the block to be multiplied next
+  double scale_ = 0;
+};
 
 }  // namespace
 
 template <class Scalar>
 Modes<Scalar> smallest_modes(const Eigen::SparseMatrix<Scalar>& stiffness, const Eigen::SparseMatrix<Scalar>& mass,
                              const ModesOptions& options, SparseCholesky<Scalar>& cholesky) {
-  const Eigen::Index n = stiffness.rows();
-  assert(options.count >= 1 && options.count < n && mass.rows() == n);
+  assert(options.count >= 1 && options.count < stiffness.rows() && mass.rows() == stiffness.rows());
   Modes<Scalar> modes;
   modes.shift = options.shift;
   modes.status = factorise_shifted(stiffness, mass, modes.shift, cholesky);
   if (modes.status != Status::converged) return modes;
 
-  const Eigen::Index reals = kReals<Scalar> * n;
-  const Eigen::Index wanted = std::min(kReals<Scalar> * Eigen::Index{options.count}, reals - 1);
-  // Twice the wanted pairs and some more: shift-invert then mostly converges without a restart.
-  const Eigen::Index space = std::min(reals, 2 * wanted + 20);
-  ShiftedInverse<Scalar> inverse(cholesky);
-  MassProduct<Scalar> product(mass);
-  Spectra::SymGEigsShiftSolver<ShiftedInverse<Scalar>, MassProduct<Scalar>, Spectra::GEigsMode::ShiftInvert> solver(
-      inverse, product, wanted, space, modes.shift);
-  solver.init();
-  solver.compute(Spectra::SortRule::LargestAlge, options.iteration_limit, options.tolerance,
-                 Spectra::SortRule::SmallestAlge);
-  modes.status = solver.info() == Spectra::CompInfo::Successful      ? Status::converged
-                 : solver.info() == Spectra::CompInfo::NotConverging ? Status::iteration_limit
-                                                                     : Status::singular;
-  if (modes.status != Status::converged) return modes;
-
-  const Eigen::VectorXd eigenvalues = solver.eigenvalues();
-  const Eigen::MatrixXd vectors = solver.eigenvectors();
-  const Eigen::Map<const Columns<Scalar>> candidates(reinterpret_cast<const Scalar*>(vectors.data()), n,
-                                                     vectors.cols());
-  keep_independent<Scalar>(mass, eigenvalues, candidates, options.count, modes);
-  if (modes.eigenvalues.size() < options.count) modes.status = Status::stalled;
+  const Eigen::Index wanted = options.count;
+  const Eigen::Index capacity = Eigen::Index{options.vector_limit} * wanted + 40;
+  BlockLanczos<Scalar> lanczos(mass, cholesky, capacity);
+  Eigen::Index next_look = 2 * wanted;
+  modes.status = Status::iteration_limit;
+  while (lanczos.steps() < capacity && !lanczos.complete()) {
+    lanczos.step();
+    if (lanczos.steps() < next_look && !lanczos.complete()) continue;
+    if (lanczos.converged(wanted, options.tolerance)) {
+      modes.status = Status::converged;
+      lanczos.extract(wanted, modes);
+      break;
+    }
+    next_look = lanczos.steps() + std::max<Eigen::Index>(4, wanted / 2);
+  }
   return modes;
 }
 

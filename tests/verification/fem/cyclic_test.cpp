@@ -1,0 +1,177 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "fem/glued_modes.hpp"
+#include "fem/sector_system.hpp"
+#include "tests/unit/fem/structured_mesh.hpp"
+
+namespace dovetail::fem {
+namespace {
+
+constexpr int kSectors = 5;
+
+/// A lopsided sector, so that clockwise and counter-clockwise differ.
+SectorMesh lopsided_sector() {
+  testing::Grid grid = testing::make_grid(2, 2, testing::annular_sector(0.1, 0.25, kSectors));
+  grid.mesh.nodes.col(grid.node(4, 2)) += Eigen::Vector2d(0.02, 0.05);
+  grid.mesh.nodes.col(grid.node(2, 2)) += Eigen::Vector2d(0.012, 0.004);
+  return testing::annulus_sector(grid, kSectors);
+}
+
+/// The whole ring, sector k turned clockwise by k sector angles and joined at the cuts; bore held tangentially.
+struct Ring {
+  Mesh mesh;
+  Eigen::SparseMatrix<double> selection;
+
+  explicit Ring(const SectorMesh& sector) {
+    const int n = sector.mesh.node_count();
+    std::vector<int> image(static_cast<std::size_t>(n), -1), number(static_cast<std::size_t>(n), -1);
+    for (const std::array<int, 2>& pair : sector.cyclic_pairs) image[static_cast<std::size_t>(pair[1])] = pair[0];
+    int kept = 0;
+    for (std::size_t k = 0; k < number.size(); ++k)
+      if (image[k] < 0) number[k] = kept++;
+    mesh.nodes.resize(2, kSectors * kept);
+    mesh.regions = sector.mesh.regions;
+    std::vector<bool> on_bore(static_cast<std::size_t>(kSectors * kept), false);
+    for (int s = 0; s < kSectors; ++s) {
+      const Eigen::Matrix2d turn = Eigen::Rotation2D<double>(-2 * std::numbers::pi * s / kSectors).toRotationMatrix();
+      // The right cut of a sector is the left cut of the next one clockwise.
+      const auto ring_node = [&](int node) {
+        const int left = image[static_cast<std::size_t>(node)];
+        return left < 0 ? s * kept + number[static_cast<std::size_t>(node)]
+                        : (s + 1) % kSectors * kept + number[static_cast<std::size_t>(left)];
+      };
+      for (int k = 0; k < n; ++k)
+        if (image[static_cast<std::size_t>(k)] < 0) mesh.nodes.col(ring_node(k)) = turn * sector.mesh.nodes.col(k);
+      for (std::array<int, 6> element : sector.mesh.elements) {
+        for (int& node : element) node = ring_node(node);
+        mesh.elements.push_back(element);
+        mesh.region.push_back(0);
+      }
+      for (int node : sector.bore_nodes) on_bore[static_cast<std::size_t>(ring_node(node))] = true;
+    }
+    std::vector<Eigen::Triplet<double>> entries;
+    int column = 0;
+    for (int k = 0; k < mesh.node_count(); ++k) {
+      const Eigen::Vector2d radial = mesh.nodes.col(k).normalized();
+      for (int c = 0; c < 2; ++c)
+        entries.emplace_back(2 * k + c, on_bore[static_cast<std::size_t>(k)] ? column : column + c,
+                             on_bore[static_cast<std::size_t>(k)] ? radial[c] : 1.0);
+      column += on_bore[static_cast<std::size_t>(k)] ? 1 : 2;
+    }
+    selection.resize(2 * mesh.nodes.cols(), column);
+    selection.setFromTriplets(entries.begin(), entries.end());
+  }
+};
+
+Eigen::VectorXd sorted(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+TEST(CyclicSymmetry, NodalDiametersTogetherAreTheFullRing) {
+  const SectorMesh sector = lopsided_sector();
+  const std::vector<Material> materials{Material{}};
+  const Ring ring(sector);
+  const FullMatrices full_ring = Assembler(ring.mesh).stiffness_and_mass(ring.mesh, materials);
+  const Eigen::MatrixXd ring_stiffness = testing::restrict_to(full_ring.stiffness, ring.selection);
+  const Eigen::MatrixXd ring_mass = testing::restrict_to(full_ring.mass, ring.selection);
+  const Eigen::VectorXd expected =
+      Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(ring_stiffness, ring_mass, Eigen::EigenvaluesOnly)
+          .eigenvalues();
+
+  const FullMatrices full = Assembler(sector.mesh).stiffness_and_mass(sector.mesh, materials);
+  std::vector<double> found;
+  for (int diameter = 0; diameter <= kSectors / 2; ++diameter) {
+    const Constraints<std::complex<double>> constraints =
+        complex_constraints(sector, BoreSupport::tangential, diameter);
+    const Eigen::MatrixXcd stiffness = constrain(full.stiffness, constraints), mass = constrain(full.mass, constraints);
+    const Eigen::VectorXd values =
+        Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXcd>(stiffness, mass, Eigen::EigenvaluesOnly)
+            .eigenvalues();
+    for (double value : values) found.insert(found.end(), diameter == 0 ? 1 : 2, value);  // both directions of travel
+  }
+  const Eigen::VectorXd values = sorted(found);
+  ASSERT_EQ(values.size(), expected.size());
+  EXPECT_LT(((values - expected).array() / expected.array()).abs().maxCoeff(), 1e-9);
+
+  // The Lanczos path finds the lowest of each diameter.
+  const NodalDiameterFrequencies frequencies =
+      nodal_diameter_frequencies(sector, full.stiffness, full.mass, BoreSupport::tangential, {.count = 6});
+  std::vector<double> lowest;
+  for (std::size_t k = 0; k < frequencies.nodal_diameters.size(); ++k) {
+    EXPECT_EQ(frequencies.status[k], Status::converged);
+    for (double f : frequencies.frequency.row(static_cast<Eigen::Index>(k)))
+      lowest.insert(lowest.end(), k == 0 ? 1 : 2, std::pow(2 * std::numbers::pi * f, 2));
+  }
+  const Eigen::VectorXd lanczos = sorted(lowest);
+  EXPECT_LT(((lanczos - expected.head(lanczos.size())).array() / lanczos.array()).abs().head(10).maxCoeff(), 1e-9);
+}
+
+TEST(GluedModes, ComplexModesAreOrthonormalAndSatisfyTheirEquation) {
+  const SectorMesh sector = testing::toothed_sector(4, 3, 3, 9, false);
+  const std::vector<Material> materials(2);
+  const FullMatrices full = Assembler(sector.mesh).stiffness_and_mass(sector.mesh, materials);
+  const Constraints<std::complex<double>> constraints = complex_constraints(sector, BoreSupport::tangential, 2);
+  numerics::SparseCholesky<std::complex<double>> cholesky;
+  const numerics::Modes<std::complex<double>> modes =
+      glued_modes(full.stiffness, full.mass, constraints, {.count = 8}, cholesky);
+  ASSERT_EQ(modes.status, Status::converged);
+  const Eigen::MatrixXcd stiffness = internal_block(constrain(full.stiffness, constraints), constraints);
+  const Eigen::MatrixXcd mass = internal_block(constrain(full.mass, constraints), constraints);
+  const Eigen::VectorXd expected =
+      Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXcd>(stiffness, mass, Eigen::EigenvaluesOnly)
+          .eigenvalues()
+          .head(8);
+  EXPECT_LT(((modes.eigenvalues - expected).array() / expected.array()).abs().maxCoeff(), 1e-9);
+  const Eigen::MatrixXcd gram = modes.vectors.adjoint() * mass * modes.vectors;
+  EXPECT_LT((gram - Eigen::MatrixXcd::Identity(8, 8)).norm(), 1e-10);
+  const Eigen::MatrixXcd residual =
+      stiffness * modes.vectors - mass * modes.vectors * modes.eigenvalues.asDiagonal().toDenseMatrix();
+  // Shift-invert leaves K^{-1} times the residual small, the residual itself up to the stiffest scale.
+  EXPECT_LT(residual.norm(), 1e-7 * (stiffness * modes.vectors).norm());
+}
+
+TEST(GluedModes, GluedFlanksAreTheMergedMesh) {
+  const std::vector<Material> materials{{.density = 4430},
+                                        {.youngs_modulus = 2e11, .poisson_ratio = 0.3, .density = 7800}};
+  const SectorMesh split = testing::toothed_sector(4, 3, 3, 9, false);
+  const SectorMesh merged = testing::toothed_sector(4, 3, 3, 9, true);
+  const FullMatrices a = Assembler(split.mesh).stiffness_and_mass(split.mesh, materials);
+  const FullMatrices b = Assembler(merged.mesh).stiffness_and_mass(merged.mesh, materials);
+  for (const std::vector<int> diameters{0, 1, 4}; int diameter : diameters) {
+    const std::vector<int> one{diameter};
+    const auto first = nodal_diameter_frequencies(split, a.stiffness, a.mass, BoreSupport::tangential, {}, one);
+    const auto second = nodal_diameter_frequencies(merged, b.stiffness, b.mass, BoreSupport::tangential, {}, one);
+    ASSERT_EQ(first.status[0], Status::converged);
+    ASSERT_EQ(second.status[0], Status::converged);
+    EXPECT_LT((first.frequency - second.frequency).norm(), 1e-9 * first.frequency.norm()) << diameter;
+  }
+}
+
+TEST(GluedModes, LowersTheShiftForAFloatingBody) {
+  // A free annulus turns rigidly at diameter 0: one zero frequency, then the elastic ones.
+  const SectorMesh sector = lopsided_sector();
+  const std::vector<Material> materials{Material{}};
+  const FullMatrices full = Assembler(sector.mesh).stiffness_and_mass(sector.mesh, materials);
+  const Constraints<double> constraints = real_constraints(sector, BoreSupport::free);
+  numerics::SparseCholesky<double> cholesky;
+  const numerics::Modes<double> modes = glued_modes(full.stiffness, full.mass, constraints, {.count = 4}, cholesky);
+  ASSERT_EQ(modes.status, Status::converged);
+  EXPECT_LT(modes.shift, 0);
+  const Eigen::MatrixXd stiffness = constrain(full.stiffness, constraints), mass = constrain(full.mass, constraints);
+  const Eigen::VectorXd expected =
+      Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(stiffness, mass, Eigen::EigenvaluesOnly)
+          .eigenvalues()
+          .head(4);
+  EXPECT_LT(std::abs(modes.eigenvalues[0]), 1e-6 * modes.eigenvalues[1]);
+  EXPECT_LT(((modes.eigenvalues - expected).array() / expected[3]).abs().maxCoeff(), 1e-9);
+}
+
+}  // namespace
+}  // namespace dovetail::fem
