@@ -38,6 +38,7 @@ void validate(const WearOptions& options) {
 }
 
 struct Start {
+  double hz = 0;  ///< exactly as asked for
   double omega = 0;
   std::optional<response::Resonance> resonance;
 };
@@ -46,7 +47,8 @@ struct Start {
 Start start(const WearOptions& options, const LoadedModel& loaded) {
   Start at;
   if (options.frequency_hz) {
-    at.omega = kTurn * *options.frequency_hz;
+    at.hz = *options.frequency_hz;
+    at.omega = kTurn * at.hz;
     return at;
   }
   if (loaded.glued_omega <= 0)
@@ -61,6 +63,7 @@ Start start(const WearOptions& options, const LoadedModel& loaded) {
                                .allowed = "has no output whose resonance could be found; give --frequency HZ"});
   at.resonance = response::resonance(loaded.condensed, loaded.glued_omega, {}, loaded.steady);
   at.omega = at.resonance->omega;
+  at.hz = at.omega / kTurn;
   return at;
 }
 
@@ -78,7 +81,7 @@ FollowedAsymptote asymptote(const WearOptions& options, const LoadedModel& loade
   const response::SteadyState* initial = at.resonance ? &at.resonance->state : nullptr;
   result.solves = at.resonance ? at.resonance->solves : 0;
   result.asymptote = wear::asymptote(loaded.condensed, at.omega, {}, loaded.steady, {}, initial, control);
-  result.frequencies_hz = {at.omega / kTurn};
+  result.frequencies_hz = {at.hz};
   result.solves += result.asymptote.solves;
   if (options.follow == "fixed") return result;
 
@@ -137,7 +140,7 @@ int with_history(const WearOptions& options, const LoadedModel& loaded, const St
   wear::History history = wear::history(loaded.condensed, at.omega, {}, loaded.steady, settings, {}, control);
   if (at.resonance) history.solves += at.resonance->solves;
   const std::string status = wear_status(history);
-  const WearQuestion question{.frequency_hz = at.omega / kTurn, .follow = options.follow};
+  const WearQuestion question{.frequency_hz = at.hz, .follow = options.follow};
   deliver_json(options.json, history_json(question, history), streams);
   const Eigen::Index last = history.depth.rows() - 1;
   if (options.json.empty())
@@ -175,7 +178,7 @@ int run_wear(const WearOptions& options, const Streams& streams) {
 
   const FollowedAsymptote found = asymptote(options, loaded, at, control);
   if (terminal) streams.err << "\r\033[K" << std::flush;
-  const WearQuestion question{.frequency_hz = at.omega / kTurn, .follow = options.follow};
+  const WearQuestion question{.frequency_hz = at.hz, .follow = options.follow};
   deliver_json(options.json, asymptote_json(question, found.asymptote, found.frequencies_hz, found.solves), streams);
   const std::string status(wear::to_string(found.asymptote.verdict));
   if (options.json.empty())

@@ -127,7 +127,10 @@ std::string wear_status(const wear::History& history) {
 std::string history_json(const WearQuestion& question, const wear::History& history) {
   const Eigen::Index last = history.depth.rows() - 1;
   Json json = wear_json("history", wear_status(history), question);
-  json["frequencies_hz"] = numbers(Eigen::VectorXd(history.frequency / (2 * std::numbers::pi)));
+  std::vector<double> hz;
+  for (const double omega : history.frequency)
+    hz.push_back(question.follow == "fixed" ? question.frequency_hz : omega / (2 * std::numbers::pi));
+  json["frequencies_hz"] = numbers(hz);
   json["ended"] = std::string(wear::to_string(history.end));
   json["cycles"] = numbers(history.cycles);
   json["worn_volume_m3"] = numbers(history.worn_volume);
