@@ -95,7 +95,10 @@ void CondensedModel::diagonalise() {
     const Eigen::MatrixXd damping = basis_.transpose() * c * basis_;
     const Eigen::VectorXd scale = damping.diagonal().cwiseAbs();
     modal_ = (by_mass || by_stiffness) && is_diagonal(damping, scale, 1e-9);
+    set_glued_frequencies(basis_.transpose() * m * basis_, basis_.transpose() * k * basis_);
     if (!modal_) basis_ = Eigen::MatrixXd::Identity(ni, ni);
+  } else {
+    set_glued_frequencies(m, k);
   }
   for (Partition* part : {&mass_, &damping_, &stiffness_}) {
     part->ci = part->ci * basis_;
@@ -111,6 +114,15 @@ void CondensedModel::diagonalise() {
   for (Eigen::Index j = 0; j < ni; ++j)
     if (mass_.ii(j, 0) <= mass_limit && stiffness_.ii(j, 0) > 0)
       local_stiffness_ -= stiffness_.ci.col(j).cwiseAbs2() / stiffness_.ii(j, 0);
+}
+
+void CondensedModel::set_glued_frequencies(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& stiffness) {
+  std::vector<double> found;
+  const double smallest = 1e-13 * mass.diagonal().maxCoeff();
+  for (Eigen::Index j = 0; j < mass.rows(); ++j)
+    if (mass(j, j) > smallest && stiffness(j, j) >= 0) found.push_back(std::sqrt(stiffness(j, j) / mass(j, j)));
+  std::sort(found.begin(), found.end());
+  glued_frequencies_ = Eigen::Map<Eigen::VectorXd>(found.data(), static_cast<Eigen::Index>(found.size()));
 }
 
 struct CondensedModel::Dynamic {
@@ -245,13 +257,7 @@ CondensedModel::HarmonicEnergy CondensedModel::energy(int h, double omega, const
 }
 
 Eigen::VectorXd CondensedModel::glued_frequencies() const {
-  std::vector<double> found;
-  if (modal_)
-    for (Eigen::Index j = 0; j < mass_.ii.rows(); ++j)
-      if (mass_.ii(j, 0) > 0 && stiffness_.ii(j, 0) >= 0)
-        found.push_back(std::sqrt(stiffness_.ii(j, 0) / mass_.ii(j, 0)));
-  std::sort(found.begin(), found.end());
-  return Eigen::Map<Eigen::VectorXd>(found.data(), static_cast<Eigen::Index>(found.size()));
+  return glued_frequencies_;
 }
 
 }  // namespace dovetail::response

@@ -67,7 +67,7 @@ class CondensedModel {
   };
   [[nodiscard]] HarmonicEnergy energy(int h, double omega, const HarmonicStiffness& at,
                                       const Eigen::VectorXcd& contact) const;
-  /// Undamped frequencies of the glued structure (contact displacements zero), rad/s, ascending; only modal().
+  /// Undamped frequencies of the glued structure (contact displacements zero), rad/s, ascending.
   [[nodiscard]] Eigen::VectorXd glued_frequencies() const;
 
  private:
@@ -75,6 +75,8 @@ class CondensedModel {
   [[nodiscard]] Eigen::MatrixXcd solve_internal(const Eigen::MatrixXcd& internal, const Eigen::MatrixXcd& rhs,
                                                 Status* status) const;
   void diagonalise();
+  void set_glued_frequencies(const Eigen::MatrixXd& mass,
+                             const Eigen::MatrixXd& stiffness);  // of decoupled coordinates
 
   Eigen::Index n_ = 0;
   reduction::ContactNodes contact_;
@@ -89,7 +91,7 @@ class CondensedModel {
   Partition mass_, damping_, stiffness_;
   Eigen::MatrixXcd force_contact_, force_internal_;  // column h, complex amplitude c - i s
   Eigen::MatrixXd output_contact_, output_internal_;
-  Eigen::VectorXd local_stiffness_;
+  Eigen::VectorXd local_stiffness_, glued_frequencies_;
 };
 
 }  // namespace dovetail::response

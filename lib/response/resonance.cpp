@@ -81,7 +81,10 @@ class PeakSearch {
       if (std::abs(step) <= 0.2 * peak_.frequency_tolerance * now_.omega && curved_down_)
         return finish(Status::converged);
       if (lower_ && upper_) {
-        if (*upper_ - *lower_ <= peak_.frequency_tolerance * now_.omega) return finish(Status::converged);
+        // A bracket may close on a kink of the curve, but not on a jump to another branch.
+        if (*upper_ - *lower_ <= peak_.frequency_tolerance * now_.omega)
+          return finish(std::abs(upper_amplitude_ - lower_amplitude_) <= 1e-4 * now_.amplitude ? Status::converged
+                                                                                               : Status::no_bracket);
         const double target = now_.omega + step;
         if (!(target > *lower_ && target < *upper_) || stalling()) step = (*lower_ + *upper_) / 2 - now_.omega;
       }
@@ -105,8 +108,14 @@ class PeakSearch {
     const std::complex<double> y(first.value(1), -first.value(2)), dy(first.slope(1), -first.slope(2));
     now_.pole = dy != 0.0 ? now_.omega + y / dy : std::complex<double>(now_.omega, 1e-3 * now_.omega);
     now_.state = std::move(state);
-    if (now_.slope > 0 && (!lower_ || now_.omega > *lower_)) lower_ = now_.omega;
-    if (now_.slope <= 0 && (!upper_ || now_.omega < *upper_)) upper_ = now_.omega;
+    if (now_.slope > 0 && (!lower_ || now_.omega > *lower_)) {
+      lower_ = now_.omega;
+      lower_amplitude_ = now_.amplitude;
+    }
+    if (now_.slope <= 0 && (!upper_ || now_.omega < *upper_)) {
+      upper_ = now_.omega;
+      upper_amplitude_ = now_.amplitude;
+    }
     // Two peaks, or a fold, can cross the marks: keep the newest one.
     if (lower_ && upper_ && *lower_ >= *upper_) (now_.slope > 0 ? upper_ : lower_).reset();
     widths_.push_back(lower_ && upper_ ? *upper_ - *lower_ : kInfinity);
@@ -158,6 +167,7 @@ class PeakSearch {
   Resonance result_;
   Status last_status_ = Status::no_bracket;
   std::optional<double> lower_, upper_;
+  double lower_amplitude_ = 0, upper_amplitude_ = 0;
   std::vector<double> widths_;
   bool curved_down_ = false;
 };

@@ -1,0 +1,72 @@
+#include "response/resonance.hpp"
+
+#include <gtest/gtest.h>
+
+#include "response/frequency_response.hpp"
+#include "tests/verification/response/rod.hpp"
+
+namespace dovetail::verification {
+namespace {
+
+TEST(Resonance, IsTheClosedFormOfALinearOscillator) {
+  // Amplitude peaks at w_n sqrt(1 - 2 zeta^2) with F / (2 k zeta sqrt(1 - zeta^2)); the contact is stuck beside it.
+  const double zeta = 0.001, natural = 200;
+  reduction::ReducedModel model = empty_model(3, 1, 1);
+  model.mass(0, 0) = 2;
+  model.stiffness.diagonal() << 2 * natural * natural, 1, 1;
+  model.damping(0, 0) = 2 * 2 * natural * zeta;
+  model.contact.normal << 1;
+  model.contact.tangential << 2;
+  model.contact.friction << 0.5;
+  model.static_force(1) = 1;
+  model.cosine_force(0, 0) = 1;
+  model.output_vectors = Eigen::MatrixXd::Identity(1, 3);
+  model.output_names = {"x"};
+  for (const double start : {200.0, 190.0, 215.0}) {
+    const response::Resonance peak = resonance(condensed(model), start, {}, {});
+    ASSERT_EQ(peak.status, Status::converged) << start;
+    EXPECT_NEAR(peak.omega / (natural * std::sqrt(1 - 2 * zeta * zeta)), 1, 1e-7);
+    EXPECT_NEAR(peak.amplitude * 2 * 2 * natural * natural * zeta * std::sqrt(1 - zeta * zeta), 1, 1e-9);
+    EXPECT_LE(peak.solves, 10);
+  }
+}
+
+TEST(Resonance, MatchesADenseSweepWithFriction) {
+  reduction::ReducedModel model = rod(10);
+  model.cosine_force *= 0.05 / 0.3;
+  const auto prepared = condensed(model);
+  const response::Resonance peak = resonance(prepared, prepared->glued_frequencies()(0), {}, {});
+  ASSERT_EQ(peak.status, Status::converged);
+  ASSERT_TRUE(peak.state.linearisation);
+  EXPECT_GT(peak.state.friction_energy, 0);
+  std::vector<double> omega;
+  for (int i = -20; i <= 20; ++i) omega.push_back(peak.omega * (1 + 2e-5 * i));
+  const std::vector<response::SteadyState> sweep = frequency_response(prepared, omega, {}, {});
+  for (std::size_t i = 0; i < sweep.size(); ++i) {
+    ASSERT_EQ(sweep[i].status, Status::converged);
+    // A maximum: nothing higher nearby, beyond rounding of a solve to 1e-9.
+    EXPECT_LE(sweep[i].amplitudes(0), peak.amplitude * (1 + 1e-9));
+  }
+  // And beside it, on both sides, lower by more than that.
+  EXPECT_LT(sweep.front().amplitudes(0), peak.amplitude * (1 - 1e-7));
+  EXPECT_LT(sweep.back().amplitudes(0), peak.amplitude * (1 - 1e-7));
+}
+
+TEST(Resonance, HasAnExactSlope) {
+  const auto model = condensed(rod(10));
+  const response::SteadyOptions tight{.harmonics = 5, .tolerance = 1e-13};
+  const double omega = 2.6, h = 1e-6;
+  const response::AmplitudeSlope at = amplitude_slope(steady_state(model, omega, {}, tight), 0);
+  const double difference = (steady_state(model, omega + h, {}, tight).amplitudes(0) -
+                             steady_state(model, omega - h, {}, tight).amplitudes(0)) /
+                            (2 * h);
+  EXPECT_NEAR(at.slope, difference, 1e-6 * std::abs(difference));
+}
+
+TEST(Resonance, SaysWhenThereIsNone) {
+  const response::Resonance peak = resonance(condensed(rod(10)), 3.5, {}, {}, {.search_range = 0.02});
+  EXPECT_EQ(peak.status, Status::no_bracket);
+}
+
+}  // namespace
+}  // namespace dovetail::verification
