@@ -16,7 +16,7 @@ namespace dovetail::report {
 ///   /problem          variables {key, lower, upper, start}, objective {response, weight, scale, absolute},
 ///                     constraints {response, lower, upper, has_lower, has_upper, scale, absolute}, constraint_names
 ///   /evaluations      [E] x [E,n], phase, status, feasible, objective, violation, constraints [E,C], seconds;
-///                     responses and error_estimates {names [R], values [E,R], present [E,R]};
+///                     responses, error_estimates and rules {names [R], values [E,R], present [E,R]};
 ///                     messages {evaluation, text}
 ///   /best, /baseline  a design each, when there is one: parameters, responses, error_estimates {names, values};
 ///                     profile/{blade, disk, finished_blade} {name, start_m [.,2], end_m [.,2], center_m [.,2],

@@ -98,6 +98,7 @@ struct EvaluationRecord {
   double seconds = 0;
   std::map<std::string, double> responses;
   std::map<std::string, double> error_estimates;
+  std::map<std::string, double> rules;  ///< geometric rule without its prefix -> c, kept when <= 0
   std::vector<std::string> messages;
 };
 

@@ -7,16 +7,17 @@
 namespace dovetail::report {
 
 /// What a line or marker stands for; the page's style sheet gives each a colour in light and dark.
-enum class Role { before, after, muted, good, bad, third };
+enum class Role { before, after, muted, bad };
 
+enum class Stroke { solid, dashed, dotted };
 enum class Shape { circle, cross, triangle, star };
 
 /// One line of a plot; a NaN interrupts it.
 struct PlotLine {
-  std::string name;  ///< in the legend; empty: not listed
-  std::vector<double> x, y;
+  std::string name = {};  ///< in the legend; empty: not listed
+  std::vector<double> x = {}, y = {};
   Role role = Role::after;
-  bool dashed = false;
+  Stroke stroke = Stroke::solid;
   bool dots = false;    ///< a small dot at each point, with its values as tooltip
   bool steps = false;   ///< constant until the next point
   bool filled = false;  ///< light area down to the axis
@@ -24,34 +25,34 @@ struct PlotLine {
 
 /// Separate markers.
 struct PlotPoints {
-  std::string name;
-  std::vector<double> x, y;
-  std::vector<std::string> titles;  ///< tooltips; empty: the values
+  std::string name = {};
+  std::vector<double> x = {}, y = {};
+  std::vector<std::string> titles = {};  ///< tooltips; empty: the values
   Role role = Role::after;
   Shape shape = Shape::circle;
 };
 
 /// A horizontal line across the plot, for limits.
 struct PlotLevel {
-  std::string name;
+  std::string name = {};
   double y = 0;
 };
 
 struct PlotAxis {
-  std::string label;  ///< "position along the flank"
-  std::string unit;   ///< "mm"; empty: none
+  std::string label = {};  ///< "position along the flank"
+  std::string unit = {};   ///< "mm"; empty: none
   bool logarithmic = false;
-  bool from_zero = false;              ///< the range includes 0
-  std::optional<double> lower, upper;  ///< fixed ends of the range
+  bool from_zero = false;                        ///< the range includes 0
+  std::optional<double> lower = {}, upper = {};  ///< fixed ends of the range
 };
 
 struct Plot {
-  std::string title;        ///< above the plot, and its accessible name
-  std::string description;  ///< one sentence below it
-  PlotAxis x, y;
-  std::vector<PlotLine> lines;
-  std::vector<PlotPoints> points;
-  std::vector<PlotLevel> levels;
+  std::string title = {};        ///< above the plot, and its accessible name
+  std::string description = {};  ///< one sentence below it
+  PlotAxis x = {}, y = {};
+  std::vector<PlotLine> lines = {};
+  std::vector<PlotPoints> points = {};
+  std::vector<PlotLevel> levels = {};
   int width = 520, height = 320;  ///< of the drawing's coordinates; the page scales it
 };
 

@@ -18,6 +18,12 @@ struct Unit {
 /// SI unit of a response or data set by the ending of its name ("_m3", "_pa", ...); empty when it has none.
 [[nodiscard]] std::string si_unit_of(std::string_view name);
 
+/// Unit symbol of a study-file key by its ending ("_um", "_deg", "_rpm", ...); empty when it has none.
+[[nodiscard]] std::string key_unit(std::string_view key);
+
+/// A key in words, without section and unit: "flank mismatch", "flank angle, left".
+[[nodiscard]] std::string key_words(std::string_view key);
+
 /// A response's name in words without its unit: "asymptotic wear volume".
 [[nodiscard]] std::string words(std::string_view name);
 

@@ -1,0 +1,134 @@
+#include "geometry/exports/vtu.hpp"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <set>
+
+#include "core/errors.hpp"
+#include "geometry/exports/replace_file.hpp"
+
+namespace dovetail::geometry {
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "the file says LittleEndian");
+
+std::string base64(const std::string& bytes) {
+  constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t triple = 0;
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+    for (std::size_t k = 0; k < 3; ++k)
+      triple = (triple << 8U) | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+    for (std::size_t k = 0; k < 4; ++k)
+      text += k <= count ? kLetters[(triple >> (18U - 6U * static_cast<unsigned>(k))) & 63U] : '=';
+  }
+  return text;
+}
+
+/// Inline binary of VTK: the number of bytes as 64 bits, then the values, encoded in one piece.
+template <class T>
+std::string data_array(std::string_view type, const std::string& name, std::size_t components,
+                       const std::vector<T>& values) {
+  const std::uint64_t size = values.size() * sizeof(T);
+  std::string bytes(sizeof(size) + size, '\0');
+  std::memcpy(bytes.data(), &size, sizeof(size));
+  if (size > 0) std::memcpy(bytes.data() + sizeof(size), values.data(), size);
+  return fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">{}</DataArray>\n",
+                     type, name, components, base64(bytes));
+}
+
+InputError refused(const std::string& field, const std::string& allowed) {
+  return InputError({.file = {}, .key = "field " + field, .value = {}, .allowed = allowed});
+}
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '&')
+      result += "&amp;";
+    else if (c == '<')
+      result += "&lt;";
+    else if (c == '"')
+      result += "&quot;";
+    else
+      result += c;
+  }
+  return result;
+}
+
+std::string field_array(const MeshField& field) {
+  const Eigen::Index components = field.values.rows() == 2 ? 3 : field.values.rows();
+  std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(components * field.values.cols()));
+  for (Eigen::Index i = 0; i < field.values.cols(); ++i)
+    for (Eigen::Index k = 0; k < components; ++k) values.push_back(k < field.values.rows() ? field.values(k, i) : 0.0);
+  return data_array("Float64", escaped(field.name), static_cast<std::size_t>(components), values);
+}
+
+void require_fields(std::span<const MeshField> fields, int count, const char* what, std::set<std::string> names) {
+  for (const MeshField& field : fields) {
+    if (field.values.rows() < 1 || field.values.cols() != count)
+      throw refused(field.name, fmt::format("must have one column for each of the {} {}", count, what));
+    if (!names.insert(field.name).second) throw refused(field.name, "must have a name of its own");
+  }
+}
+
+}  // namespace
+
+std::string vtu(const fem::Mesh& mesh, std::span<const MeshField> point_fields,
+                std::span<const MeshField> cell_fields) {
+  require_fields(point_fields, mesh.node_count(), "nodes", {});
+  require_fields(cell_fields, mesh.element_count(), "elements", {"region", "body"});
+
+  std::vector<double> points;
+  points.reserve(static_cast<std::size_t>(3 * mesh.node_count()));
+  for (Eigen::Index i = 0; i < mesh.nodes.cols(); ++i) {
+    points.push_back(mesh.nodes(0, i));
+    points.push_back(mesh.nodes(1, i));
+    points.push_back(0.0);
+  }
+  constexpr std::uint8_t kQuadraticTriangle = 22;
+  std::vector<std::int64_t> connectivity, offsets, region, body;
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    connectivity.insert(connectivity.end(), mesh.elements[e].begin(), mesh.elements[e].end());
+    offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
+    region.push_back(mesh.region[e]);
+    body.push_back(mesh.regions[static_cast<std::size_t>(mesh.region[e])].body);
+  }
+  const std::vector<std::uint8_t> types(mesh.elements.size(), kQuadraticTriangle);
+
+  std::string text =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
+      "header_type=\"UInt64\">\n";
+  text += fmt::format("<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", mesh.node_count(),
+                      mesh.element_count());
+  text += "<PointData>\n";
+  for (const MeshField& field : point_fields) text += field_array(field);
+  text +=
+      "</PointData>\n<CellData>\n" + data_array("Int64", "region", 1, region) + data_array("Int64", "body", 1, body);
+  for (const MeshField& field : cell_fields) text += field_array(field);
+  text += "</CellData>\n<Points>\n" + data_array("Float64", "Points", 3, points) + "</Points>\n<Cells>\n";
+  text += data_array("Int64", "connectivity", 1, connectivity) + data_array("Int64", "offsets", 1, offsets) +
+          data_array("UInt8", "types", 1, types);
+  return text + "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+}
+
+void write_vtu(const std::filesystem::path& file, const fem::Mesh& mesh, std::span<const MeshField> point_fields,
+               std::span<const MeshField> cell_fields) {
+  const std::string text = vtu(mesh, point_fields, cell_fields);
+  replace_file(file, [&](const std::filesystem::path& temporary) {
+    std::ofstream out(temporary, std::ios::binary);
+    out << text;
+    out.close();
+    return out.good();
+  });
+}
+
+}  // namespace dovetail::geometry

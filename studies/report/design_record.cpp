@@ -1,0 +1,262 @@
+#include "studies/report/design_record.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+#include "fem/glued_modes.hpp"
+#include "fem/stress.hpp"
+#include "geometry/flank_form.hpp"
+#include "response/frequency_response.hpp"
+#include "wear/history.hpp"
+
+namespace dovetail::report {
+
+namespace {
+
+using optimizer::CandidateModel;
+using optimizer::CandidateResult;
+using optimizer::Scene;
+
+constexpr double kTwoPi = 2 * std::numbers::pi;
+
+Numbers list(const Eigen::Ref<const Eigen::VectorXd>& values) {
+  return {values.data(), values.data() + values.size()};
+}
+
+ContactRecord contact_record(const CandidateResult& result) {
+  const fem::ContactSurface& surface = result.model.system.contact;
+  ContactRecord record;
+  for (const fem::Flank& flank : result.model.mesh.sector.flanks) record.flank_names.push_back(flank.name);
+  Eigen::Vector2d start = Eigen::Vector2d::Zero();
+  for (Eigen::Index i = 0; i < surface.count(); ++i) {
+    if (i == 0 || surface.flank(i) != surface.flank(i - 1)) start = surface.position.col(i);
+    record.flank.push_back(surface.flank(i));
+    record.along_m.push_back((surface.position.col(i) - start).norm());
+    record.x_m.push_back(surface.position(0, i));
+    record.y_m.push_back(surface.position(1, i));
+  }
+  record.area_m2 = list(surface.area);
+  record.gap_m = list(surface.gap);
+  record.preload_pressure_pa = list(result.model.preload.pressure);
+  if (result.asymptote) {
+    record.wear_rate_m_per_cycle = list(result.asymptote->unworn_rate);
+    record.depth_m = list(result.asymptote->depth);
+    record.interpolated_depth_m = list(result.asymptote->interpolated_depth);
+  }
+  return record;
+}
+
+/// Half range of frequencies on either side of the resonances.
+struct Band {
+  double lower = 0, upper = 0;  ///< rad/s
+};
+
+double glued_amplitude(const response::CondensedModel& model, double omega, Status& status) {
+  const response::HarmonicStiffness at = model.harmonic(1, omega, false);
+  status = at.status;
+  return std::abs(model.outputs(at, Eigen::VectorXcd::Zero(model.contact_size()))(0));
+}
+
+/// The peaks with `widths` half-power widths around them. Friction widens the peak as it lowers it, so the width is
+/// the linear one times the ratio of the amplitudes.
+Band band(const Scene& scene, const CandidateResult& result, double glued, double widths) {
+  Status status = Status::converged;
+  const double linear = glued_amplitude(*result.model.condensed, glued, status);
+  const double damping = scene.loading.damping_ratio * std::max(1.0, linear / result.unworn->amplitude);
+  const double half = widths * std::max(damping, 1e-5) * glued;
+  double lowest = std::min(glued, result.unworn->omega), highest = std::max(glued, result.unworn->omega);
+  if (result.worn && result.worn->status == Status::converged) {
+    lowest = std::min(lowest, result.worn->omega);
+    highest = std::max(highest, result.worn->omega);
+  }
+  return {.lower = std::max(lowest - half, 0.1 * lowest), .upper = highest + half};
+}
+
+/// Frequencies over the band, closest together at `peak`.
+Numbers frequencies(const Band& range, double peak, int points) {
+  Numbers omega;
+  for (int i = 0; i < points; ++i) {
+    const double t = points == 1 ? 0 : 2.0 * i / (points - 1) - 1;
+    const double offset = 0.12 * t + 0.88 * t * t * t;
+    omega.push_back(peak + offset * (t < 0 ? peak - range.lower : range.upper - peak));
+  }
+  return omega;
+}
+
+ResponseCurve frictional_curve(const Scene& scene, const CandidateModel& model, const Numbers& omega,
+                               const response::ContactCondition& condition) {
+  ResponseCurve curve;
+  response::SteadyOptions steady = optimizer::steady_options(scene.solver);
+  for (const response::SteadyState& state : response::frequency_response(model.condensed, omega, condition, steady)) {
+    const bool good = state.status == Status::converged;
+    curve.amplitude_m.push_back(good ? state.amplitudes(0) : std::numeric_limits<double>::quiet_NaN());
+    curve.status.emplace_back(to_string(state.status));
+  }
+  for (const double w : omega) curve.frequency_hz.push_back(w / kTwoPi);
+  return curve;
+}
+
+ResponseCurve glued_curve(const CandidateModel& model, const Numbers& omega) {
+  ResponseCurve curve;
+  for (const double w : omega) {
+    Status status = Status::converged;
+    const double amplitude = glued_amplitude(*model.condensed, w, status);
+    curve.frequency_hz.push_back(w / kTwoPi);
+    curve.amplitude_m.push_back(status == Status::converged ? amplitude : std::numeric_limits<double>::quiet_NaN());
+    curve.status.emplace_back(to_string(status));
+  }
+  return curve;
+}
+
+void add_curves(const Scene& scene, const CandidateResult& result, const DesignRecordOptions& options,
+                DesignRecord& record) {
+  if (options.curve_points < 1) return;
+  if (!result.unworn || result.unworn->status != Status::converged) {
+    record.notes.push_back("No response curves were computed: the unworn resonance was not found.");
+    return;
+  }
+  const CandidateModel& model = result.model;
+  const double glued = model.reduction.glued_frequencies(scene.loading.mode - 1);
+  const Band range = band(scene, result, glued, options.curve_widths);
+  record.glued = glued_curve(model, frequencies(range, glued, options.curve_points));
+  record.unworn = frictional_curve(scene, model, frequencies(range, result.unworn->omega, options.curve_points), {});
+  if (result.worn && result.worn->status == Status::converged && result.asymptote)
+    record.worn =
+        frictional_curve(scene, model, frequencies(range, result.worn->omega, options.curve_points),
+                         {.wear_depth = result.asymptote->interpolated_depth, .released = {}, .slip_origin = {}});
+  for (const auto& [name, curve] : {std::pair{"new", &record.unworn}, std::pair{"worn", &record.worn}}) {
+    const auto failed = std::count_if(curve->status.begin(), curve->status.end(),
+                                      [](const std::string& s) { return s != "converged"; });
+    if (failed > 0)
+      record.notes.push_back(
+          fmt::format("{} of {} points of the response curve of the {} joint did not converge and are left out.",
+                      failed, curve->status.size(), name));
+  }
+}
+
+void add_nodal_diameters(const CandidateModel& model, const DesignRecordOptions& options, DesignRecord& record) {
+  if (options.nodal_diameter_modes < 1) return;
+  const fem::NodalDiameterFrequencies found =
+      fem::nodal_diameter_frequencies(model.mesh.sector, model.stiffness, model.system.full.mass,
+                                      fem::BoreSupport::tangential, {.count = options.nodal_diameter_modes});
+  NodalDiameterRecord& out = record.nodal_diameters;
+  out.nodal_diameter.assign(found.nodal_diameters.begin(), found.nodal_diameters.end());
+  out.modes = found.frequency.cols();
+  for (Eigen::Index d = 0; d < found.frequency.rows(); ++d)
+    for (Eigen::Index m = 0; m < found.frequency.cols(); ++m) out.frequency_hz.push_back(found.frequency(d, m));
+  for (const Status status : found.status) out.status.emplace_back(to_string(status));
+}
+
+void add_fillet(const std::string& name, const fem::Mesh& mesh, const std::vector<int>& nodes,
+                const std::optional<optimizer::FilletStress>& stress, DesignRecord& record) {
+  if (!stress) return;
+  FilletRecord fillet{.name = name,
+                      .x_m = {},
+                      .y_m = {},
+                      .von_mises_pa = list(stress->nodal),
+                      .aggregate_pa = stress->aggregate,
+                      .maximum_pa = stress->maximum};
+  for (const int node : nodes) {
+    fillet.x_m.push_back(mesh.nodes(0, node));
+    fillet.y_m.push_back(mesh.nodes(1, node));
+  }
+  record.fillets.push_back(std::move(fillet));
+}
+
+/// Mesh, displacement and von Mises stress of the preload.
+FieldRecord preload_fields(const Scene& scene, const CandidateModel& model) {
+  const fem::Mesh& mesh = model.mesh.sector.mesh;
+  const Eigen::VectorXd independent =
+      model.reduction.recovery.apply(model.preload.full_displacement, model.preload.force);
+  const Eigen::VectorXd displacement = model.system.constraints.transformation * independent;
+  std::vector<int> nodes(static_cast<std::size_t>(mesh.node_count()));
+  std::iota(nodes.begin(), nodes.end(), 0);
+  const std::vector<fem::Material> bodies = optimizer::materials(scene);
+  const Eigen::VectorXd stress = fem::nodal_stress_operator(mesh, bodies, nodes) * displacement;
+  std::vector<double> poisson(nodes.size(), 0.0);
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    const fem::Region& region = mesh.regions[static_cast<std::size_t>(mesh.region[e])];
+    for (const int node : mesh.elements[e])
+      poisson[static_cast<std::size_t>(node)] =
+          region.plane_stress ? 0.0 : bodies[static_cast<std::size_t>(region.body)].poisson_ratio;
+  }
+  FieldRecord fields{.mesh = mesh, .displacement_m = list(displacement), .von_mises_pa = {}};
+  for (Eigen::Index i = 0; i < mesh.nodes.cols(); ++i)
+    fields.von_mises_pa.push_back(
+        fem::von_mises(stress(3 * i), stress(3 * i + 1), stress(3 * i + 2), poisson[static_cast<std::size_t>(i)]));
+  return fields;
+}
+
+/// States whose depths are kept: evenly over the history, first and last included.
+std::vector<std::int64_t> chosen_states(Eigen::Index states, int wanted) {
+  std::vector<std::int64_t> chosen;
+  const Eigen::Index count = std::min<Eigen::Index>(states, wanted);
+  for (Eigen::Index i = 0; i < count; ++i)
+    chosen.push_back(count == 1 ? states - 1 : (i * (states - 1) + (count - 1) / 2) / (count - 1));
+  return chosen;
+}
+
+void add_history(const Scene& scene, const CandidateResult& result, const DesignRecordOptions& options,
+                 DesignRecord& record) {
+  if (options.history_steps < 1) return;
+  if (!result.asymptote || !(result.asymptote->largest_depth > 0)) {
+    record.notes.push_back("No wear history was computed: there is no asymptotic wear depth to reach.");
+    return;
+  }
+  wear::HistoryOptions history_options;
+  history_options.steps = options.history_steps;
+  // The fastest node is not always the one that ends deepest, so the steps add up to a little more than the depth.
+  history_options.increment = 1.25 * result.asymptote->largest_depth / options.history_steps;
+  const wear::History history = wear::history(result.model.condensed, result.unworn->omega, {},
+                                              optimizer::steady_options(scene.solver), history_options);
+  HistoryRecord out{.status = std::string(to_string(history.status)),
+                    .end = std::string(to_string(history.end)),
+                    .cycles = list(history.cycles),
+                    .worn_volume_m3 = list(history.worn_volume),
+                    .depth_max_m = {},
+                    .amplitude_m = list(history.amplitude),
+                    .frequency_hz = list(history.frequency / kTwoPi),
+                    .profile_states = chosen_states(history.cycles.size(), options.history_profiles),
+                    .profile_depth_m = {}};
+  for (Eigen::Index s = 0; s < history.depth.rows(); ++s) out.depth_max_m.push_back(history.depth.row(s).maxCoeff());
+  for (const std::int64_t state : out.profile_states)
+    for (Eigen::Index i = 0; i < history.depth.cols(); ++i) out.profile_depth_m.push_back(history.depth(state, i));
+  record.history = std::move(out);
+}
+
+}  // namespace
+
+DesignRecord make_design_record(const Scene& scene, const CandidateResult& result, const DesignRecordOptions& options) {
+  DesignRecord record;
+  record.status = result.evaluation.status;
+  record.parameters = result.evaluation.parameters;
+  record.responses = result.evaluation.responses;
+  record.error_estimates = result.evaluation.error_estimates;
+  try {
+    record.profile = geometry::build_profile(scene.geometry);
+    record.finished_blade = geometry::finished_blade(scene.geometry);
+  } catch (const InputError& error) {
+    record.notes.push_back(std::string("The section cannot be drawn: ") + error.what() + ".");
+  }
+  const CandidateModel& model = result.model;
+  if (!model.converged()) {
+    record.notes.push_back("This design could not be computed (" + model.status + "), so it has no curves.");
+    return record;
+  }
+  record.contact = contact_record(result);
+  const fem::SectorMesh& sector = model.mesh.sector;
+  add_fillet("blade", sector.mesh, sector.blade_fillet_nodes, result.blade_fillet, record);
+  add_fillet("disk", sector.mesh, sector.disk_fillet_nodes, result.disk_fillet, record);
+  if (options.fields) record.fields = preload_fields(scene, model);
+  add_curves(scene, result, options, record);
+  add_nodal_diameters(model, options, record);
+  add_history(scene, result, options, record);
+  return record;
+}
+
+}  // namespace dovetail::report

@@ -1,0 +1,256 @@
+#include "studies/report/report_plots.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "studies/report/report_words.hpp"
+#include "studies/report/units.hpp"
+
+namespace dovetail::report {
+
+namespace {
+
+double largest(const Numbers& values) {
+  double result = 0;
+  for (const double value : values)
+    if (std::isfinite(value)) result = std::max(result, std::abs(value));
+  return result;
+}
+
+Numbers scaled(const Numbers& values, double si) {
+  Numbers result = values;
+  for (double& value : result) value /= si;
+  return result;
+}
+
+std::string name_of(const Comparison& designs, Role role, const std::string& variant) {
+  const std::string design = designs.before ? (role == Role::before ? "before" : "after") : "";
+  return design + (design.empty() || variant.empty() ? "" : ", ") + variant;
+}
+
+/// The designs with their roles, the older one first so that the newer is drawn on top.
+std::vector<std::pair<const DesignRecord*, Role>> in_order(const Comparison& designs) {
+  std::vector<std::pair<const DesignRecord*, Role>> result;
+  if (designs.before) result.emplace_back(designs.before, Role::before);
+  result.emplace_back(designs.after, Role::after);
+  return result;
+}
+
+/// A quantity of the contact nodes along both flanks: left solid, right dashed.
+Plot flank_plot(const Comparison& designs, Numbers ContactRecord::*quantity, const std::string& si_unit, Plot plot) {
+  double most = 0;
+  for (const auto& [design, role] : in_order(designs)) most = std::max(most, largest(design->contact.*quantity));
+  const Unit unit = readable_unit(si_unit, most);
+  plot.x = {.label = "along the flank, from its neck side", .unit = "mm"};
+  plot.y.unit = unit.symbol;
+  plot.y.from_zero = true;
+  for (const auto& [design, role] : in_order(designs)) {
+    const ContactRecord& contact = design->contact;
+    const Numbers& values = contact.*quantity;
+    if (values.size() != contact.flank.size()) continue;
+    for (std::size_t flank = 0; flank < contact.flank_names.size(); ++flank) {
+      PlotLine line{.name = name_of(designs, role, contact.flank_names[flank]), .role = role};
+      line.stroke = flank == 0 ? Stroke::solid : Stroke::dashed;
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        if (contact.flank[i] != static_cast<std::int64_t>(flank)) continue;
+        line.x.push_back(contact.along_m[i] / 1e-3);
+        line.y.push_back(values[i] / unit.si);
+      }
+      plot.lines.push_back(std::move(line));
+    }
+  }
+  return plot;
+}
+
+}  // namespace
+
+Plot wear_depth_plot(const Comparison& designs) {
+  return flank_plot(
+      designs, &ContactRecord::interpolated_depth_m, "m",
+      {
+          .title = "Wear depth when wear has come to rest",
+          .description = "Depth worn off both surfaces together. Where it is zero, the surfaces stick or do not touch.",
+          .y = {.label = "worn depth"},
+      });
+}
+
+Plot pressure_plot(const Comparison& designs) {
+  return flank_plot(designs, &ContactRecord::preload_pressure_pa, "Pa",
+                    {
+                        .title = "Pressure after spin-up",
+                        .description = "Contact pressure under the centrifugal load alone, before any vibration.",
+                        .y = {.label = "pressure"},
+                    });
+}
+
+Plot gap_plot(const Comparison& designs) {
+  return flank_plot(
+      designs, &ContactRecord::gap_m, "m",
+      {
+          .title = "Form of the flanks",
+          .description = "Gap between blade and disk before loading: mismatch, crown and relief together.",
+          .y = {.label = "gap"},
+      });
+}
+
+Plot response_plot(const Comparison& designs) {
+  Plot plot{
+      .title = "Response around the resonance",
+      .description =
+          "Amplitude of the aerofoil's tip. Solid: new joint; dashed: worn joint; dotted: the same blade "
+          "glued to the disk, without friction.",
+      .x = {.label = "frequency", .unit = "Hz"},
+  };
+  double most = 0;
+  for (const auto& [design, role] : in_order(designs))
+    for (const ResponseCurve* curve : {&design->unworn, &design->worn, &design->glued})
+      most = std::max(most, largest(curve->amplitude_m));
+  const Unit unit = readable_unit("m", most);
+  plot.y = {
+      .label = "amplitude",
+      .unit = unit.symbol,
+      .from_zero = true,
+  };
+  for (const auto& [design, role] : in_order(designs)) {
+    constexpr std::array kCurves{std::pair{&DesignRecord::glued, "glued"}, std::pair{&DesignRecord::unworn, "new"},
+                                 std::pair{&DesignRecord::worn, "worn"}};
+    for (std::size_t i = 0; i < kCurves.size(); ++i) {
+      const ResponseCurve& curve = design->*kCurves[i].first;
+      if (curve.frequency_hz.empty()) continue;
+      PlotLine line{.name = name_of(designs, role, kCurves[i].second),
+                    .x = curve.frequency_hz,
+                    .y = scaled(curve.amplitude_m, unit.si),
+                    .role = role};
+      line.stroke = i == 0 ? Stroke::dotted : i == 1 ? Stroke::solid : Stroke::dashed;
+      plot.lines.push_back(std::move(line));
+    }
+  }
+  return plot;
+}
+
+Plot nodal_diameter_plot(const DesignRecord& design) {
+  const NodalDiameterRecord& record = design.nodal_diameters;
+  Plot plot{
+      .title = "Natural frequencies of the glued bladed disk",
+      .description = "At speed, over the number of nodal diameters; flat stretches are blade modes.",
+      .x = {.label = "nodal diameters"},
+      .y =
+          {
+              .label = "frequency",
+              .unit = "Hz",
+              .from_zero = true,
+          },
+  };
+  const auto modes = static_cast<std::size_t>(std::max<std::int64_t>(record.modes, 0));
+  if (record.frequency_hz.size() != modes * record.nodal_diameter.size()) return plot;
+  for (std::size_t mode = 0; mode < modes; ++mode) {
+    PlotLine line{.name = {}, .role = Role::after};
+    line.dots = true;
+    for (std::size_t d = 0; d < record.nodal_diameter.size(); ++d) {
+      const bool known = record.status[d] == "converged";
+      line.x.push_back(static_cast<double>(record.nodal_diameter[d]));
+      line.y.push_back(known ? record.frequency_hz[d * modes + mode] : std::numeric_limits<double>::quiet_NaN());
+    }
+    plot.lines.push_back(std::move(line));
+  }
+  return plot;
+}
+
+Plot history_plot(const DesignRecord& design) {
+  Plot plot{
+      .title = "Wear over load cycles",
+      .description = "Worn volume of the best design by the cycle-jump history; dashed: the directly computed limit.",
+      .x = {.label = "load cycles", .unit = "millions"},
+  };
+  if (!design.history) return plot;
+  const HistoryRecord& history = *design.history;
+  const auto limit = design.responses.find("asymptotic_wear_volume_m3");
+  const Unit unit = readable_unit("m^3", largest(history.worn_volume_m3));
+  plot.y = {
+      .label = "worn volume",
+      .unit = unit.symbol,
+      .from_zero = true,
+  };
+  PlotLine line{.name = "history", .x = scaled(history.cycles, 1e6), .y = scaled(history.worn_volume_m3, unit.si)};
+  line.dots = true;
+  if (limit != design.responses.end() && !line.x.empty()) {
+    PlotLine level{.name = "asymptote",
+                   .x = {line.x.front(), line.x.back()},
+                   .y = Numbers(2, limit->second / unit.si),
+                   .role = Role::muted};
+    level.stroke = Stroke::dashed;
+    plot.lines.push_back(std::move(level));
+  }
+  plot.lines.push_back(std::move(line));
+  return plot;
+}
+
+Plot history_amplitude_plot(const DesignRecord& design) {
+  Plot plot{
+      .title = "Amplitude while the joint wears",
+      .description = "Amplitude of the aerofoil's tip at the exciting frequency of the history.",
+      .x = {.label = "load cycles", .unit = "millions"},
+  };
+  if (!design.history) return plot;
+  const Unit unit = readable_unit("m", largest(design.history->amplitude_m));
+  plot.y = {
+      .label = "amplitude",
+      .unit = unit.symbol,
+      .from_zero = true,
+  };
+  PlotLine line{.name = {},
+                .x = scaled(design.history->cycles, 1e6),
+                .y = scaled(design.history->amplitude_m, unit.si),
+                .role = Role::after};
+  line.dots = true;
+  plot.lines.push_back(std::move(line));
+  return plot;
+}
+
+Plot history_profile_plot(const DesignRecord& design) {
+  Plot plot{
+      .title = "Worn profile while the joint wears",
+      .description = "Depth along the more worn flank at some of the states of the history, from new to last.",
+      .x = {.label = "along the flank, from its neck side", .unit = "mm"},
+  };
+  const ContactRecord& contact = design.contact;
+  const std::size_t count = contact.flank.size();
+  if (!design.history || count == 0) return plot;
+  const HistoryRecord& history = *design.history;
+  const std::size_t profiles = history.profile_states.size();
+  if (profiles == 0 || history.profile_depth_m.size() != profiles * count) return plot;
+  std::vector<double> worn(contact.flank_names.size() + 1, 0.0);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto flank = static_cast<std::size_t>(
+        std::clamp<std::int64_t>(contact.flank[i], 0, static_cast<std::int64_t>(contact.flank_names.size())));
+    worn[flank] += history.profile_depth_m[(profiles - 1) * count + i];
+  }
+  const auto shown = std::max_element(worn.begin(), worn.end()) - worn.begin();
+  const Unit unit = readable_unit("m", largest(history.profile_depth_m));
+  plot.y = {
+      .label = "worn depth",
+      .unit = unit.symbol,
+      .from_zero = true,
+  };
+  for (std::size_t p = 0; p < profiles; ++p) {
+    const auto state = static_cast<std::size_t>(std::max<std::int64_t>(history.profile_states[p], 0));
+    const double cycles = state < history.cycles.size() ? history.cycles[state] : 0;
+    const bool last = p + 1 == profiles;
+    PlotLine line{.name = significant(cycles / 1e6, 2) + " million cycles", .role = last ? Role::after : Role::before};
+    line.stroke = last || p % 2 == 0 ? Stroke::solid : Stroke::dashed;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (contact.flank[i] != shown) continue;
+      line.x.push_back(contact.along_m[i] / 1e-3);
+      line.y.push_back(history.profile_depth_m[p * count + i] / unit.si);
+    }
+    if (largest(line.y) > 0) plot.lines.push_back(std::move(line));
+  }
+  return plot;
+}
+
+}  // namespace dovetail::report

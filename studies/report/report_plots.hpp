@@ -1,0 +1,30 @@
+#pragma once
+
+#include "studies/report/run_record.hpp"
+#include "studies/report/svg_plot.hpp"
+
+namespace dovetail::report {
+
+/// The two designs a figure compares; `before` null: only one design is shown. `after` is never null.
+struct Comparison {
+  const DesignRecord* before = nullptr;
+  const DesignRecord* after = nullptr;
+};
+
+// Each plot is empty (is_empty) when the designs do not hold what it shows. Colours tell before from after; line
+// styles tell the rest.
+[[nodiscard]] Plot wear_depth_plot(const Comparison& designs);
+[[nodiscard]] Plot pressure_plot(const Comparison& designs);
+[[nodiscard]] Plot gap_plot(const Comparison& designs);
+[[nodiscard]] Plot response_plot(const Comparison& designs);
+[[nodiscard]] Plot nodal_diameter_plot(const DesignRecord& design);
+[[nodiscard]] Plot history_plot(const DesignRecord& design);
+[[nodiscard]] Plot history_amplitude_plot(const DesignRecord& design);
+[[nodiscard]] Plot history_profile_plot(const DesignRecord& design);
+
+/// Objective over evaluations: feasible, infeasible and best so far.
+[[nodiscard]] Plot objective_plot(const RunRecord& record);
+/// Normalised constraints over evaluations, 0 being the limit.
+[[nodiscard]] Plot constraint_plot(const RunRecord& record);
+
+}  // namespace dovetail::report

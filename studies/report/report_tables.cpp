@@ -1,0 +1,195 @@
+#include "studies/report/report_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "optimizer/responses.hpp"
+#include "studies/report/html.hpp"
+#include "studies/report/report_words.hpp"
+
+namespace dovetail::report {
+
+namespace {
+
+std::string header(const std::vector<std::string>& columns) {
+  std::string text = "<thead><tr>";
+  for (const std::string& column : columns) text += "<th scope=\"col\">" + escape(column) + "</th>";
+  return text + "</tr></thead>";
+}
+
+/// Responses the two evaluations have: those of the table in its order, then others.
+std::vector<std::string> names_of(const EvaluationRecord* first, const EvaluationRecord* second) {
+  const auto known = [&](const std::string& name) {
+    return (first && first->responses.count(name) > 0) || (second && second->responses.count(name) > 0);
+  };
+  std::vector<std::string> names;
+  for (const optimizer::ResponseName& response : optimizer::response_names())
+    if (known(std::string(response.name))) names.emplace_back(response.name);
+  for (const EvaluationRecord* evaluation : {first, second}) {
+    if (!evaluation) continue;
+    for (const auto& [name, value] : evaluation->responses)
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  return names;
+}
+
+std::string shown_response(const EvaluationRecord* evaluation, const std::string& name, const Unit& unit) {
+  if (!evaluation) return "\u2013";
+  const double value = response(*evaluation, name);
+  return std::isnan(value) ? "\u2013" : with_error(value, error_bar(*evaluation, name), unit);
+}
+
+/// Change in per cent, of quantities that may change sign in their own unit; with "within the error" where it is.
+std::string change(const EvaluationRecord& from, const EvaluationRecord& to, const std::string& name,
+                   const Unit& unit) {
+  const double a = response(from, name), b = response(to, name);
+  if (!std::isfinite(a) || !std::isfinite(b)) return "\u2013";
+  const double bars = error_bar(from, name) + error_bar(to, name);
+  const bool small = bars > 0 && std::abs(b - a) <= bars;
+  std::string text;
+  if (a > 0 && b > 0) {
+    const double percent = 100 * (b / a - 1);
+    text = (percent > 0 ? "+" : "") + significant(percent, std::abs(percent) >= 10 ? 3 : 2) + "\u00a0%";
+  } else {
+    text = (b > a ? "+" : "") + significant((b - a) / unit.si, 3) + "\u00a0" + unit.symbol;
+  }
+  return small ? text + " <span class=\"soft\">within error</span>" : text;
+}
+
+std::string help_of(const std::string& name) {
+  const optimizer::ResponseName* known = optimizer::find_response(name);
+  return known ? std::string(known->help) : name;
+}
+
+bool is_objective(const RunRecord& record, const std::string& name) {
+  return std::any_of(record.problem.objective.begin(), record.problem.objective.end(),
+                     [&](const optimizer::ObjectiveTerm& term) { return term.response == name; });
+}
+
+}  // namespace
+
+std::string key_figures(const RunRecord& record) {
+  const EvaluationRecord* base = baseline_of(record);
+  const EvaluationRecord* best = best_of(record);
+  const bool both = base && best && base != best;
+  const std::vector<std::string> names = names_of(base, best);
+  if (names.empty()) return "<p>Neither the start nor any other design could be evaluated in full.</p>\n";
+  std::string text = "<div class=\"scroll\"><table class=\"figures\">";
+  text += both ? header({"", "before (start)", "after (best)", "change"})
+               : header({"", best ? "best (the start)" : "start"});
+  text += "<tbody>\n";
+  for (const std::string& name : names) {
+    const double largest =
+        std::max(base ? std::abs(response(*base, name)) : 0, best ? std::abs(response(*best, name)) : 0);
+    const Unit unit = response_unit(name, largest);
+    text += fmt::format("<tr{}><th scope=\"row\" title=\"{}\">{}</th>",
+                        is_objective(record, name) ? " class=\"aim\"" : "", escape(help_of(name)), escape(words(name)));
+    if (both)
+      text += fmt::format("<td>{}</td><td>{}</td><td>{}</td>", shown_response(base, name, unit),
+                          shown_response(best, name, unit), change(*base, *best, name, unit));
+    else
+      text += fmt::format("<td>{}</td>", shown_response(best ? best : base, name, unit));
+    text += "</tr>\n";
+  }
+  return text + "</tbody></table></div>\n";
+}
+
+std::string variable_table(const RunRecord& record) {
+  const EvaluationRecord* best = best_of(record);
+  std::string text = "<div class=\"scroll\"><table>" +
+                     header({"", "unit", "lower", "upper", "start", "best", "", "key"}) + "<tbody>\n";
+  const std::vector<optimizer::DesignVariable>& variables = record.problem.space.variables();
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    const optimizer::DesignVariable& v = variables[i];
+    const bool known = best && i < best->x.size();
+    const std::string bound = known ? at_bound(v, best->x[i]) : "";
+    text += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td><b>{}</b></td>",
+                        escape(key_words(v.key)), key_unit(v.key), significant(v.lower), significant(v.upper),
+                        significant(v.start), known ? significant(best->x[i]) : "\u2013");
+    text += fmt::format("<td>{}</td><td class=\"text\"><code>{}</code></td></tr>\n",
+                        bound.empty() ? "" : "<span class=\"flag\">at " + bound + " bound</span>", escape(v.key));
+  }
+  return text + "</tbody></table></div>\n";
+}
+
+std::string problem_list(const RunRecord& record) {
+  std::string text = "<ul>\n";
+  for (const optimizer::ObjectiveTerm& term : record.problem.objective) {
+    text += fmt::format("<li>{} the {}{}", term.weight < 0 ? "Maximise" : "Minimise", escape(words(term.response)),
+                        term.absolute ? " (magnitude)" : "");
+    if (record.problem.objective.size() > 1) {
+      const Unit unit = response_unit(term.response, term.scale);
+      text += fmt::format(", weight {}, scale {}", significant(std::abs(term.weight)), with_error(term.scale, 0, unit));
+    }
+    text += "</li>\n";
+  }
+  for (const optimizer::ResponseConstraint& c : record.problem.constraints) {
+    const Unit unit = response_unit(c.response, std::max(std::abs(c.lower.value_or(0)), std::abs(c.upper.value_or(0))));
+    text += "<li>Keep the " + escape(words(c.response)) + (c.absolute ? " (magnitude)" : "");
+    if (c.lower) text += " at least " + with_error(*c.lower, 0, unit);
+    if (c.upper) text += std::string(c.lower ? " and" : "") + " at most " + with_error(*c.upper, 0, unit);
+    text += "</li>\n";
+  }
+  return text + "</ul>\n";
+}
+
+std::string evaluation_table(const RunRecord& record) {
+  const std::vector<optimizer::DesignVariable>& variables = record.problem.space.variables();
+  std::vector<std::string> columns{"#", "found by", "status", "objective"};
+  for (const std::string& name : constraint_names(record.problem)) {
+    const std::size_t colon = name.rfind(':');
+    columns.push_back(words(name.substr(0, colon)) + (colon == std::string::npos ? "" : " " + name.substr(colon)));
+  }
+  for (const optimizer::DesignVariable& v : variables)
+    columns.push_back(key_words(v.key) + (key_unit(v.key).empty() ? "" : " (" + key_unit(v.key) + ")"));
+  std::string text =
+      fmt::format("<details><summary>All {} candidates</summary><div class=\"scroll\"><table>{}<tbody>\n",
+                  record.evaluations.size(), header(columns));
+  for (std::size_t i = 0; i < record.evaluations.size(); ++i) {
+    const EvaluationRecord& e = record.evaluations[i];
+    const std::string status = e.status != "converged" ? e.status : e.feasible ? "feasible" : "breaks a limit";
+    std::string remark;
+    for (const std::string& message : e.messages) remark += (remark.empty() ? "" : " ") + message;
+    text += fmt::format(
+        "<tr class=\"{}\"><td>{}</td><td class=\"text\">{}</td><td class=\"text\" title=\"{}\">{}</td><td>{}</td>",
+        record.best == i ? "aim"
+        : e.feasible     ? ""
+                         : "soft",
+        i + 1, escape(e.phase), escape(remark), escape(status), significant(e.objective, 5));
+    for (const double c : e.constraints) text += "<td>" + significant(c, 3) + "</td>";
+    for (const double x : e.x) text += "<td>" + significant(x, 5) + "</td>";
+    text += "</tr>\n";
+  }
+  return text + "</tbody></table></div></details>\n";
+}
+
+std::string provenance_section(const RunRecord& record) {
+  const Provenance& p = record.provenance;
+  std::string libraries;
+  for (const auto& [name, version] : p.libraries) libraries += (libraries.empty() ? "" : ", ") + name + " " + version;
+  std::string text = "<dl>\n";
+  const auto row = [&](const char* name, const std::string& value) {
+    if (!value.empty()) text += fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, escape(value));
+  };
+  row("Program", p.program_version.empty() ? "" : "dovetail " + p.program_version);
+  row("Date", p.date_utc);
+  row("Time taken", record.seconds > 0 ? significant(record.seconds / 60, 3) + " min" : "");
+  row("Compiler", p.compiler);
+  row("Libraries", libraries);
+  row("Study", p.study_file);
+  text += "</dl>\n";
+  if (!p.options.empty()) {
+    text += "<details><summary>Options of the optimiser</summary><div class=\"scroll\"><table><tbody>\n";
+    for (const auto& [key, value] : p.options)
+      text += fmt::format("<tr><th scope=\"row\"><code>{}</code></th><td class=\"text\">{}</td></tr>\n", escape(key),
+                          escape(value));
+    text += "</tbody></table></div></details>\n";
+  }
+  if (!p.study_text.empty())
+    text += "<details><summary>The study file</summary><pre>" + escape(p.study_text) + "</pre></details>\n";
+  return text;
+}
+
+}  // namespace dovetail::report

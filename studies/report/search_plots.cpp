@@ -1,0 +1,122 @@
+// Plots of the search: what the candidates came to.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "studies/report/report_plots.hpp"
+#include "studies/report/report_words.hpp"
+
+namespace dovetail::report {
+
+namespace {
+
+/// The objective in the unit of its response, or as it is when it has several terms.
+struct ObjectiveScale {
+  double factor = 1;  ///< shown = factor * objective
+  std::string unit;
+  std::string label = "objective";
+};
+
+ObjectiveScale objective_scale(const RunRecord& record) {
+  if (record.problem.objective.size() != 1) return {};
+  const optimizer::ObjectiveTerm& term = record.problem.objective.front();
+  const double si = (term.scale > 0 ? term.scale : 1) / (term.weight != 0 ? term.weight : 1);
+  double largest = 0;
+  for (const EvaluationRecord& e : record.evaluations)
+    if (std::isfinite(e.objective)) largest = std::max(largest, std::abs(e.objective * si));
+  const Unit unit = response_unit(term.response, largest);
+  return {.factor = si / unit.si, .unit = unit.symbol, .label = words(term.response)};
+}
+
+std::string title_of(std::size_t index, const EvaluationRecord& e, double shown, const std::string& unit) {
+  return fmt::format("candidate {} ({}): {}{}{}", index + 1, e.phase, significant(shown),
+                     unit.empty() ? "" : " " + unit, e.feasible ? "" : ", not feasible");
+}
+
+}  // namespace
+
+Plot objective_plot(const RunRecord& record) {
+  const ObjectiveScale scale = objective_scale(record);
+  Plot plot{
+      .title = "Objective over the search",
+      .description =
+          "Every candidate in the order it was evaluated; those that could not be computed stand at the "
+          "lower edge.",
+      .x = {.label = "candidate"},
+      .y = {.label = scale.label, .unit = scale.unit},
+  };
+  PlotPoints feasible{
+      .name = "feasible",
+  };
+  PlotPoints broken{.name = "breaks a limit", .role = Role::bad, .shape = Shape::cross};
+  PlotPoints best{.name = "best", .role = Role::after, .shape = Shape::star};
+  PlotPoints failed{.name = "not computed", .role = Role::muted, .shape = Shape::triangle};
+  PlotLine so_far{.name = "best so far", .role = Role::before};
+  so_far.steps = true;
+  double least = std::numeric_limits<double>::infinity(), lowest = least, highest = -least;
+  bool positive = true;
+  for (std::size_t i = 0; i < record.evaluations.size(); ++i) {
+    const EvaluationRecord& e = record.evaluations[i];
+    const double at = static_cast<double>(i + 1), shown = scale.factor * e.objective;
+    if (std::isfinite(e.objective)) {
+      lowest = std::min(lowest, shown);
+      highest = std::max(highest, shown);
+      positive = positive && shown > 0;
+      PlotPoints& group = record.best == i ? best : e.feasible ? feasible : broken;
+      group.x.push_back(at);
+      group.y.push_back(shown);
+      group.titles.push_back(title_of(i, e, shown, scale.unit));
+      if (e.feasible) least = std::min(least, e.objective);
+    }
+    so_far.x.push_back(at);
+    so_far.y.push_back(std::isfinite(least) ? scale.factor * least : std::numeric_limits<double>::quiet_NaN());
+  }
+  if (!(lowest <= highest)) return plot;
+  plot.y.logarithmic = positive && highest > 30 * lowest;
+  const double edge =
+      plot.y.logarithmic ? std::pow(10.0, std::floor(std::log10(lowest))) : std::min(lowest, positive ? 0.0 : lowest);
+  plot.y.from_zero = positive;
+  for (std::size_t i = 0; i < record.evaluations.size(); ++i) {
+    const EvaluationRecord& e = record.evaluations[i];
+    if (std::isfinite(e.objective)) continue;
+    failed.x.push_back(static_cast<double>(i + 1));
+    failed.y.push_back(edge);
+    failed.titles.push_back(fmt::format("candidate {} ({}): {}", i + 1, e.phase, e.status));
+  }
+  if (failed.x.empty()) plot.description = "Every candidate in the order it was evaluated.";
+  plot.lines.push_back(std::move(so_far));
+  for (PlotPoints* points : {&failed, &broken, &feasible, &best}) plot.points.push_back(std::move(*points));
+  return plot;
+}
+
+Plot constraint_plot(const RunRecord& record) {
+  Plot plot{.title = "Limits over the search",
+            .description = "Each limit in units of its scale: above 0 it is broken. Values beyond 1 are drawn at 1.",
+            .x = {.label = "candidate"},
+            .y = {.label = "limit overstepped by"},
+            .levels = {{.name = "limit", .y = 0}}};
+  const std::vector<std::string> names = constraint_names(record.problem);
+  constexpr std::array kShapes{Shape::circle, Shape::triangle, Shape::cross, Shape::star};
+  constexpr std::array kRoles{Role::after, Role::before, Role::bad};
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    const std::size_t colon = names[c].rfind(':');
+    PlotPoints points{.name = words(names[c].substr(0, colon)) +
+                              (colon == std::string::npos ? "" : ", " + names[c].substr(colon + 1)),
+                      .role = kRoles[c % kRoles.size()],
+                      .shape = kShapes[(c / kRoles.size() + c) % kShapes.size()]};
+    for (std::size_t i = 0; i < record.evaluations.size(); ++i) {
+      const EvaluationRecord& e = record.evaluations[i];
+      if (c >= e.constraints.size() || !std::isfinite(e.constraints[c])) continue;
+      points.x.push_back(static_cast<double>(i + 1));
+      points.y.push_back(std::clamp(e.constraints[c], -1.0, 1.0));
+      points.titles.push_back(fmt::format("candidate {}: {}", i + 1, significant(e.constraints[c])));
+    }
+    plot.points.push_back(std::move(points));
+  }
+  return plot;
+}
+
+}  // namespace dovetail::report
