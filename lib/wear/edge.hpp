@@ -21,8 +21,8 @@ namespace dovetail::wear {
 struct Edge {
   int worn = -1;      ///< e
   int stuck = -1;     ///< k
-  double excess = 0;  ///< max_t |lambda_T| / (mu lambda_N) - 1 of e while held, >= 0
-  double margin = 0;  ///< min_t 1 - |lambda_T| / (mu lambda_N) of k, >= 0
+  double excess = 0;  ///< minus the friction margin of e while held, >= 0
+  double margin = 0;  ///< friction margin of k, >= 0
   double theta = 1;   ///< 0: e has only just joined the worn zone; 1: k is about to join
 
   void place() { theta = excess + margin > 0 ? excess / (excess + margin) : 1.0; }

@@ -18,9 +18,14 @@ double friction_margin(const response::SteadyState& state, Index node, double fr
   double margin = std::numeric_limits<double>::infinity();
   if (!(largest > 0.0) || friction == 0.0 || !state.linearisation) return margin;
   const MatrixXd& force = state.linearisation->state().nodes[static_cast<std::size_t>(node)].force;
-  for (Index n = 0; n < force.rows(); ++n)
-    if (force(n, 0) > kLightLoad * largest)
-      margin = std::min(margin, 1.0 - force.row(n).tail(force.cols() - 1).norm() / (friction * force(n, 0)));
+  const Index tangential = force.cols() - 1;
+  for (Index n = 0; n < force.rows(); ++n) {
+    if (force(n, 0) <= kLightLoad * largest) continue;
+    for (Index m = 0; m <= n; ++m)
+      if (force(m, 0) > kLightLoad * largest)
+        margin = std::min(margin, 1.0 - (force.row(n) - force.row(m)).tail(tangential).norm() /
+                                            (friction * (force(n, 0) + force(m, 0))));
+  }
   return margin;
 }
 
@@ -56,6 +61,11 @@ response::SteadyState Release::solve_on(const std::shared_ptr<const response::Co
   }
   state = response::steady_state(model, omega_, condition, options, guess);
   count(1, state.iterations);
+  // A body that nothing holds drifts until the residual is small against rounding: no state at all.
+  constexpr double kFloats = 1e-13;
+  if (state.status == Status::converged && state.linearisation && state.linearisation->factorised_size() > 0 &&
+      !(state.linearisation->reciprocal_condition() > kFloats))
+    state.status = Status::singular;
   return state;
 }
 

@@ -10,9 +10,11 @@
 
 namespace dovetail::wear {
 
-/// Friction margin of a node over the period, min_t 1 - |lambda_T| / (mu lambda_N) over its loaded samples: zero in
-/// slip, negative for a node held beyond its friction. Infinite without load or friction. `friction` is the mu to
-/// measure by.
+/// Friction margin of a node over the period, min_{t,s} 1 - |lambda_T(t) - lambda_T(s)| / (mu (lambda_N(t) +
+/// lambda_N(s))) over its loaded samples: what is left before no constant residual traction keeps it from slipping in
+/// every cycle. (Its distance from mu lambda_N at one instant says nothing: a node that slid into place sits there.)
+/// Negative for a node held beyond its friction; infinite without load or friction. `friction` is the mu to measure by.
+/// O(samples^2).
 [[nodiscard]] double friction_margin(const response::SteadyState& state, Eigen::Index node, double friction);
 
 /// Overload relieved by the slip of a node, in units of mu lambda_N: k_T (slip distance) / (4 mu max lambda_N) with the

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "scenes.hpp"
@@ -9,7 +10,7 @@
 namespace dovetail::wear {
 namespace {
 
-const response::SteadyOptions kSteady{.harmonics = 1, .samples = 64};
+const response::SteadyOptions kSteady{.harmonics = 3, .samples = 64};
 constexpr AsymptoteOptions kOptions{.rate_threshold = 0.0};
 
 std::shared_ptr<const response::CondensedModel> condensed(const scenes::Block& data) {
@@ -33,33 +34,84 @@ TEST_P(RandomBlock, HistoriesConvergeToTheAsymptote) {
   for (double fraction : {0.1, 0.02, 0.005}) {
     const History run = history(
         model, 1.0, {}, kSteady,
-        {.increment = fraction * worn.largest_depth, .steps = 3000, .rate_fraction = 1e-5, .rate_threshold = 0.0});
+        {.increment = fraction * worn.largest_depth, .steps = 3000, .rate_fraction = 1e-4, .rate_threshold = 0.0});
     EXPECT_EQ(run.end, HistoryEnd::worn_out) << to_string(run.end) << " " << to_string(run.status);
     const Eigen::VectorXd depth = run.depth.bottomRows(1).transpose();
     error = (depth - worn.depth).cwiseAbs().maxCoeff() / worn.largest_depth;
     RecordProperty("error_" + std::to_string(fraction), std::to_string(error));
     RecordProperty("jacobians_" + std::to_string(fraction), run.jacobians);
-    // A node wears too deep by at most about the last increments.
-    EXPECT_LT(error, 2.0 * fraction) << fraction;
+    // First order: a node overshoots by at most about one increment; what remains at the end is the wear still to come
+    // where nodes touch only at times, which dies out slowly.
+    EXPECT_LT(error, fraction + 0.02) << fraction;
   }
 }
 INSTANTIATE_TEST_SUITE_P(Six, RandomBlock, testing::Range(0u, 6u));
 
+/// A flat block, pressed enough to stick everywhere.
+scenes::Block stuck_block() {
+  return {.height = 0.35, .friction = 0.5, .tangential_load = 0.1 * 0.5e-3, .couple = 1.0, .coupling = 0.0};
+}
+
 TEST(Block, WithoutSlipDoesNotWear) {
-  scenes::Block data = scenes::random_block(0);
-  data.tangential_load = 0.02 * data.friction * data.normal_load;
-  data.height = 2.0;
-  data.crown = 0.0;
-  data.eccentricity = 0.0;
-  const Asymptote worn = asymptote(condensed(data), 1.0, {}, kSteady, kOptions);
+  const Asymptote worn = asymptote(condensed(stuck_block()), 1.0, {}, kSteady, kOptions);
   EXPECT_EQ(worn.verdict, Verdict::asymptote);
+  EXPECT_EQ(worn.depth.maxCoeff(), 0.0);
+  EXPECT_EQ(worn.unworn_rate.maxCoeff(), 0.0);
+  EXPECT_EQ(worn.passes, 0);
+  const History run = history(condensed(stuck_block()), 1.0, {}, kSteady, {.rate_threshold = 0.0});
+  EXPECT_EQ(run.end, HistoryEnd::worn_out);
+  EXPECT_EQ(run.worn_volume.size(), 1);
 }
 
 TEST(Block, SlidingUnderDeadLoadHasNoAsymptote) {
-  scenes::Block data = scenes::random_block(1);
-  data.tangential_load = 1.2 * data.friction * data.normal_load;
-  const Asymptote worn = asymptote(condensed(data), 1.0, {}, kSteady, kOptions);
+  scenes::Block data = stuck_block();
+  data.tangential_load = 2.0 * data.friction * data.normal_load;
+  data.tangential_spring = 1.0;
+  AsymptoteOptions options = kOptions;
+  options.confirm_steps = 40;
+  const Asymptote worn = asymptote(condensed(data), 1.0, {}, kSteady, options);
   EXPECT_EQ(worn.verdict, Verdict::no_asymptote) << to_string(worn.status);
+  EXPECT_TRUE(worn.confirmed_by_history);
+  EXPECT_GT(worn.rate.maxCoeff(), 0.0);
+}
+
+TEST(Block, GapAndInterferenceShiftTheFloorOnly) {
+  // The block floats: raising the floor by a constant moves it as a rigid body, and nothing else changes.
+  const scenes::Block data = scenes::random_block(1);
+  const Asymptote worn = asymptote(condensed(data), 1.0, {}, kSteady, kOptions);
+  ASSERT_GT(worn.worn_volume, 0.0);
+  for (double shift : {-2e-3, 2e-3}) {
+    reduction::ReducedModel model = scenes::block(data);
+    model.contact.gap.array() += shift;
+    const Asymptote moved =
+        asymptote(std::make_shared<const response::CondensedModel>(model), 1.0, {}, kSteady, kOptions);
+    ASSERT_EQ(moved.verdict, Verdict::asymptote);
+    // The steady states are solved to 1e-9 of the excitation.
+    EXPECT_NEAR(moved.worn_volume, worn.worn_volume, 1e-6 * worn.worn_volume);
+  }
+}
+
+TEST(Block, HalvesAndReportsStepsThatFail) {
+  // With no iterations to speak of, nothing converges: the history says so and invents no state.
+  response::SteadyOptions hasty = kSteady;
+  hasty.max_iterations = 1;
+  hasty.penalty_cascade = false;
+  const History run = history(condensed(scenes::random_block(1)), 1.0, {}, hasty, {.rate_threshold = 0.0});
+  EXPECT_EQ(run.end, HistoryEnd::failed);
+  EXPECT_NE(run.status, Status::converged);
+  EXPECT_EQ(run.cycles.size(), 0);
+  const Asymptote worn = asymptote(condensed(scenes::random_block(1)), 1.0, {}, hasty, kOptions);
+  EXPECT_EQ(worn.verdict, Verdict::not_converged);
+  EXPECT_NE(worn.status, Status::converged);
+}
+
+TEST(Block, StopsWhenAsked) {
+  int asked = 0;
+  const Control control{.stop = [&asked] { return ++asked > 4; }};
+  const History run = history(condensed(scenes::random_block(1)), 1.0, {}, kSteady,
+                              {.increment = 1e-6, .rate_threshold = 0.0}, {}, control);
+  EXPECT_EQ(run.status, Status::interrupted);
+  EXPECT_EQ(run.cycles.size(), 4);  // four states were allowed and are kept
 }
 
 }  // namespace

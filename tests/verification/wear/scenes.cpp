@@ -146,6 +146,7 @@ reduction::ReducedModel block(const Block& data) {
     const double s = 2.0 * i / columns - 1.0;
     loads(dof + 1, 0) = -data.normal_load * share * (1.0 + 6.0 * data.eccentricity * s);
     loads(dof, 1) = data.tangential_load * share;
+    loads(dof + 1, 1) = 3.0 * s * data.couple * data.tangential_load * data.height / (0.5 * data.length) * share;
     loads(dof + 1, 2) = -data.breathing_load * share;
   }
 
@@ -182,6 +183,10 @@ reduction::ReducedModel block(const Block& data) {
     model.contact.gap[i] = data.crown * s * s + data.tilt * (s + 1.0);
     model.output_vectors(0, 2 * i + 1) = 1.0 / nodes;
   }
+  for (Index i = 0; i < kept; ++i)
+    for (Index j = 0; j < kept; ++j)
+      if ((i + j) % 2 != 0) model.stiffness(i, j) *= data.coupling;
+  for (Index i = 1; i < kept; i += 2) model.stiffness(i, i) += data.tangential_spring / nodes;
   model.contact.friction.setConstant(data.friction);
   model.contact.wear_coefficient.setConstant(data.wear_coefficient);
   return model;
@@ -195,12 +200,13 @@ Block random_block(unsigned number) {
   };
   Block data;
   data.length = 1.0;
-  data.height = between(0.3, 0.8);
+  data.height = between(0.5, 0.65);
   data.friction = between(0.3, 0.7);
   data.normal_load = 1e-3;
-  data.eccentricity = between(-0.04, 0.04);
-  data.tangential_load = between(0.3, 0.55) * data.friction * data.normal_load;
-  data.crown = between(0.5, 1.5) * 1e-4;
+  data.eccentricity = between(-0.02, 0.02);
+  data.tangential_load = between(0.4, 0.58) * data.friction * data.normal_load;
+  data.crown = between(1.8, 2.6) * 1e-3 * data.height;
+  data.coupling = 0.0;
   return data;
 }
 

@@ -34,8 +34,11 @@ struct Block {
   double friction = 0.5;
   double normal_load = 1e-3, eccentricity = 0.0;  ///< on the top face; eccentricity / length
   double tangential_load = 2.5e-4;                ///< amplitude of the cosine force on the top face
-  double breathing_load = 0.0;                    ///< amplitude of the sine normal force on the top face
-  double crown = 0.0, tilt = 0.0;                 ///< gap g = crown s^2 + tilt (s + 1), s in [-1, 1]
+  double couple = 1.0;    ///< share of the tangential load's moment that a cosine pressure takes back
+  double coupling = 1.0;  ///< factor on the stiffness between normal and tangential; 0: floor of equal elasticity
+  double tangential_spring = 0.0;  ///< to the ground, in all: holds a block that slides
+  double breathing_load = 0.0;     ///< amplitude of the sine normal force on the top face
+  double crown = 0.0, tilt = 0.0;  ///< gap g = crown s^2 + tilt (s + 1), s in [-1, 1]
   double wear_coefficient = 1.0;
 };
 
