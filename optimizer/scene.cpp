@@ -263,9 +263,12 @@ std::vector<Violation> contradictions(const Scene& scene) {
   if (scene.solver.samples < 2 * scene.solver.harmonics + 2)
     contradiction("solver.samples", scene.solver.samples,
                   "must be >= 2 * solver.harmonics + 2 = " + std::to_string(2 * scene.solver.harmonics + 2));
-  if (2 * scene.loading.nodal_diameter > scene.geometry.sectors)
+  if (scene.loading.nodal_diameter != 0)
     contradiction("scene.nodal_diameter", scene.loading.nodal_diameter,
-                  "must be <= half the number of sectors = " + std::to_string(scene.geometry.sectors / 2));
+                  "must be 0: of a section, the vibration with nodal diameter 0 is computed");
+  if (scene.loading.mode > scene.solver.modes)
+    contradiction("scene.mode", scene.loading.mode,
+                  "must be <= solver.modes = " + std::to_string(scene.solver.modes) + ", the modes kept");
   return found;
 }
 

@@ -3,23 +3,76 @@
 #include <ostream>
 
 #include "studies/program/commands.hpp"
+#include "studies/program/engine.hpp"
 #include "studies/program/export.hpp"
+#include "studies/program/field_export.hpp"
+#include "studies/report/report_html.hpp"
+#include "studies/report/results_file.hpp"
 
 namespace dovetail::studies {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A file of a run's directory. Throws InputError when it is not there.
+fs::path run_file(const std::string& directory, const std::string& name, const std::string& what) {
+  std::error_code ignored;
+  const fs::path file = fs::path(directory) / name;
+  if (!fs::is_directory(directory, ignored))
+    throw InputError(Violation{.file = {}, .key = directory, .value = {}, .allowed = "is not the directory of a run"});
+  if (!fs::exists(file, ignored))
+    throw InputError(
+        Violation{.file = {}, .key = directory, .value = {}, .allowed = "holds no " + what + " (" + name + ")"});
+  return file;
+}
+
+void check_target(const std::string& file) {
+  const fs::path folder = fs::path(file).has_parent_path() ? fs::path(file).parent_path() : ".";
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored))
+    throw InputError(Violation{.file = {},
+                               .key = file,
+                               .value = {},
+                               .allowed = "cannot be written: the directory " + folder.string() + " does not exist"});
+}
+
+report::FieldRecord fields_of(const ExportOptions& options, bool of_run) {
+  if (of_run) {
+    const report::RunRecord record = report::read_results(run_file(options.input, "results.h5", "results"));
+    if (record.best_design && record.best_design->fields.mesh.element_count() > 0) return record.best_design->fields;
+    throw InputError(
+        Violation{.file = {}, .key = options.input, .value = {}, .allowed = "holds no fields of a best design"});
+  }
+  const Study study = load_study(options.input, options.overrides);
+  const report::DesignRecord design = describe_fields(study);
+  if (design.fields.mesh.element_count() > 0) return design.fields;
+  throw InputError(Violation{
+      .file = {}, .key = options.input, .value = {}, .allowed = "the design has no fields: " + design.status});
+}
+
+}  // namespace
 
 int run_export(const ExportOptions& options, const Streams& streams) {
-  std::string file = options.input;
-  if (std::filesystem::is_directory(file)) {
-    const std::filesystem::path best = std::filesystem::path(file) / "best.toml";
-    if (!std::filesystem::exists(best))
-      throw InputError(Violation{.file = {},
-                                 .key = file,
-                                 .value = {},
-                                 .allowed = "holds no best design (best.toml); name a study file or a finished run"});
-    file = best.string();
+  if (!is_export_format(options.format)) {
+    std::string allowed = "must be one of";
+    for (const std::string_view known : export_formats()) (allowed += ' ') += known;
+    throw InputError(Violation{.file = {}, .key = "--format", .value = options.format, .allowed = allowed});
   }
-  const Study study = load_study(file, options.overrides);
-  export_scene(study.scene, options.format, options.file);
+  check_target(options.file);
+  const bool of_run = fs::is_directory(options.input);
+  if (is_field_format(options.format)) {
+    export_fields(fields_of(options, of_run), options.file);
+  } else {
+    const std::string study = of_run ? run_file(options.input, "best.toml", "best design").string() : options.input;
+    export_section(load_study(study, options.overrides).scene, options.format, options.file);
+  }
+  streams.out << options.file << ": written\n";
+  return kDone;
+}
+
+int run_report(const ReportOptions& options, const Streams& streams) {
+  const report::RunRecord record = report::read_results(run_file(options.directory, "results.h5", "results"));
+  report::write_report(options.file, record);
   streams.out << options.file << ": written\n";
   return kDone;
 }

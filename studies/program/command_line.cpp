@@ -39,6 +39,7 @@ struct Arguments {
   WearOptions wear;
   RunOptions run;
   ExportOptions geometry;
+  ReportOptions report;
   SolverOverrides solver;
   std::vector<std::string> set;
   std::function<int(const Streams&)> command;
@@ -96,7 +97,7 @@ void define_study_commands(CLI::App& app, Arguments& a) {
   add_study(*run, a.run.study);
   run->add_option("-o,--output", a.run.directory, "Directory of the results (default: results/NAME)")->type_name("DIR");
   run->add_flag("--resume", a.run.resume, "Continue the run stored in the directory");
-  run->callback([&a] { a.command = [&a](const Streams& s) { return run_study(a.run, s, study_evaluator); }; });
+  run->callback([&a] { a.command = [&a](const Streams& s) { return run_study(a.run, s, study_engine); }; });
 
   CLI::App* evaluate = app.add_subcommand("evaluate", "Compute one design: all responses with error estimates");
   evaluate->footer(
@@ -210,7 +211,8 @@ void define_model_commands(CLI::App& app, Arguments& a) {
 }
 
 void define_file_commands(CLI::App& app, Arguments& a) {
-  CLI::App* geometry = app.add_subcommand("export", "Write the geometry of a finished run's best design or of a study");
+  CLI::App* geometry =
+      app.add_subcommand("export", "Write the geometry or fields of a finished run's best design or of a study");
   std::string formats;
   for (const std::string_view format : export_formats()) formats += (formats.empty() ? "" : ", ") + std::string(format);
   geometry->add_option("INPUT", a.geometry.input, "Directory of a run, or a study file")->required()->type_name("");
@@ -223,6 +225,11 @@ void define_file_commands(CLI::App& app, Arguments& a) {
       return run_export(a.geometry, s);
     };
   });
+
+  CLI::App* report = app.add_subcommand("report", "Write the report of a run again, from its stored results");
+  report->add_option("DIR", a.report.directory, "Directory of the run")->required()->type_name("");
+  report->add_option("-o,--output", a.report.file, "The page to write")->type_name("FILE.html")->required();
+  report->callback([&a] { a.command = [&a](const Streams& s) { return run_report(a.report, s); }; });
 }
 
 std::string one_line(std::string text) {

@@ -7,13 +7,11 @@
 #include "optimizer/fingerprint.hpp"
 #include "optimizer/journal.hpp"
 #include "optimizer/run.hpp"
-#include "studies/program/best_file.hpp"
 #include "studies/program/commands.hpp"
-#include "studies/program/export.hpp"
 #include "studies/program/interrupt.hpp"
 #include "studies/program/output_file.hpp"
 #include "studies/program/progress.hpp"
-#include "studies/program/run_record.hpp"
+#include "studies/program/run_output.hpp"
 #include "studies/program/version.hpp"
 
 namespace dovetail::studies {
@@ -50,21 +48,6 @@ fs::path prepare_directory(const RunOptions& options, const Study& study) {
   return directory;
 }
 
-std::map<std::string, double> values(const Study& study, const optimizer::Candidate& candidate) {
-  std::map<std::string, double> result;
-  const std::vector<std::string> keys = study.problem.space.keys();
-  for (std::size_t i = 0; i < keys.size(); ++i) result[keys[i]] = candidate.x[i];
-  return result;
-}
-
-void write_best(const Study& study, const optimizer::Candidate& best, const fs::path& directory) {
-  write_file(directory / "best.toml", with_values(parse_document(study.text, study.file), values(study, best)));
-  if (study.exports.empty()) return;
-  optimizer::Scene scene = study.scene;
-  for (const auto& [key, value] : values(study, best)) optimizer::set_parameter(scene, key, value);
-  for (const std::string& format : study.exports) export_scene(scene, format, directory / ("best." + format));
-}
-
 std::string conclusion(const Study& study, const OptimizationResult& result, const fs::path& directory) {
   const optimizer::SearchStatistics& counts = result.statistics;
   std::string text =
@@ -75,17 +58,17 @@ std::string conclusion(const Study& study, const OptimizationResult& result, con
   const optimizer::Candidate& best = result.evaluations[*result.best];
   text += fmt::format("best objective {:.6g} (evaluation {}), start {:.6g}\n", best.judgement.objective,
                       *result.best + 1, result.evaluations.front().judgement.objective);
-  for (const auto& [key, value] : values(study, best)) text += fmt::format("  {} = {:.6g}\n", key, value);
+  for (const auto& [key, value] : variable_values(study, best)) text += fmt::format("  {} = {:.6g}\n", key, value);
   return text + fmt::format("written to {}\n", directory.string());
 }
 
 }  // namespace
 
-int run_study(const RunOptions& options, const Streams& streams, const EvaluatorFactory& make_evaluator) {
+int run_study(const RunOptions& options, const Streams& streams, const RunEngineFactory& make_engine) {
   const auto begin = std::chrono::steady_clock::now();
   const Study study = load_study(options.study);
   require_runnable(study);
-  const optimizer::Evaluator evaluator = make_evaluator(study);
+  const RunEngine engine = make_engine(study);
   const std::string fingerprint = optimizer::fingerprint(
       study.problem, study.optimizer, std::string("dovetail ") + version() + "\n" + physics_text(study.scene));
   const fs::path directory = prepare_directory(options, study);
@@ -102,18 +85,11 @@ int run_study(const RunOptions& options, const Streams& streams, const Evaluator
     const optimizer::RunHooks hooks{.journal = &journal,
                                     .progress = [&](const optimizer::Progress& at) { progress(at); },
                                     .stop = &interrupt.flag()};
-    result = optimizer::run_optimization(study.problem, evaluator, study.optimizer, hooks);
+    result = optimizer::run_optimization(study.problem, engine.evaluate, study.optimizer, hooks);
   }
 
-  if (result.best) write_best(study, result.evaluations[*result.best], directory);
-  const RunRecord record{.study = study,
-                         .result = result,
-                         .seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
-                         .version = version()};
-  const RunWriters writers = run_writers();
-  if (writers.results) writers.results(record, directory);
-  if (writers.report) writers.report(record, directory);
-
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  write_run(study, result, engine, seconds, directory, streams.err);
   streams.out << conclusion(study, result, directory);
   if (interrupt.requested()) {
     streams.err << fmt::format("dovetail: interrupted; everything finished is kept, go on with --resume\n");

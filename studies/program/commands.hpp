@@ -1,12 +1,11 @@
 #pragma once
 
-#include <functional>
 #include <iosfwd>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "optimizer/evaluation.hpp"
+#include "studies/program/run_engine.hpp"
 #include "studies/program/study.hpp"
 
 namespace dovetail::studies {
@@ -78,15 +77,12 @@ struct WearOptions {
 };
 int run_wear(const WearOptions& options, const Streams& streams);
 
-/// Makes the evaluator of a study; what a run optimises with.
-using EvaluatorFactory = std::function<optimizer::Evaluator(const Study&)>;
-
 struct RunOptions {
   std::string study;
   std::string directory;  ///< empty: results/NAME
   bool resume = false;
 };
-int run_study(const RunOptions& options, const Streams& streams, const EvaluatorFactory& evaluator);
+int run_study(const RunOptions& options, const Streams& streams, const RunEngineFactory& engine);
 
 struct ExportOptions {
   std::string input;  ///< results directory or STUDY.toml

@@ -6,6 +6,7 @@
 
 #include "reduction/model_file.hpp"
 #include "response/condensed_model.hpp"
+#include "studies/report/design_record.hpp"
 
 namespace dovetail::studies {
 
@@ -27,13 +28,23 @@ std::shared_ptr<const SceneEvaluator> scene_evaluator(const Study& study) {
   }
 }
 
-optimizer::Evaluator study_evaluator(const Study& study) {
+RunEngine study_engine(const Study& study) {
   const std::shared_ptr<const SceneEvaluator> evaluator = scene_evaluator(study);
-  return [evaluator, base = study.scene, keys = study.problem.space.keys()](std::span<const double> x) {
+  RunEngine engine;
+  engine.evaluate = [evaluator, base = study.scene, keys = study.problem.space.keys()](std::span<const double> x) {
     Scene scene = base;
     for (std::size_t i = 0; i < keys.size(); ++i) optimizer::set_parameter(scene, keys[i], x[i]);
     return evaluator->evaluate(scene).evaluation;
   };
+  engine.describe = [evaluator](const Scene& scene) {
+    return report::make_design_record(scene, evaluator->evaluate(scene));
+  };
+  return engine;
+}
+
+report::DesignRecord describe_fields(const Study& study) {
+  return report::make_design_record(study.scene, scene_evaluator(study)->evaluate(study.scene),
+                                    {.curve_points = 0, .nodal_diameter_modes = 0});
 }
 
 bool is_model_file(const std::string& file) {

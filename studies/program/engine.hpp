@@ -19,8 +19,8 @@ namespace dovetail::studies {
 /// be meshed. Throws InputError when neither can.
 [[nodiscard]] std::shared_ptr<const optimizer::SceneEvaluator> scene_evaluator(const Study& study);
 
-/// The evaluator a run uses: design variables in, evaluation out.
-[[nodiscard]] optimizer::Evaluator study_evaluator(const Study& study);
+/// The study's design with its fields and without curves.
+[[nodiscard]] report::DesignRecord describe_fields(const Study& study);
 
 /// A reduced model to compute with, from a model file or from a study's candidate.
 struct LoadedModel {

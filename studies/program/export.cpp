@@ -1,9 +1,10 @@
 #include "studies/program/export.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cassert>
 #include <vector>
 
-#include "core/errors.hpp"
 #include "geometry/exports/dxf.hpp"
 #include "geometry/exports/layer.hpp"
 #include "geometry/exports/svg.hpp"
@@ -11,16 +12,26 @@
 namespace dovetail::studies {
 
 std::span<const std::string_view> export_formats() {
-  static constexpr std::array<std::string_view, 2> formats{"dxf", "svg"};
+  static constexpr std::array<std::string_view, 3> formats{"dxf", "svg", "vtu"};
   return formats;
 }
 
-void export_scene(const optimizer::Scene& scene, const std::string& format, const std::filesystem::path& file) {
-  if (format == "dxf") return geometry::write_dxf(file, geometry::section_layers(scene.geometry));
-  if (format == "svg") return geometry::write_svg(file, geometry::section_layers(scene.geometry));
-  std::string allowed = "must be one of";
-  for (const std::string_view known : export_formats()) (allowed += ' ') += known;
-  throw InputError(Violation{.file = {}, .key = "--format", .value = format, .allowed = allowed});
+bool is_export_format(std::string_view format) {
+  const std::span<const std::string_view> known = export_formats();
+  return std::find(known.begin(), known.end(), format) != known.end();
+}
+
+bool is_field_format(std::string_view format) {
+  return format == "vtu";
+}
+
+void export_section(const optimizer::Scene& scene, const std::string& format, const std::filesystem::path& file) {
+  assert(is_export_format(format) && !is_field_format(format));
+  const std::vector<geometry::Layer> layers = geometry::section_layers(scene.geometry);
+  if (format == "dxf")
+    geometry::write_dxf(file, layers);
+  else
+    geometry::write_svg(file, layers);
 }
 
 }  // namespace dovetail::studies

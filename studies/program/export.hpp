@@ -9,11 +9,14 @@
 
 namespace dovetail::studies {
 
-/// Formats of the section [export] and of the command export.
+/// Formats of the section [export] and of the command export: drawings of the section (dxf, svg) and fields on the
+/// mesh (vtu).
 [[nodiscard]] std::span<const std::string_view> export_formats();
+[[nodiscard]] bool is_export_format(std::string_view format);
+/// Whether that format holds computed fields.
+[[nodiscard]] bool is_field_format(std::string_view format);
 
-/// Writes the geometry of a scene in one of export_formats(). Throws InputError for another format or a file that
-/// cannot be written.
-void export_scene(const optimizer::Scene& scene, const std::string& format, const std::filesystem::path& file);
+/// Writes the section of a scene as a drawing, "dxf" or "svg". Throws InputError for a file that cannot be written.
+void export_section(const optimizer::Scene& scene, const std::string& format, const std::filesystem::path& file);
 
 }  // namespace dovetail::studies

@@ -99,8 +99,7 @@ void read_exports(SectionReader& root, Study& study, Problems& problems) {
     if (formats->kind != Node::Kind::list)
       problems.add(*formats, "export.formats", "must be a list of formats, as in [\"dxf\"]; each " + allowed);
     for (const Node& item : formats->items) {
-      const auto known = export_formats();
-      if (item.kind != Node::Kind::text || std::find(known.begin(), known.end(), item.text) == known.end())
+      if (item.kind != Node::Kind::text || !is_export_format(item.text))
         problems.add(item, "export.formats", allowed);
       else if (std::find(study.exports.begin(), study.exports.end(), item.text) == study.exports.end())
         study.exports.push_back(item.text);

@@ -28,7 +28,7 @@ absent() { [ ! -e "$1" ] || fail "$1 was left behind"; }
 # Help and version
 expect 0 --version; answers "dovetail "
 expect 0 --help; answers "dovetail new mine.toml"
-for command in run evaluate reduce response wear export check new; do
+for command in run evaluate reduce response wear export report check new; do
   expect 0 "$command" --help; answers "$command"
 done
 

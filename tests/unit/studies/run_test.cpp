@@ -33,7 +33,7 @@ class Run : public testing::Test {
   [[nodiscard]] std::string study() const { return (directory_ / "study.toml").string(); }
   [[nodiscard]] fs::path results() const { return directory_ / "out"; }
 
-  int run(bool resume, const EvaluatorFactory& factory) {
+  int run(bool resume, const RunEngineFactory& factory) {
     const RunOptions options{.study = study(), .directory = results().string(), .resume = resume};
     out_.str("");
     err_.str("");
@@ -54,12 +54,14 @@ optimizer::Evaluation bowl(std::span<const double> x) {
   return evaluation;
 }
 
-EvaluatorFactory counted(int& calls) {
-  return [&calls](const Study&) -> optimizer::Evaluator {
-    return [&calls](std::span<const double> x) {
-      ++calls;
-      return bowl(x);
-    };
+RunEngineFactory counted(int& calls) {
+  return [&calls](const Study&) {
+    return RunEngine{.evaluate =
+                         [&calls](std::span<const double> x) {
+                           ++calls;
+                           return bowl(x);
+                         },
+                     .describe = {}};
   };
 }
 
@@ -101,11 +103,13 @@ TEST_F(Run, RefusesAnExistingDirectory) {
 TEST_F(Run, ResumesWithoutComputingAgain) {
   int first = 0;
   // The process dies in the 15th evaluation.
-  const EvaluatorFactory dying = [&first](const Study&) -> optimizer::Evaluator {
-    return [&first](std::span<const double> x) {
-      if (++first == 15) throw std::runtime_error("power cut");
-      return bowl(x);
-    };
+  const RunEngineFactory dying = [&first](const Study&) {
+    return RunEngine{.evaluate =
+                         [&first](std::span<const double> x) {
+                           if (++first == 15) throw std::runtime_error("power cut");
+                           return bowl(x);
+                         },
+                     .describe = {}};
   };
   EXPECT_THROW(run(false, dying), std::runtime_error);
   int second = 0;
@@ -128,12 +132,14 @@ TEST_F(Run, ResumingAnotherStudyIsRefused) {
 }
 
 TEST_F(Run, WithoutAFeasibleDesignNothingIsCalledBest) {
-  const EvaluatorFactory poor = [](const Study&) -> optimizer::Evaluator {
-    return [](std::span<const double> x) {
-      optimizer::Evaluation evaluation = bowl(x);
-      evaluation.responses["post_width_m"] = 1e-3;
-      return evaluation;
-    };
+  const RunEngineFactory poor = [](const Study&) {
+    return RunEngine{.evaluate =
+                         [](std::span<const double> x) {
+                           optimizer::Evaluation evaluation = bowl(x);
+                           evaluation.responses["post_width_m"] = 1e-3;
+                           return evaluation;
+                         },
+                     .describe = {}};
   };
   EXPECT_EQ(run(false, poor), kNotConverged);
   EXPECT_THAT(err_.str(), HasSubstr("no feasible design was found"));

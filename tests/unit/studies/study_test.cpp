@@ -225,6 +225,10 @@ TEST(Study, ConstraintsAreChecked) {
 TEST(Study, ContradictionsAcrossKeysNameTheirPlace) {
   EXPECT_THAT(complaints(replaced(sample(), "harmonics = 3", "harmonics = 100")),
               testing::MatchesRegex("s.toml:[0-9]+: solver.samples = 128: must be >= .* = 202"));
+  EXPECT_THAT(complaints(replaced(sample(), "nodal_diameter = 0", "nodal_diameter = 2")),
+              HasSubstr("scene.nodal_diameter = 2: must be 0"));
+  EXPECT_THAT(complaints(replaced(sample(), "\nmode = 1\n", "\nmode = 30\n")),
+              HasSubstr("scene.mode = 30: must be <= solver.modes = 20"));
 }
 
 TEST(Study, TheNameIsAFolder) {

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <functional>
+
+#include "optimizer/evaluation.hpp"
+#include "optimizer/scene.hpp"
+#include "studies/program/study.hpp"
+#include "studies/report/run_record.hpp"
+
+namespace dovetail::studies {
+
+/// What a run computes with.
+struct RunEngine {
+  optimizer::Evaluator evaluate;  ///< design variables in, evaluation out
+  /// The design with the curves and fields its results and report show; empty: they show none.
+  std::function<report::DesignRecord(const optimizer::Scene&)> describe;
+};
+
+/// Makes the engine of a study.
+using RunEngineFactory = std::function<RunEngine(const Study&)>;
+
+/// The physics.
+[[nodiscard]] RunEngine study_engine(const Study& study);
+
+}  // namespace dovetail::studies
