@@ -13,8 +13,8 @@ namespace dovetail::numerics {
 
 namespace {
 
-// Columns solved at once: enough for matrix-matrix BLAS, few enough to stay in the cache (measured flat from 16 to 64
-// at 16 000 unknowns; all 200 at once is slower).
+// Columns solved at once: enough for matrix-matrix BLAS, and a small workspace (at 16 000 unknowns times are flat
+// within 3 % from 16 to 200 columns).
 constexpr Eigen::Index kBlockColumns = 32;
 
 template <class Scalar>
