@@ -107,7 +107,7 @@ path.dashed{stroke-dasharray:6 4}path.dotted{stroke-dasharray:1 4}
 path.level{stroke:var(--bad);stroke-width:1;stroke-dasharray:2 3}svg.plot text.level{text-anchor:end;fill:var(--bad)}
 .line.before{stroke:var(--before)}.line.after{stroke:var(--after)}.line.muted{stroke:var(--base)}.line.bad{stroke:var(--bad)}
 .area{opacity:.14;stroke:none}.area.before{fill:var(--before)}.area.after{fill:var(--after)}
-.mark,.dot{stroke:var(--card);stroke-width:.8}.mark.before,.dot.before{fill:var(--before)}
+.mark{stroke:var(--card);stroke-width:.8}.dot{stroke:none}.mark.before,.dot.before{fill:var(--before)}
 .mark.after,.dot.after{fill:var(--after)}.mark.muted,.dot.muted{fill:var(--base)}.mark.bad,.dot.bad{fill:var(--bad)}
 .mark.open{fill:none;stroke-width:1.6}.mark.open.bad{stroke:var(--bad)}.mark.open.muted{stroke:var(--base)}
 .mark.open.before{stroke:var(--before)}.mark.open.after{stroke:var(--after)}

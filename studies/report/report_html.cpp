@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <fstream>
+#include <utility>
 
 #include "geometry/exports/replace_file.hpp"
 #include "studies/report/html.hpp"
@@ -23,16 +24,16 @@ main{max-width:1120px;margin:0 auto;padding:2.2rem 1.4rem 4rem}
 h1{font-size:1.1rem;font-weight:600;color:var(--soft);margin:0 0 .5rem}
 .lead{font-size:1.5rem;line-height:1.32;font-weight:600;margin:0 0 .7rem;max-width:52rem;text-wrap:pretty}
 h2{font-size:1.2rem;margin:2.6rem 0 .8rem;padding-top:1.1rem;border-top:1px solid var(--hair)}
-h3{font-size:1rem;margin:0 0 .35rem}p{margin:.4rem 0;max-width:52rem}ul{padding-left:1.2rem;margin:.4rem 0}
-.soft,figcaption,td .soft{color:var(--soft)}figcaption{font-size:.86rem;margin-top:.3rem}
-.grid2{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,28rem),1fr));gap:1.1rem;align-items:start}
+h3{font-size:1rem;margin:0 0 .35rem}h3.above{margin-top:1.6rem}.grid2+.grid2{margin-top:1.1rem}ul+.grid2{margin-top:1rem}p{margin:.4rem 0;max-width:52rem}ul{padding-left:1.2rem;margin:.4rem 0}
+.soft,figcaption,td .soft{color:var(--soft)}figcaption{font-size:.86rem;margin-top:.3rem;max-width:52rem}figure>details{margin-top:auto;padding-top:.5rem}
+.grid2{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,28rem),1fr));gap:1.1rem}
 .shape{display:grid;grid-template-columns:minmax(0,3.3fr) minmax(0,1fr);gap:1.1rem;align-items:stretch}
-figure{margin:0;background:var(--card);border:1px solid var(--hair);border-radius:8px;padding:1rem 1.1rem .8rem;min-width:0}
+figure{margin:0;display:flex;flex-direction:column;background:var(--card);border:1px solid var(--hair);border-radius:8px;padding:1rem 1.1rem .8rem;min-width:0}
 figure.nothing p{color:var(--soft)}
 .scroll{overflow-x:auto;-webkit-overflow-scrolling:touch}
 table{border-collapse:collapse;font-size:.92rem;font-variant-numeric:tabular-nums}
 th,td{padding:.32rem .9rem .32rem 0;text-align:right;border-bottom:1px solid var(--hair);white-space:nowrap;font-weight:400}
-thead th{color:var(--soft);font-size:.84rem;vertical-align:bottom}tbody th,th:first-child,td.text{text-align:left}
+thead th{color:var(--soft);font-size:.84rem;vertical-align:bottom}tbody th,th:first-child,td.text,th.text{text-align:left}
 table.figures{width:100%}table.figures tbody th::first-letter{text-transform:uppercase}
 tr.aim th,tr.aim td{font-weight:600}tr.aim th{color:var(--after)}tr.soft td{color:var(--soft)}
 .flag{color:var(--bad);font-size:.84rem}code,pre{font:.84rem/1.5 ui-monospace,"DejaVu Sans Mono",Menlo,monospace}
@@ -45,7 +46,7 @@ svg.drawing{display:block;width:100%;height:auto;max-height:32rem}
 .blade,.disk,.ghost,.form,.bar{vector-effect:non-scaling-stroke;stroke-linejoin:round}
 .blade{fill:var(--wash);stroke:var(--after);stroke-width:1.6}.disk{fill:var(--steel);stroke:var(--base);stroke-width:1.2}
 .ghost{fill:none;stroke:var(--before);stroke-width:1}.form{fill:var(--after);fill-opacity:.55;stroke:none}
-.bar{fill:none;stroke:var(--soft);stroke-width:1.2}svg.drawing text{fill:var(--soft);text-anchor:middle;font-family:system-ui,sans-serif}
+.bar{fill:none;stroke:var(--soft);stroke-width:1.2}svg.drawing text{fill:var(--soft);font-family:system-ui,sans-serif}
 ul.legend .blade,ul.legend .disk{stroke-width:1}
 @media(max-width:640px){main{padding:1.3rem .9rem 3rem}.lead{font-size:1.2rem}.shape{grid-template-columns:1fr}
 .sector svg.drawing{max-height:20rem}figure{padding:.8rem .7rem .6rem}dl{grid-template-columns:1fr}dd{margin-bottom:.4rem}}
@@ -99,8 +100,9 @@ std::string shape_section(const Comparison& designs) {
 }
 
 std::string contact_section(const Comparison& designs) {
-  std::string text = "<section><h2>Contact and wear</h2>\n" +
-                     figures({wear_depth_plot(designs), pressure_plot(designs), gap_plot(designs)});
+  std::string text =
+      "<section><h2>Contact, wear and stress</h2>\n" +
+      figures({wear_depth_plot(designs), pressure_plot(designs), gap_plot(designs), fillet_plot(designs)});
   return text + "</section>\n";
 }
 
@@ -115,7 +117,9 @@ std::string history_section(const DesignRecord& design) {
     return text + "<p>No wear history was computed: the asymptotic wear above is found directly.</p>\n</section>\n";
   if (design.history->status != "converged")
     text += "<p>The history ended early (" + escape(design.history->status) + ").</p>\n";
-  return text + figures({history_plot(design), history_amplitude_plot(design), history_profile_plot(design)}) +
+  return text +
+         figures({history_plot(design), history_depth_plot(design), history_amplitude_plot(design),
+                  history_profile_plot(design)}) +
          "</section>\n";
 }
 
@@ -123,7 +127,7 @@ std::string search_section(const RunRecord& record) {
   std::string text = "<section><h2>Search</h2>\n" + problem_list(record);
   if (record.evaluations.empty()) return text + "<p>There are no candidates to show.</p>\n</section>\n";
   std::vector<Plot> plots{objective_plot(record)};
-  if (!record.problem.constraints.empty()) plots.push_back(constraint_plot(record));
+  for (Plot& plot : limit_plots(record)) plots.push_back(std::move(plot));
   return text + figures(plots) + "<h3 class=\"above\">Design variables</h3>\n" + variable_table(record) +
          evaluation_table(record) + "</section>\n";
 }

@@ -41,6 +41,23 @@ std::vector<std::pair<const DesignRecord*, Role>> in_order(const Comparison& des
   return result;
 }
 
+/// Two flanks that are mirror images to within half a per cent of the largest value.
+bool flanks_alike(const ContactRecord& contact, const Numbers& values) {
+  if (contact.flank_names.size() != 2) return false;
+  std::array<Numbers, 2> sides, along;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto side = static_cast<std::size_t>(contact.flank[i] == 0 ? 0 : 1);
+    sides[side].push_back(values[i]);
+    along[side].push_back(contact.along_m[i]);
+  }
+  const auto near = [](const Numbers& a, const Numbers& b, double tolerance) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [&](double x, double y) { return std::abs(x - y) <= tolerance; });
+  };
+  return near(sides[0], sides[1], 0.005 * largest(values)) &&
+         near(along[0], along[1], 0.001 * largest(contact.along_m));
+}
+
 /// A quantity of the contact nodes along both flanks: left solid, right dashed.
 Plot flank_plot(const Comparison& designs, Numbers ContactRecord::*quantity, const std::string& si_unit, Plot plot) {
   double most = 0;
@@ -53,8 +70,9 @@ Plot flank_plot(const Comparison& designs, Numbers ContactRecord::*quantity, con
     const ContactRecord& contact = design->contact;
     const Numbers& values = contact.*quantity;
     if (values.size() != contact.flank.size()) continue;
-    for (std::size_t flank = 0; flank < contact.flank_names.size(); ++flank) {
-      PlotLine line{.name = name_of(designs, role, contact.flank_names[flank]), .role = role};
+    const bool alike = flanks_alike(contact, values);
+    for (std::size_t flank = 0; flank < (alike ? 1 : contact.flank_names.size()); ++flank) {
+      PlotLine line{.name = name_of(designs, role, alike ? "both flanks" : contact.flank_names[flank]), .role = role};
       line.stroke = flank == 0 ? Stroke::solid : Stroke::dashed;
       for (std::size_t i = 0; i < values.size(); ++i) {
         if (contact.flank[i] != static_cast<std::int64_t>(flank)) continue;
@@ -161,55 +179,93 @@ Plot nodal_diameter_plot(const DesignRecord& design) {
   return plot;
 }
 
-Plot history_plot(const DesignRecord& design) {
-  Plot plot{
-      .title = "Wear over load cycles",
-      .description = "Worn volume of the best design by the cycle-jump history; dashed: the directly computed limit.",
-      .x = {.label = "load cycles", .unit = "millions"},
-  };
-  if (!design.history) return plot;
-  const HistoryRecord& history = *design.history;
-  const auto limit = design.responses.find("asymptotic_wear_volume_m3");
-  const Unit unit = readable_unit("m^3", largest(history.worn_volume_m3));
-  plot.y = {
-      .label = "worn volume",
-      .unit = unit.symbol,
-      .from_zero = true,
-  };
-  PlotLine line{.name = "history", .x = scaled(history.cycles, 1e6), .y = scaled(history.worn_volume_m3, unit.si)};
-  line.dots = true;
-  if (limit != design.responses.end() && !line.x.empty()) {
-    PlotLine level{.name = "asymptote",
-                   .x = {line.x.front(), line.x.back()},
-                   .y = Numbers(2, limit->second / unit.si),
-                   .role = Role::muted};
-    level.stroke = Stroke::dashed;
-    plot.lines.push_back(std::move(level));
+Plot fillet_plot(const Comparison& designs) {
+  Plot plot{.title = "Stress in the fillets",
+            .description =
+                "Largest von Mises stress over one period of the resonance, along the more loaded fillet of the "
+                "blade's neck (solid) and of the disk's slot (dashed).",
+            .x = {.label = "height above the fillet's lower end", .unit = "mm"},
+            .y = {.label = "von Mises stress", .unit = "MPa", .from_zero = true}};
+  for (const auto& [design, role] : in_order(designs)) {
+    for (const FilletRecord& fillet : design->fillets) {
+      const std::size_t count = fillet.von_mises_pa.size();
+      if (count == 0 || fillet.x_m.size() != count || fillet.y_m.size() != count) continue;
+      const auto peak = static_cast<std::size_t>(
+          std::max_element(fillet.von_mises_pa.begin(), fillet.von_mises_pa.end()) - fillet.von_mises_pa.begin());
+      std::vector<std::pair<double, double>> points;  // height, stress
+      for (std::size_t i = 0; i < count; ++i)
+        if ((fillet.x_m[i] > 0) == (fillet.x_m[peak] > 0)) points.emplace_back(fillet.y_m[i], fillet.von_mises_pa[i]);
+      std::sort(points.begin(), points.end());
+      PlotLine line{.name = name_of(designs, role, fillet.name), .role = role};
+      line.stroke = fillet.name == "blade" ? Stroke::solid : Stroke::dashed;
+      for (const auto& [height, stress] : points) {
+        line.x.push_back((height - points.front().first) / 1e-3);
+        line.y.push_back(stress / 1e6);
+      }
+      plot.lines.push_back(std::move(line));
+    }
   }
+  return plot;
+}
+
+namespace {
+
+/// Cycles of a history on a logarithmic axis, without the unworn state at zero; steps grow by orders of magnitude as
+/// wear comes to rest.
+PlotAxis cycle_axis() {
+  return {.label = "load cycles", .logarithmic = true};
+}
+
+Plot history_line(const DesignRecord& design, Numbers HistoryRecord::*quantity, const std::string& si_unit, Plot plot) {
+  plot.x = cycle_axis();
+  if (!design.history) return plot;
+  const Numbers& values = (*design.history).*quantity;
+  const Unit unit = readable_unit(si_unit, largest(values));
+  plot.y.unit = unit.symbol;
+  plot.y.from_zero = true;
+  PlotLine line{.x = design.history->cycles, .y = scaled(values, unit.si)};
+  line.dots = true;
   plot.lines.push_back(std::move(line));
   return plot;
 }
 
-Plot history_amplitude_plot(const DesignRecord& design) {
-  Plot plot{
-      .title = "Amplitude while the joint wears",
-      .description = "Amplitude of the aerofoil's tip at the exciting frequency of the history.",
-      .x = {.label = "load cycles", .unit = "millions"},
+}  // namespace
+
+Plot history_plot(const DesignRecord& design) {
+  Plot plot =
+      history_line(design, &HistoryRecord::worn_volume_m3, "m^3",
+                   {.title = "Wear over load cycles",
+                    .description = "Worn volume by jumps over many cycles; dashed: the limit computed directly, "
+                                   "dotted: its error bar.",
+                    .y = {.label = "worn volume"}});
+  const auto limit = design.responses.find("asymptotic_wear_volume_m3");
+  if (!design.history || limit == design.responses.end() || design.history->cycles.size() < 2) return plot;
+  plot.lines.front().name = "history";
+  const double si = readable_unit("m^3", largest(design.history->worn_volume_m3)).si;
+  const Numbers ends{design.history->cycles[1], design.history->cycles.back()};
+  const auto level = [&](const std::string& name, double value, Stroke stroke) {
+    plot.lines.push_back({.name = name, .x = ends, .y = Numbers(2, value / si), .role = Role::muted, .stroke = stroke});
   };
-  if (!design.history) return plot;
-  const Unit unit = readable_unit("m", largest(design.history->amplitude_m));
-  plot.y = {
-      .label = "amplitude",
-      .unit = unit.symbol,
-      .from_zero = true,
-  };
-  PlotLine line{.name = {},
-                .x = scaled(design.history->cycles, 1e6),
-                .y = scaled(design.history->amplitude_m, unit.si),
-                .role = Role::after};
-  line.dots = true;
-  plot.lines.push_back(std::move(line));
+  level("asymptote", limit->second, Stroke::dashed);
+  const auto error = design.error_estimates.find("asymptotic_wear_volume_m3");
+  if (error == design.error_estimates.end() || !std::isfinite(error->second) || !(error->second > 0)) return plot;
+  level("its error bar", limit->second + error->second, Stroke::dotted);
+  level("", std::max(limit->second - error->second, 0.0), Stroke::dotted);
   return plot;
+}
+
+Plot history_depth_plot(const DesignRecord& design) {
+  return history_line(design, &HistoryRecord::depth_max_m, "m",
+                      {.title = "Largest depth over load cycles",
+                       .description = "Of the contact nodes, both surfaces together.",
+                       .y = {.label = "largest worn depth"}});
+}
+
+Plot history_amplitude_plot(const DesignRecord& design) {
+  return history_line(design, &HistoryRecord::amplitude_m, "m",
+                      {.title = "Amplitude while the joint wears",
+                       .description = "Of the aerofoil's tip, at the exciting frequency of the history.",
+                       .y = {.label = "amplitude"}});
 }
 
 Plot history_profile_plot(const DesignRecord& design) {
@@ -241,7 +297,7 @@ Plot history_profile_plot(const DesignRecord& design) {
     const auto state = static_cast<std::size_t>(std::max<std::int64_t>(history.profile_states[p], 0));
     const double cycles = state < history.cycles.size() ? history.cycles[state] : 0;
     const bool last = p + 1 == profiles;
-    PlotLine line{.name = significant(cycles / 1e6, 2) + " million cycles", .role = last ? Role::after : Role::before};
+    PlotLine line{.name = significant(cycles, 2) + " cycles", .role = last ? Role::after : Role::before};
     line.stroke = last || p % 2 == 0 ? Stroke::solid : Stroke::dashed;
     for (std::size_t i = 0; i < count; ++i) {
       if (contact.flank[i] != shown) continue;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "studies/report/run_record.hpp"
 #include "studies/report/svg_plot.hpp"
 
@@ -16,15 +18,18 @@ struct Comparison {
 [[nodiscard]] Plot wear_depth_plot(const Comparison& designs);
 [[nodiscard]] Plot pressure_plot(const Comparison& designs);
 [[nodiscard]] Plot gap_plot(const Comparison& designs);
+/// Largest stress over a period along the fillets, of the side where it is larger.
+[[nodiscard]] Plot fillet_plot(const Comparison& designs);
 [[nodiscard]] Plot response_plot(const Comparison& designs);
 [[nodiscard]] Plot nodal_diameter_plot(const DesignRecord& design);
 [[nodiscard]] Plot history_plot(const DesignRecord& design);
+[[nodiscard]] Plot history_depth_plot(const DesignRecord& design);
 [[nodiscard]] Plot history_amplitude_plot(const DesignRecord& design);
 [[nodiscard]] Plot history_profile_plot(const DesignRecord& design);
 
 /// Objective over evaluations: feasible, infeasible and best so far.
 [[nodiscard]] Plot objective_plot(const RunRecord& record);
-/// Normalised constraints over evaluations, 0 being the limit.
-[[nodiscard]] Plot constraint_plot(const RunRecord& record);
+/// One plot for each response that has limits: its value over evaluations with the limits as lines.
+[[nodiscard]] std::vector<Plot> limit_plots(const RunRecord& record);
 
 }  // namespace dovetail::report

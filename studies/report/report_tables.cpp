@@ -15,7 +15,10 @@ namespace {
 
 std::string header(const std::vector<std::string>& columns) {
   std::string text = "<thead><tr>";
-  for (const std::string& column : columns) text += "<th scope=\"col\">" + escape(column) + "</th>";
+  for (const std::string& column : columns) {
+    const bool textual = column == "key" || column == "found by" || column == "status";
+    text += std::string("<th scope=\"col\"") + (textual ? " class=\"text\">" : ">") + escape(column) + "</th>";
+  }
   return text + "</tr></thead>";
 }
 
@@ -106,8 +109,8 @@ std::string variable_table(const RunRecord& record) {
     const bool known = best && i < best->x.size();
     const std::string bound = known ? at_bound(v, best->x[i]) : "";
     text += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td><b>{}</b></td>",
-                        escape(key_words(v.key)), key_unit(v.key), significant(v.lower), significant(v.upper),
-                        significant(v.start), known ? significant(best->x[i]) : "\u2013");
+                        escape(key_words(v.key)), key_unit(v.key), plain(v.lower), plain(v.upper), plain(v.start),
+                        known ? plain(best->x[i], 5) : "\u2013");
     text += fmt::format("<td>{}</td><td class=\"text\"><code>{}</code></td></tr>\n",
                         bound.empty() ? "" : "<span class=\"flag\">at " + bound + " bound</span>", escape(v.key));
   }
@@ -121,15 +124,15 @@ std::string problem_list(const RunRecord& record) {
                         term.absolute ? " (magnitude)" : "");
     if (record.problem.objective.size() > 1) {
       const Unit unit = response_unit(term.response, term.scale);
-      text += fmt::format(", weight {}, scale {}", significant(std::abs(term.weight)), with_error(term.scale, 0, unit));
+      text += fmt::format(", weight {}, scale {}", plain(std::abs(term.weight)), plain(term.scale, unit));
     }
     text += "</li>\n";
   }
   for (const optimizer::ResponseConstraint& c : record.problem.constraints) {
     const Unit unit = response_unit(c.response, std::max(std::abs(c.lower.value_or(0)), std::abs(c.upper.value_or(0))));
     text += "<li>Keep the " + escape(words(c.response)) + (c.absolute ? " (magnitude)" : "");
-    if (c.lower) text += " at least " + with_error(*c.lower, 0, unit);
-    if (c.upper) text += std::string(c.lower ? " and" : "") + " at most " + with_error(*c.upper, 0, unit);
+    if (c.lower) text += " at least " + plain(*c.lower, unit);
+    if (c.upper) text += std::string(c.lower ? " and" : "") + " at most " + plain(*c.upper, unit);
     text += "</li>\n";
   }
   return text + "</ul>\n";
@@ -159,7 +162,7 @@ std::string evaluation_table(const RunRecord& record) {
                          : "soft",
         i + 1, escape(e.phase), escape(remark), escape(status), significant(e.objective, 5));
     for (const double c : e.constraints) text += "<td>" + significant(c, 3) + "</td>";
-    for (const double x : e.x) text += "<td>" + significant(x, 5) + "</td>";
+    for (const double x : e.x) text += "<td>" + plain(x, 5) + "</td>";
     text += "</tr>\n";
   }
   return text + "</tbody></table></div></details>\n";

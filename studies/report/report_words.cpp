@@ -80,7 +80,7 @@ std::string limit_words(const std::string& name, const optimizer::Problem& probl
   for (const optimizer::ResponseConstraint& constraint : problem.constraints) {
     if (constraint.response != limited) continue;
     const std::optional<double> limit = side == "upper" ? constraint.upper : constraint.lower;
-    if (limit) text += " (" + with_error(*limit, 0, response_unit(limited, *limit)) + ")";
+    if (limit) text += " (" + plain(*limit, response_unit(limited, *limit)) + ")";
     break;
   }
   return text;
@@ -142,7 +142,7 @@ std::string headline(const RunRecord& record) {
 }
 
 std::vector<std::string> holding(const RunRecord& record) {
-  constexpr double kNear = 0.02;
+  constexpr double kNear = 0.005;
   std::vector<std::string> found;
   const EvaluationRecord* best = best_of(record);
   if (!best) return found;

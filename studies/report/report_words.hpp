@@ -25,7 +25,7 @@ namespace dovetail::report {
 [[nodiscard]] std::string headline(const RunRecord& record);
 
 /// What holds the best design: active limits, geometric rules and bounds by name. A limit or rule counts as active
-/// within 2 % of its scale, a bound within 0.5 % of the variable's range.
+/// within 0.5 % of its scale, a bound within 0.5 % of the variable's range.
 [[nodiscard]] std::vector<std::string> holding(const RunRecord& record);
 
 /// How the run ended, and how many candidates it saw.

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <cctype>
 #include <cmath>
 #include <limits>
 
@@ -92,31 +92,44 @@ Plot objective_plot(const RunRecord& record) {
   return plot;
 }
 
-Plot constraint_plot(const RunRecord& record) {
-  Plot plot{.title = "Limits over the search",
-            .description = "Each limit in units of its scale: above 0 it is broken. Values beyond 1 are drawn at 1.",
-            .x = {.label = "candidate"},
-            .y = {.label = "limit overstepped by"},
-            .levels = {{.name = "limit", .y = 0}}};
-  const std::vector<std::string> names = constraint_names(record.problem);
-  constexpr std::array kShapes{Shape::circle, Shape::triangle, Shape::cross, Shape::star};
-  constexpr std::array kRoles{Role::after, Role::before, Role::bad};
-  for (std::size_t c = 0; c < names.size(); ++c) {
-    const std::size_t colon = names[c].rfind(':');
-    PlotPoints points{.name = words(names[c].substr(0, colon)) +
-                              (colon == std::string::npos ? "" : ", " + names[c].substr(colon + 1)),
-                      .role = kRoles[c % kRoles.size()],
-                      .shape = kShapes[(c / kRoles.size() + c) % kShapes.size()]};
+std::vector<Plot> limit_plots(const RunRecord& record) {
+  std::vector<Plot> plots;
+  std::vector<std::string> done;
+  for (const optimizer::ResponseConstraint& limited : record.problem.constraints) {
+    if (std::find(done.begin(), done.end(), limited.response) != done.end()) continue;
+    done.push_back(limited.response);
+    double largest = 0;
+    for (const EvaluationRecord& e : record.evaluations)
+      if (const double value = response(e, limited.response); std::isfinite(value))
+        largest = std::max(largest, std::abs(value));
+    const Unit unit = response_unit(limited.response, largest);
+    Plot plot{.title = words(limited.response) + " over the search",
+              .x = {.label = "candidate"},
+              .y = {.label = words(limited.response), .unit = unit.symbol}};
+    plot.title.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(plot.title.front())));
+    for (const optimizer::ResponseConstraint& c : record.problem.constraints) {
+      if (c.response != limited.response) continue;
+      const std::string of = c.absolute ? " (magnitude)" : "";
+      if (c.upper) plot.levels.push_back({.name = "at most " + plain(*c.upper, unit) + of, .y = *c.upper / unit.si});
+      if (c.lower) plot.levels.push_back({.name = "at least " + plain(*c.lower, unit) + of, .y = *c.lower / unit.si});
+      if (c.absolute && c.upper) plot.levels.push_back({.name = {}, .y = -*c.upper / unit.si});
+    }
+    PlotPoints kept{.name = "feasible"};
+    PlotPoints broken{.name = "breaks a limit", .role = Role::bad, .shape = Shape::cross};
+    PlotPoints best{.name = "best", .shape = Shape::star};
     for (std::size_t i = 0; i < record.evaluations.size(); ++i) {
       const EvaluationRecord& e = record.evaluations[i];
-      if (c >= e.constraints.size() || !std::isfinite(e.constraints[c])) continue;
-      points.x.push_back(static_cast<double>(i + 1));
-      points.y.push_back(std::clamp(e.constraints[c], -1.0, 1.0));
-      points.titles.push_back(fmt::format("candidate {}: {}", i + 1, significant(e.constraints[c])));
+      const double shown = response(e, limited.response) / unit.si;
+      if (!std::isfinite(shown)) continue;
+      PlotPoints& group = record.best == i ? best : e.feasible ? kept : broken;
+      group.x.push_back(static_cast<double>(i + 1));
+      group.y.push_back(shown);
+      group.titles.push_back(title_of(i, e, shown, unit.symbol));
     }
-    plot.points.push_back(std::move(points));
+    for (PlotPoints* points : {&broken, &kept, &best}) plot.points.push_back(std::move(*points));
+    plots.push_back(std::move(plot));
   }
-  return plot;
+  return plots;
 }
 
 }  // namespace dovetail::report

@@ -104,12 +104,12 @@ std::string drawing(const Eigen::AlignedBox2d& box, const std::string& label, co
 /// A bar of 1, 2 or 5 10^k mm in the lower left corner.
 std::string scale_bar(const Eigen::AlignedBox2d& box) {
   const Eigen::Vector2d size = 1e3 * box.sizes();
-  const double length = round_factor(0.25 * size.x()), text_size = 0.026 * std::max(size.x(), size.y());
+  const double length = round_factor(0.25 * size.x()), text_size = 0.02 * std::max(size.x(), size.y());
   const double x = 1e3 * box.min().x() + 0.03 * size.x(), y = -1e3 * box.min().y() - 0.03 * size.y();
   return fmt::format(
       "<path class=\"bar\" d=\"M{0:.3f} {1:.3f}v{2:.3f}h{3:.3f}v-{2:.3f}\"/><text x=\"{4:.3f}\" y=\"{5:.3f}\" "
       "font-size=\"{6:.3f}\">{7} mm</text>\n",
-      x, y - 0.3 * text_size, 0.3 * text_size, length, x + length / 2, y - 0.7 * text_size, text_size,
+      x, y - 0.3 * text_size, 0.3 * text_size, length, x + length + 0.5 * text_size, y, text_size,
       significant(length, 1));
 }
 
@@ -146,7 +146,7 @@ std::string joint_figure(const DesignRecord& design, const DesignRecord* before)
   if (formed)
     caption +=
         fmt::format(" The band on the flanks is the material taken off them, drawn {} times as deep (at most {}).",
-                    significant(factor, 1), with_error(gap, 0, readable_unit("m", gap)));
+                    significant(factor, 1), plain(1e6 * gap, 2) + "\u00a0\u00b5m");
   else
     caption += " Both flanks are flat and parallel.";
   return "<figure>" + title + legend(before != nullptr, formed) +
@@ -161,7 +161,8 @@ std::string sector_figure(const DesignRecord& design, const DesignRecord* before
   Eigen::AlignedBox2d box = geometry::bounding_box(design.profile.blade);
   box.extend(geometry::bounding_box(design.profile.disk));
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(0.02 * box.sizes().maxCoeff());
-  box = Eigen::AlignedBox2d(box.min() - margin, box.max() + margin);
+  // Below the bore is room for the scale.
+  box = Eigen::AlignedBox2d(box.min() - margin - Eigen::Vector2d(0, 2.5 * margin.y()), box.max() + margin);
   return "<figure class=\"sector\"><h3>Sector</h3>\n" +
          drawing(box, "Section of one sector, bore to aerofoil tip", bodies(design, before, "") + scale_bar(box)) +
          "<figcaption>One sector, from the bore to the aerofoil's tip.</figcaption></figure>\n";

@@ -34,6 +34,13 @@ std::string label(double value, int decimals) {
   return text;
 }
 
+/// Large values as powers, not as rows of zeros; significant() writes them so from a million on.
+std::string power_label(double factor, int exponent) {
+  if (exponent >= 6) return significant(factor * std::pow(10.0, exponent), 1);
+  const std::string million = significant(factor * 1e6, 1);  // its last character, of three bytes, is the exponent
+  return million.substr(0, million.size() - 3) + (exponent == 4 ? "\u2074" : "\u2075");
+}
+
 }  // namespace
 
 Ticks linear_ticks(double lower, double upper, int count, bool tight) {
@@ -76,7 +83,7 @@ Ticks logarithmic_ticks(double lower, double upper) {
       const double value = factor * std::pow(10.0, e);
       if ((factor > 1 && !few) || value > ticks.upper * (1 + 1e-9)) continue;
       ticks.at.push_back(value);
-      ticks.labels.push_back(significant(value, 1));
+      ticks.labels.push_back(e < 4 ? significant(value, 1) : power_label(factor, static_cast<int>(e)));
     }
   }
   return ticks;

@@ -137,11 +137,27 @@ std::string significant(double value, int digits) {
   if (std::isinf(value)) return value > 0 ? "\u221e" : "\u2212\u221e";
   if (value == 0) return "0";
   const int exponent = exponent_of(value, digits);
-  if (exponent >= -4 && exponent < 6)
-    return true_minus(fmt::format("{:.{}f}", value, std::max(0, digits - 1 - exponent)));
+  if (exponent >= -4 && exponent < 6) {
+    // Digits before the point are rounded as well: 160354 to two digits is 160000.
+    const double whole = std::pow(10.0, std::max(0, exponent - digits + 1));
+    return true_minus(fmt::format("{:.{}f}", whole > 1 ? std::round(value / whole) * whole : value,
+                                  std::max(0, digits - 1 - exponent)));
+  }
   const std::string mantissa = fmt::format("{:.{}f}", value / std::pow(10.0, exponent), digits - 1);
   if (mantissa == "1" || mantissa == "-1") return true_minus(value < 0 ? "-10" : "10") + superscript(exponent);
   return true_minus(mantissa) + "\u00d710" + superscript(exponent);
+}
+
+std::string plain(double value, int digits) {
+  std::string text = significant(value, digits);
+  if (text.find('.') == std::string::npos || text.find("\u00d7") != std::string::npos) return text;
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) text.pop_back();
+  return text;
+}
+
+std::string plain(double value, const Unit& unit) {
+  return plain(value / unit.si) + (unit.symbol.empty() ? "" : "\u00a0" + unit.symbol);
 }
 
 std::string with_error(double value, double error, const Unit& unit) {

@@ -30,6 +30,12 @@ struct Unit {
 /// `digits` significant digits, no exponent between 1e-4 and 1e6, true minus sign; "–" for NaN.
 [[nodiscard]] std::string significant(double value, int digits = 4);
 
+/// A number someone gave (a bound, a limit): up to `digits` significant digits without trailing zeros.
+[[nodiscard]] std::string plain(double value, int digits = 6);
+
+/// That in a unit: "9 mm".
+[[nodiscard]] std::string plain(double value, const Unit& unit);
+
 /// Value with its error bar in a unit, rounded to the bar's first two digits: "0.7812 ± 0.0013".
 [[nodiscard]] std::string with_error(double value, double error, const Unit& unit);
 
