@@ -9,9 +9,28 @@
 namespace dovetail::contact {
 namespace {
 
+// Slip that dies out slowly approaches its periodic state geometrically: from here on it is extrapolated.
+constexpr int kPatience = 48, kInterval = 8;
+
+// Aitken's limit of a geometric sequence of slip states from its last two changes; false when it is not one.
+template <int Directions>
+bool extrapolate(const double* change, const double* change_before, Memory& memory) {
+  double dot = 0, square = 0, rest = 0, now = 0;
+  for (int r = 0; r < Directions; ++r) {
+    dot += change[r] * change_before[r];
+    square += change_before[r] * change_before[r];
+    now += change[r] * change[r];
+  }
+  const double ratio = dot / square;
+  for (int r = 0; r < Directions; ++r) rest += std::pow(change[r] - ratio * change_before[r], 2);
+  if (!(ratio > 0 && ratio < 0.9999 && rest <= 0.01 * now)) return false;
+  for (int r = 0; r < Directions; ++r) memory.slip_force[r] += change[r] * ratio / (1 - ratio);
+  return true;
+}
+
 template <int Directions>
 void march_node(const double* prediction, const NodeLaw& law, int samples, const MarchOptions& options,
-                DerivativeStart& start, MarchResult& result) {
+                bool may_extrapolate, DerivativeStart& start, MarchResult& result) {
   Memory memory;
   double limit = 0;
   for (int r = 0; r < Directions; ++r) memory.slip_force[r] = law.tangential_penalty * law.slip_origin(r);
@@ -21,6 +40,8 @@ void march_node(const double* prediction, const NodeLaw& law, int samples, const
       for (int r = 0; r < Directions; ++r) limit = std::max(limit, std::abs(prediction[(1 + Directions) * n + 1 + r]));
   const int periods = options.periodic ? options.max_periods : 1;
   bool moved = false;
+  double change_before[2] = {0, 0};
+  result.extrapolated = false;
   Memory before, reset_memory;
   long reset = -1;
   result.status = options.periodic ? Status::not_periodic : Status::converged;
@@ -40,13 +61,26 @@ void march_node(const double* prediction, const NodeLaw& law, int samples, const
         reset_memory = memory;
       }
     }
-    double change = 0;
-    for (int r = 0; r < Directions; ++r)
-      change = std::max(change, std::abs(memory.slip_force[r] - before.slip_force[r]));
-    if (options.periodic && change <= options.tolerance * limit) {
+    double change[2] = {0, 0}, largest = 0;
+    for (int r = 0; r < Directions; ++r) {
+      change[r] = memory.slip_force[r] - before.slip_force[r];
+      largest = std::max(largest, std::abs(change[r]));
+    }
+    const bool repeats = options.periodic && largest <= options.tolerance * limit;
+    // Extrapolated into a state that sticks for good, the orbit is one of many: only marching knows which.
+    if (repeats && result.extrapolated && std::none_of(result.state.begin(), result.state.end(), [](SampleState state) {
+          return state == SampleState::slipping;
+        }))
+      return march_node<Directions>(prediction, law, samples, options, false, start, result);
+    if (repeats) {
       result.status = Status::converged;
+      start.orbit = before;
       break;
     }
+    if (Directions == 2 && may_extrapolate && result.periods >= kPatience && result.periods % kInterval == 0 &&
+        result.periods < periods)
+      result.extrapolated = extrapolate<Directions>(change, change_before, memory) || result.extrapolated;
+    std::copy(change, change + 2, change_before);
   }
   result.periods = std::min(result.periods, periods);
   result.always_stuck = !moved;
@@ -85,7 +119,7 @@ void run(const Eigen::Ref<const Eigen::MatrixXd>& prediction, const NodeLaw& law
   // Sample by sample in memory: the march visits all directions of a sample together.
   const Eigen::Matrix<double, Eigen::Dynamic, 1 + Directions, Eigen::RowMajor> rows = prediction;
   DerivativeStart start;
-  march_node<Directions>(rows.data(), law, basis.samples(), options, start, result);
+  march_node<Directions>(rows.data(), law, basis.samples(), options, true, start, result);
   if (with_derivative) differentiate<Directions>(rows.data(), law, basis, options.slip_return, start, result);
 }
 

@@ -39,6 +39,7 @@ struct MarchResult {
   Eigen::MatrixXd force;              ///< lambda [N, d], N
   Eigen::MatrixXd slip_force;         ///< lambda_x = eps X [N, d], N
   std::vector<SampleState> state;     ///< [N] of the last period
+  bool extrapolated = false;          ///< slip that dies out slowly was extrapolated to its periodic state
   bool always_stuck = false;          ///< neither slipped nor separated in any marched period
   bool always_closed = false;         ///< lambda_N = lambda_u,N > 0 at all samples
   bool always_separated = false;      ///< no force at any sample
@@ -58,8 +59,9 @@ struct MarchResult {
 ///   stick |pre_T| <= mu pre_N: lambda = pre, lambda_x,T unchanged
 ///   slip: lambda_N = pre_N, lambda_T = kappa pre_T, kappa = mu pre_N / |pre_T|, lambda_x,T += (1 - kappa) pre_T.
 /// The derivative is that of the march itself, through all marched periods, exact away from its kinks
-/// [Salles 2009, eq. 23-32]. `prediction` is lambda_u [N, d], d = 2 or 3, N = basis.samples().
-/// Cost: O(N d) per period; with derivatives O(N d m) plus O(m) per slipping sample.
+/// [Salles 2009, eq. 23-32]. In space a slip state that still changes after 48 periods is extrapolated every 8 as a
+/// geometric sequence, and the derivative is then that of the periodic orbit reached. `prediction` is lambda_u [N, d],
+/// d = 2 or 3, N = basis.samples(). Cost: O(N d) per period; with derivatives O(N d m) plus O(m) per slipping sample.
 void march(const Eigen::Ref<const Eigen::MatrixXd>& prediction, const NodeLaw& law, const numerics::FourierBasis& basis,
            const MarchOptions& options, bool with_derivative, MarchResult& result);
 

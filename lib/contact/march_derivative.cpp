@@ -1,3 +1,4 @@
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -29,7 +30,7 @@ void slip_tangent(const Step& step, const Memory& before, const Memory& after, d
     double* s0 = tangent.slip_force.col(0).data();
     double* s1 = tangent.slip_force.col(1).data();
     double* angle = tangent.angle.data();
-    const Eigen::Index m = 3 * k;
+    const Eigen::Index m = tangent.slip_force.rows();
     // d(angle) = weight_0 d pre_0 + weight_1 d pre_1 + weight_N d lambda_N + keep d(angle before)
     double w0 = 0, w1 = 0, wn = 0, keep = 0;
     if (step.rotated) {
@@ -75,6 +76,40 @@ void separation_tangent(const double* row, Eigen::Index k, Tangent<Directions>& 
     for (Eigen::Index j = 0; j < k; ++j) tangent.slip_force((1 + r) * k + j, r) = row[j];
 }
 
+// Derivative of the state at the start of a periodic orbit: the march over one period maps it to M s + B with
+// s = (lambda_x,T, angle), so s = (I - M)^-1 B. M comes from three more columns beside the coefficients. False when the
+// orbit does not determine its state (a node that only sticks).
+bool orbit_tangent(const double* prediction, const NodeLaw& law, const Eigen::MatrixXd& rows, SlipReturn rule,
+                   const Memory& orbit, Tangent<2>& tangent) {
+  const Eigen::Index k = rows.rows(), m = 3 * k;
+  Tangent<2> wide{.slip_force = Eigen::MatrixXd::Zero(m + 3, 2), .previous = {}, .angle = Eigen::VectorXd::Zero(m + 3)};
+  wide.slip_force(m, 0) = wide.slip_force(m + 1, 1) = wide.angle(m + 2) = 1;
+  Memory memory = orbit;
+  for (Eigen::Index n = 0; n < rows.cols(); ++n) {
+    const Memory before = memory;
+    const Step step = sample_step<2>(prediction + 3 * n, law.friction, rule, memory);
+    const double* row = rows.col(n).data();
+    if (step.state == SampleState::separated)
+      separation_tangent<2>(row, k, wide);
+    else if (step.state == SampleState::slipping)
+      slip_tangent<2>(step, before, memory, law.friction, row, k, wide);
+  }
+  // The angle only matters when the first sample goes on rotating from the last.
+  if (!memory.slipped) wide.angle.setZero();
+  Eigen::Matrix3d map;
+  map << wide.slip_force.col(0).tail(3).transpose(), wide.slip_force.col(1).tail(3).transpose(),
+      wide.angle.tail(3).transpose();
+  const Eigen::FullPivLU<Eigen::Matrix3d> lu(Eigen::Matrix3d::Identity() - map);
+  if (!(lu.rcond() > 1e-9)) return false;
+  Eigen::MatrixXd drive(3, m);
+  drive << wide.slip_force.col(0).head(m).transpose(), wide.slip_force.col(1).head(m).transpose(),
+      wide.angle.head(m).transpose();
+  const Eigen::MatrixXd state = lu.solve(drive);
+  tangent.slip_force = state.topRows(2).transpose();
+  tangent.angle = state.row(2).transpose();
+  return true;
+}
+
 // D from direction-by-direction to coefficient-by-coefficient order of rows and columns.
 void reorder(const Eigen::MatrixXd& by_direction, Eigen::Index k, Eigen::Index d, Eigen::MatrixXd& result) {
   result.resize(d * k, d * k);
@@ -104,7 +139,17 @@ void differentiate(const double* prediction, const NodeLaw& law, const numerics:
                               .previous = Eigen::MatrixXd::Zero(m, Directions),
                               .angle = Eigen::VectorXd::Zero(m)};
   Memory memory = start.memory;
-  if (start.sample < 0) {
+  const long last = static_cast<long>(result.periods) * samples;
+  const long last_period = last - samples;
+  long first = start.sample + 1;
+  bool on_orbit = false;
+  if constexpr (Directions == 2)
+    on_orbit = result.extrapolated && result.status == Status::converged &&
+               orbit_tangent(prediction, law, rows, rule, start.orbit, tangent);
+  if (on_orbit) {
+    memory = start.orbit;
+    first = last_period;
+  } else if (start.sample < 0) {
     memory = {};
     for (int r = 0; r < Directions; ++r) memory.slip_force[r] = law.tangential_penalty * law.slip_origin(r);
   } else {
@@ -136,9 +181,7 @@ void differentiate(const double* prediction, const NodeLaw& law, const numerics:
   };
   Eigen::MatrixXd derivative = Eigen::MatrixXd::Identity(m, m);
   Eigen::VectorXd load_slope = Eigen::VectorXd::Zero(m);
-  const long last = static_cast<long>(result.periods) * samples;
-  const long last_period = last - samples;
-  for (long i = start.sample + 1; i < last; ++i) {
+  for (long i = first; i < last; ++i) {
     const auto n = static_cast<int>(i % samples);
     const bool counts = i >= last_period;
     const double* row = rows.col(n).data();

@@ -78,7 +78,8 @@ inline Step sample_step(const double* prediction, double friction, SlipReturn ru
 /// at the very beginning.
 struct DerivativeStart {
   long sample = -1;  ///< absolute index of that sample; -1: the beginning
-  Memory memory;     ///< after it
+  Memory memory = {};  ///< after it
+  Memory orbit = {};  ///< at the start of the last period
 };
 
 /// Differentiates the march from `start` to the end of period `result.periods`.

@@ -130,6 +130,40 @@ TEST(March, SaysWhenItDoesNotRepeat) {
   EXPECT_EQ(run(coefficients, {.friction = 0.5}, basis, {.periodic = false}).periods, 1);
 }
 
+TEST(March, ExtrapolatesSlipThatDiesOutSlowly) {
+  // Loops of traction that barely exceed the limit slip in a few samples per period and settle in hundreds of periods.
+  const FourierBasis basis(2, 64);
+  const NodeLaw law{.friction = 0.5};
+  std::mt19937 generator(4);
+  std::normal_distribution<double> normal;
+  int compared = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    const SlipReturn rule = trial % 2 == 0 ? SlipReturn::first_order : SlipReturn::second_order;
+    const MarchOptions options{.slip_return = rule, .max_periods = 20000, .tolerance = 1e-14};
+    Eigen::MatrixXd at = Eigen::MatrixXd::NullaryExpr(3, 5, [&] { return 0.4 * normal(generator); });
+    at(0, 0) = 2.5;
+    const MarchResult base = run(at, law, basis, options, true);
+    if (!base.extrapolated || base.status != Status::converged) continue;
+    // Marched again from where it ended, it stays.
+    NodeLaw again = law;
+    again.slip_origin = base.slip_end;
+    const MarchResult repeated = run(at, again, basis, options);
+    EXPECT_LT((repeated.force - base.force).cwiseAbs().maxCoeff(), 1e-9);
+    const Eigen::MatrixXd direction = Eigen::MatrixXd::NullaryExpr(3, 5, [&] { return normal(generator); });
+    const double h = 1e-6;
+    const MarchResult plus = run(at + h * direction, law, basis, options),
+                      minus = run(at - h * direction, law, basis, options);
+    if (plus.state != base.state || minus.state != base.state) continue;
+    ++compared;
+    const Eigen::VectorXd difference = basis.analyse((plus.force - minus.force) / (2 * h)).reshaped();
+    const Eigen::VectorXd exact = base.force_derivative * direction.reshaped();
+    // The orbit is known to tolerance / (1 - ratio), up to 1e-10 at ratios of 0.9999: its difference quotient to 1e-4.
+    EXPECT_LT((difference - exact).norm(), 1e-4 * (1 + exact.norm())) << trial;
+  }
+  RecordProperty("compared", compared);
+  EXPECT_GE(compared, 3);
+}
+
 TEST(PseudoPenalty, UsesOneTangentialValuePerNode) {
   const Eigen::VectorXd stiffness = (Eigen::VectorXd(6) << 3, 1, 2, 0, 4, 8).finished();
   const PseudoPenalty penalty = pseudo_penalty(stiffness, 3);
