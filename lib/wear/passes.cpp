@@ -45,7 +45,6 @@ Ending release_slipping(Release& release, double threshold, int limit, const Con
       }
     }
     if (!slipping) return Ending::settled;
-    if (std::all_of(next.begin(), next.end(), [](bool worn) { return worn; })) return Ending::nothing_holds;
     if (passes.count >= limit) {
       passes.status = Status::iteration_limit;
       return Ending::failed;

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
+#include <vector>
 
 #include "scenes.hpp"
 #include "wear/asymptote.hpp"
@@ -42,10 +44,30 @@ TEST_P(RandomBlock, HistoriesConvergeToTheAsymptote) {
     RecordProperty("jacobians_" + std::to_string(fraction), run.jacobians);
     // First order: a node overshoots by at most about one increment; what remains at the end is the wear still to come
     // where nodes touch only at times, which dies out slowly.
-    EXPECT_LT(error, fraction + 0.02) << fraction;
+    EXPECT_LT(error, fraction + 0.01) << fraction;
   }
 }
-INSTANTIATE_TEST_SUITE_P(Six, RandomBlock, testing::Range(0u, 6u));
+INSTANTIATE_TEST_SUITE_P(Six, RandomBlock, testing::Values(1u, 2u, 3u, 4u, 5u, 7u));
+
+// Zero-rate states are not unique: in members 0 and 6 of the family the pressures shift while it wears, nodes wear that
+// the limit would not have needed, and histories converge to a deeper state than the direct answer. Both are at rest.
+TEST(Block, HistoryCanEndDeeperThanTheAsymptote) {
+  const auto model = condensed(scenes::random_block(0));
+  const Asymptote worn = asymptote(model, 1.0, {}, kSteady, kOptions);
+  ASSERT_EQ(worn.verdict, Verdict::asymptote);
+  EXPECT_LT(worn.certificate, 1e-6);
+  std::vector<double> volumes;
+  for (double fraction : {0.08, 0.04, 0.02}) {
+    const History run = history(
+        model, 1.0, {}, kSteady,
+        {.increment = fraction * worn.largest_depth, .steps = 3000, .rate_fraction = 1e-4, .rate_threshold = 0.0});
+    ASSERT_EQ(run.end, HistoryEnd::worn_out);
+    volumes.push_back(run.worn_volume[run.worn_volume.size() - 1] / worn.worn_volume);
+  }
+  // Differences of successive halvings shrink, and their limit stays more than a tenth above the direct answer.
+  EXPECT_LT(std::abs(volumes[2] - volumes[1]), std::abs(volumes[1] - volumes[0]));
+  EXPECT_GT(2.0 * volumes[2] - volumes[1], 1.1);
+}
 
 /// A flat block, pressed enough to stick everywhere.
 scenes::Block stuck_block() {

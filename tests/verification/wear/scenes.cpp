@@ -54,6 +54,22 @@ reduction::ReducedModel den_hartog(double friction, double normal_load, double n
   return model;
 }
 
+reduction::ReducedModel rubbing_oscillator(double normal_load, double normal_stiffness, double tangential_stiffness,
+                                           double damping) {
+  reduction::ReducedModel model = empty_model(3, 1, 1);
+  model.stiffness(0, 0) = normal_stiffness;
+  model.stiffness.bottomRightCorner(2, 2) << tangential_stiffness, -tangential_stiffness, -tangential_stiffness,
+      1.0 + tangential_stiffness;
+  model.mass(2, 2) = 1.0;
+  model.damping(2, 2) = damping;
+  model.static_force[0] = normal_load;
+  model.cosine_force(0, 2) = 0.1;
+  model.output_vectors(0, 2) = 1.0;
+  model.contact.friction[0] = 0.5;
+  model.contact.wear_coefficient[0] = 1e-3;
+  return model;
+}
+
 reduction::ReducedModel punch(const Punch& data) {
   const Index nodes = data.nodes;
   const double step = 2.0 * data.half_length / static_cast<double>(nodes - 1);

@@ -9,6 +9,11 @@ namespace dovetail::wear::scenes {
 [[nodiscard]] reduction::ReducedModel den_hartog(double friction, double normal_load, double normal_stiffness,
                                                  double wear_coefficient);
 
+/// Oscillator m = k = 1, damping c, under cos(w t) / 10 with a massless rubbing node behind a spring k_t. As in
+/// den_hartog() wear unloads the node, here until it is free. Coordinates: normal, tangential, mass.
+[[nodiscard]] reduction::ReducedModel rubbing_oscillator(double normal_load, double normal_stiffness,
+                                                         double tangential_stiffness, double damping);
+
 /// A parabolic punch of relative curvature 1/R pressed by P on an elastic half-plane and rubbed by +-Q.
 struct Punch {
   int nodes = 81;                           ///< contact nodes, odd: one in the middle

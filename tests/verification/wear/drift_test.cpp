@@ -1,0 +1,62 @@
+#include "wear/drift.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scenes.hpp"
+#include "wear/asymptote.hpp"
+#include "wear/history.hpp"
+
+// A node that wears until it is free: the limit is the oscillator without it, W = N_0 / k_n.
+
+namespace dovetail::wear {
+namespace {
+
+constexpr double kLoad = 0.5;
+constexpr double kNormal = 2.0;
+constexpr double kTangential = 0.3;
+constexpr double kDamping = 0.1;
+const response::SteadyOptions kSteady{.harmonics = 5, .samples = 128};
+const response::ResonanceOptions kResonance{};
+
+std::shared_ptr<const response::CondensedModel> oscillator() {
+  return std::make_shared<const response::CondensedModel>(
+      scenes::rubbing_oscillator(kLoad, kNormal, kTangential, kDamping));
+}
+
+TEST(Drift, EndsAtTheFreeOscillator) {
+  const auto model = oscillator();
+  const response::Resonance unworn = response::resonance(model, 1.05, {}, kSteady, kResonance);
+  ASSERT_EQ(unworn.status, Status::converged);
+  const Asymptote worn = asymptote(model, unworn.omega, {}, kSteady, {.rate_threshold = 0.0}, &unworn.state);
+  ASSERT_EQ(worn.verdict, Verdict::asymptote) << to_string(worn.status);
+  EXPECT_NEAR(worn.largest_depth, kLoad / kNormal, 1e-9);  // residual 1e-9 of a force 0.1, over k_n = 2
+  EXPECT_FALSE(worn.confirmed_by_history);
+
+  const Drift drift = resonance_drift(model, unworn, {}, worn.depth, kSteady, kResonance);
+  ASSERT_EQ(drift.worn.status, Status::converged);
+  // Peak of the displacement of a damped oscillator, w^2 = 1 - c^2 / 2; found to 1e-7.
+  EXPECT_NEAR(drift.worn.omega, std::sqrt(1.0 - 0.5 * kDamping * kDamping), 1e-6);
+  EXPECT_NEAR(drift.drift, drift.worn.omega / unworn.omega - 1.0, 1e-15);
+  EXPECT_LT(drift.drift, -1e-3);
+}
+
+TEST(Drift, IsFollowedByTheHistory) {
+  const auto model = oscillator();
+  const response::Resonance unworn = response::resonance(model, 1.05, {}, kSteady, kResonance);
+  ASSERT_EQ(unworn.status, Status::converged);
+  const HistoryOptions options{
+      .increment = 0.01, .steps = 100, .rate_fraction = 1e-3, .rate_threshold = 0.0, .follow = "resonance"};
+  const History run = history(model, unworn.omega, {}, kSteady, options, kResonance);
+  EXPECT_EQ(run.status, Status::converged);
+  EXPECT_EQ(run.end, HistoryEnd::worn_out);
+  const Eigen::Index last = run.cycles.size() - 1;
+  EXPECT_NEAR(run.frequency[0], unworn.omega, 1e-5);
+  // Depth and frequency of the free oscillator, less or more than one increment (2 % of the drift each).
+  EXPECT_NEAR(run.depth(last, 0), kLoad / kNormal, options.increment);
+  EXPECT_NEAR(run.frequency[last], std::sqrt(1.0 - 0.5 * kDamping * kDamping), 0.1 * std::abs(run.frequency[0] - 1.0));
+}
+
+}  // namespace
+}  // namespace dovetail::wear
