@@ -40,7 +40,7 @@ struct AsymptoteOptions {
   double confirm_increment = 0.1;
   // >= 1. Steps of that history.
   int confirm_steps = 200;
-  // Place the edge of the worn zone between nodes (smooth in the design) besides the nodal answer.
+  // Place the edge of the worn zone between nodes (smooth in the design) besides the nodal answer; plane models only.
   bool interpolate_edge = true;
   // Solve once more with the worn gap and contact everywhere, and report the remaining rate.
   bool certify = true;
@@ -78,7 +78,8 @@ struct Asymptote {
 
 /// Limiting worn geometry without the history: solve with the released nodes free of contact, release every loaded
 /// node that slips, repeat until none does; then the released nodes have worn until they just do not touch,
-/// W = max(0, max_t u_N - g). With the worn gap every node has zero rate: it sticks or carries nothing.
+/// W = max(0, max_t u_N - g). With the worn gap every node has zero rate: it sticks or carries nothing. Zero-rate
+/// states are not unique: where pressures shift while the joint wears, or nodes lift off, a history can end deeper.
 ///
 /// @param omega      excitation frequency rad/s, held; the unworn resonance is a good choice
 /// @param start      wear depth already there (the result includes it) and slip origin; its `released` must be empty

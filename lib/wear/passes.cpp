@@ -66,6 +66,7 @@ PlacedEdges place_edges(Release& release, double threshold, int limit, const Pas
   const reduction::ContactNodes& contact = release.model().contact();
   const VectorXd found = release.depth(passes.released, passes.state);
   PlacedEdges placed;
+  if (contact.directions() != 2) return placed;  // on a surface the edge is a line through many nodes
   placed.edges = find_edges(contact, passes.released, loaded_nodes(passes.state, passes.released), passes.margin);
   // A node released early may not slip once the rest is worn: then the slip that released it counts, scaled well below
   // the excess of a held node (which it overestimates, the node's own stiffness being an upper bound).

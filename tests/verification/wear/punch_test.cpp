@@ -92,12 +92,13 @@ TEST(Punch, WearsToTheClosedProfile) {
     RecordProperty(name + "_interpolated", std::to_string(interpolated));
     RecordProperty(name + "_shape", std::to_string(shape));
     RecordProperty(name + "_jacobians", worn.jacobians);
-    // One node more or less on each side changes the volume by 1.7 per unit of c/a, that is 4.6 spacings; nodal answers
-    // are that far off, the interpolated ones by the square of the spacing and 3 % of truncated harmonics in the
-    // passes. Profiles are compared in the mean: the slope of the limit at c is vertical.
+    // With r^2 = b^2 - c^2, dV/dc = -r (1 - c^2) / c, here -8.9 V: a nodal answer, whose edge lies up to half a
+    // spacing off, errs by up to 4.5 spacings; the interpolated one by the square of the spacing and by 3 % that the
+    // truncated harmonics of the slipping passes leave in the margins. Profiles are compared in the mean, because the
+    // slope of the limit at c is vertical.
     const double spacing = 2.0 * data.half_length / (nodes - 1);
     EXPECT_LT(std::abs(interpolated), 10.0 * spacing * spacing + 0.03) << nodes;
-    EXPECT_LT(std::abs(nodal), 4.6 * spacing) << nodes;
+    EXPECT_LT(std::abs(nodal), 4.5 * spacing) << nodes;
     EXPECT_LT(shape, 2.0 * spacing + 0.03) << nodes;
     EXPECT_LE(worn.volume_bracket[0], limit.volume());
     EXPECT_GE(worn.volume_bracket[1], limit.volume());
