@@ -52,7 +52,7 @@ std::string table_of(const Plot& plot, const std::vector<double>& x, const std::
   for (const std::string& name : names) text += heading(plot.y, name);
   text += "</tr></thead><tbody>\n";
   for (std::size_t i = 0; i < x.size(); ++i) {
-    text += "<tr><td>" + significant(x[i], 7) + "</td>";
+    text += "<tr><td>" + plain(x[i], 7) + "</td>";
     for (const std::vector<double>* values : y)
       text += "<td>" + (i < values->size() ? significant((*values)[i], 5) : "") + "</td>";
     text += "</tr>\n";

@@ -48,7 +48,14 @@ svg.drawing{display:block;width:100%;height:auto;max-height:32rem}
 .ghost{fill:none;stroke:var(--before);stroke-width:1}.form{fill:var(--after);fill-opacity:.55;stroke:none}
 .bar{fill:none;stroke:var(--soft);stroke-width:1.2}svg.drawing text{fill:var(--soft);font-family:system-ui,sans-serif}
 ul.legend .blade,ul.legend .disk{stroke-width:1}
-@media(max-width:640px){main{padding:1.3rem .9rem 3rem}.lead{font-size:1.2rem}.shape{grid-template-columns:1fr}
+@media(max-width:640px){svg.plot text{font-size:15px}
+table.pair,table.pair tbody{display:block}table.pair thead{display:none}
+table.pair tr{display:grid;grid-template-columns:1fr 1fr;gap:0 .6rem;padding:.35rem 0;border-bottom:1px solid var(--hair)}
+table.pair th,table.pair td{border:0;padding:0;text-align:left;white-space:normal}
+table.pair td:nth-child(2){grid-area:2/1}table.pair td:nth-child(3){grid-area:2/2}table.pair td:nth-child(4){grid-area:1/2;text-align:right}
+table.pair td:nth-child(2)::before{content:"before ";color:var(--soft);font-weight:400}
+table.pair td:nth-child(3)::before{content:"after ";color:var(--soft);font-weight:400}
+main{padding:1.3rem .9rem 3rem}.lead{font-size:1.2rem}.shape{grid-template-columns:1fr}
 .sector svg.drawing{max-height:20rem}figure{padding:.8rem .7rem .6rem}dl{grid-template-columns:1fr}dd{margin-bottom:.4rem}}
 @media print{figure,table{break-inside:avoid}details.numbers{display:none}}
 )";

@@ -79,7 +79,7 @@ std::string key_figures(const RunRecord& record) {
   const bool both = base && best && base != best;
   const std::vector<std::string> names = names_of(base, best);
   if (names.empty()) return "<p>Neither the start nor any other design could be evaluated in full.</p>\n";
-  std::string text = "<div class=\"scroll\"><table class=\"figures\">";
+  std::string text = std::string("<div class=\"scroll\"><table class=\"figures") + (both ? " pair" : "") + "\">";
   text += both ? header({"", "before (start)", "after (best)", "change"})
                : header({"", best ? "best (the start)" : "start"});
   text += "<tbody>\n";
@@ -140,10 +140,12 @@ std::string problem_list(const RunRecord& record) {
 
 std::string evaluation_table(const RunRecord& record) {
   const std::vector<optimizer::DesignVariable>& variables = record.problem.space.variables();
-  std::vector<std::string> columns{"#", "found by", "status", "objective"};
+  const ObjectiveScale objective = objective_scale(record);
+  std::vector<std::string> columns{"#", "found by", "status",
+                                   objective.label + (objective.unit.empty() ? "" : " (" + objective.unit + ")")};
   for (const std::string& name : constraint_names(record.problem)) {
     const std::size_t colon = name.rfind(':');
-    columns.push_back(words(name.substr(0, colon)) + (colon == std::string::npos ? "" : " " + name.substr(colon)));
+    columns.push_back(words(name.substr(0, colon)) + (colon == std::string::npos ? "" : ", " + name.substr(colon + 1)));
   }
   for (const optimizer::DesignVariable& v : variables)
     columns.push_back(key_words(v.key) + (key_unit(v.key).empty() ? "" : " (" + key_unit(v.key) + ")"));
@@ -160,7 +162,7 @@ std::string evaluation_table(const RunRecord& record) {
         record.best == i ? "aim"
         : e.feasible     ? ""
                          : "soft",
-        i + 1, escape(e.phase), escape(remark), escape(status), significant(e.objective, 5));
+        i + 1, escape(e.phase), escape(remark), escape(status), significant(objective.factor * e.objective, 4));
     for (const double c : e.constraints) text += "<td>" + significant(c, 3) + "</td>";
     for (const double x : e.x) text += "<td>" + plain(x, 5) + "</td>";
     text += "</tr>\n";
@@ -178,7 +180,9 @@ std::string provenance_section(const RunRecord& record) {
   };
   row("Program", p.program_version.empty() ? "" : "dovetail " + p.program_version);
   row("Date", p.date_utc);
-  row("Time taken", record.seconds > 0 ? significant(record.seconds / 60, 3) + " min" : "");
+  row("Time taken", !(record.seconds > 0)  ? ""
+                    : record.seconds < 120 ? significant(record.seconds, 3) + " s"
+                                           : significant(record.seconds / 60, 3) + " min");
   row("Compiler", p.compiler);
   row("Libraries", libraries);
   row("Study", p.study_file);

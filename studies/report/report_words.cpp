@@ -118,6 +118,17 @@ std::string objective_words(const optimizer::Problem& problem) {
   return parts.size() == 1 ? parts.front() : "weighted sum of " + listed(parts);
 }
 
+ObjectiveScale objective_scale(const RunRecord& record) {
+  if (record.problem.objective.size() != 1) return {};
+  const optimizer::ObjectiveTerm& term = record.problem.objective.front();
+  const double si = (term.scale > 0 ? term.scale : 1) / (term.weight != 0 ? term.weight : 1);
+  double largest = 0;
+  for (const EvaluationRecord& e : record.evaluations)
+    if (std::isfinite(e.objective)) largest = std::max(largest, std::abs(e.objective * si));
+  const Unit unit = response_unit(term.response, largest);
+  return {.factor = si / unit.si, .unit = unit.symbol, .label = words(term.response)};
+}
+
 std::string headline(const RunRecord& record) {
   const EvaluationRecord* base = baseline_of(record);
   const EvaluationRecord* best = best_of(record);

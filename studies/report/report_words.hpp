@@ -20,6 +20,14 @@ namespace dovetail::report {
 /// The objective in words: "asymptotic wear volume" or "weighted sum of ...".
 [[nodiscard]] std::string objective_words(const optimizer::Problem& problem);
 
+/// The objective in the unit of its response, or as it is when it has several terms.
+struct ObjectiveScale {
+  double factor = 1;  ///< shown = factor * objective
+  std::string unit;
+  std::string label = "objective";
+};
+[[nodiscard]] ObjectiveScale objective_scale(const RunRecord& record);
+
 /// What was optimised, from what to what, and whether that is beyond the error bars. Plain text sentences; says so when
 /// no feasible design was found.
 [[nodiscard]] std::string headline(const RunRecord& record);

@@ -13,24 +13,6 @@ namespace dovetail::report {
 
 namespace {
 
-/// The objective in the unit of its response, or as it is when it has several terms.
-struct ObjectiveScale {
-  double factor = 1;  ///< shown = factor * objective
-  std::string unit;
-  std::string label = "objective";
-};
-
-ObjectiveScale objective_scale(const RunRecord& record) {
-  if (record.problem.objective.size() != 1) return {};
-  const optimizer::ObjectiveTerm& term = record.problem.objective.front();
-  const double si = (term.scale > 0 ? term.scale : 1) / (term.weight != 0 ? term.weight : 1);
-  double largest = 0;
-  for (const EvaluationRecord& e : record.evaluations)
-    if (std::isfinite(e.objective)) largest = std::max(largest, std::abs(e.objective * si));
-  const Unit unit = response_unit(term.response, largest);
-  return {.factor = si / unit.si, .unit = unit.symbol, .label = words(term.response)};
-}
-
 std::string title_of(std::size_t index, const EvaluationRecord& e, double shown, const std::string& unit) {
   return fmt::format("candidate {} ({}): {}{}{}", index + 1, e.phase, significant(shown),
                      unit.empty() ? "" : " " + unit, e.feasible ? "" : ", not feasible");

@@ -104,7 +104,7 @@ std::string drawing(const Eigen::AlignedBox2d& box, const std::string& label, co
 /// A bar of 1, 2 or 5 10^k mm in the lower left corner.
 std::string scale_bar(const Eigen::AlignedBox2d& box) {
   const Eigen::Vector2d size = 1e3 * box.sizes();
-  const double length = round_factor(0.25 * size.x()), text_size = 0.02 * std::max(size.x(), size.y());
+  const double length = round_factor(0.25 * size.x()), text_size = 0.024 * std::max(size.x(), size.y());
   const double x = 1e3 * box.min().x() + 0.03 * size.x(), y = -1e3 * box.min().y() - 0.03 * size.y();
   return fmt::format(
       "<path class=\"bar\" d=\"M{0:.3f} {1:.3f}v{2:.3f}h{3:.3f}v-{2:.3f}\"/><text x=\"{4:.3f}\" y=\"{5:.3f}\" "

@@ -1,0 +1,151 @@
+#include "studies/report/report_html.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <regex>
+
+#include "studies/report/html.hpp"
+#include "studies/report/report_plots.hpp"
+#include "studies/report/report_words.hpp"
+#include "tests/unit/studies/report_markup.hpp"
+#include "tests/unit/studies/report_sample.hpp"
+
+namespace dovetail::report {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// A number that is none, not the middle of a word.
+bool has_nan(const std::string& page) {
+  return std::regex_search(page, std::regex("(^|[^a-zA-Z])-?nan([^a-zA-Z]|$)"));
+}
+
+TEST(Escape, LeavesNothingThatMarkupUnderstands) {
+  EXPECT_EQ(escape("a<b>&\"c'"), "a&lt;b&gt;&amp;&quot;c&#39;");
+}
+
+TEST(Escape, KeepsTextAndReplacesWhatIsNone) {
+  EXPECT_EQ(escape("\u00b5m \u2212 \U0001F600\n\t"), "\u00b5m \u2212 \U0001F600\n\t");
+  EXPECT_EQ(escape(std::string("a\0b", 3)), "a\uFFFDb");
+  EXPECT_EQ(escape("\xC3"), "\uFFFD");                      // cut short
+  EXPECT_EQ(escape("\xC0\xAF"), "\uFFFD\uFFFD");            // overlong '/'
+  EXPECT_EQ(escape("\xED\xA0\x80"), "\uFFFD\uFFFD\uFFFD");  // surrogate
+}
+
+TEST(MarkupCheck, SeesWhatIsBroken) {
+  EXPECT_EQ(markup_error("<!doctype html><a b=\"c\"><d/>x &lt; y</a>"), "");
+  EXPECT_NE(markup_error("<a><b></a></b>"), "");
+  EXPECT_NE(markup_error("<a b=c></a>"), "");
+  EXPECT_NE(markup_error("<a b=\"1\" b=\"2\"></a>"), "");
+  EXPECT_NE(markup_error("<a>x & y</a>"), "");
+  EXPECT_NE(markup_error("<a>x < y</a>"), "");
+  EXPECT_NE(markup_error("<a>"), "");
+}
+
+TEST(Report, IsWellFormedAndNeedsNoOtherFile) {
+  const std::string page = report_html(sample_record());
+  EXPECT_EQ(markup_error(page), "");
+  EXPECT_THAT(page, Not(HasSubstr("<script")));
+  EXPECT_THAT(page, Not(HasSubstr("<link")));
+  EXPECT_THAT(page, Not(HasSubstr("href")));
+  EXPECT_THAT(page, Not(HasSubstr("src=")));
+  EXPECT_FALSE(has_nan(page));
+}
+
+TEST(Report, EscapesWhatTheStudySays) {
+  const std::string page = report_html(sample_record());
+  EXPECT_THAT(page, HasSubstr("A sample &amp; its &lt;limits&gt;"));
+  EXPECT_THAT(page, HasSubstr("&lt;script&gt;alert(&#39;x&#39;)&lt;/script&gt;"));
+  EXPECT_THAT(page, HasSubstr("The post is too thin &amp; &lt;breaks&gt;."));
+}
+
+TEST(Report, SaysWhatChangedAndWhatHoldsTheBest) {
+  const RunRecord record = sample_record();
+  // 0.8 to 0.1 mm3, error bars 2 % of each: 0.7 / 0.018 = 39 times their sum.
+  EXPECT_EQ(headline(record),
+            "The asymptotic wear volume fell from 0.800 to 0.100\u00a0mm\u00b3 (\u221288\u00a0%). The change is far "
+            "beyond the "
+            "error bars of the two values (39 times their sum).");
+  EXPECT_THAT(holding(record), testing::ElementsAre("the upper limit of the peak amplitude (8\u00a0mm)",
+                                                    "the upper bound of the neck width"));
+}
+
+TEST(Report, DoesNotCallAChangeWithinTheErrorAnImprovement) {
+  RunRecord record = sample_record();
+  for (EvaluationRecord& e : record.evaluations) e.error_estimates["asymptotic_wear_volume_m3"] = 5e-10;
+  EXPECT_THAT(headline(record), HasSubstr("may be no improvement"));
+  for (EvaluationRecord& e : record.evaluations) e.error_estimates.clear();
+  EXPECT_THAT(headline(record), HasSubstr("No error bar is known"));
+}
+
+TEST(Report, SaysThatNoFeasibleDesignWasFound) {
+  RunRecord record = sample_record();
+  record.best.reset();
+  record.best_design.reset();
+  record.least_broken = 1;
+  for (EvaluationRecord& e : record.evaluations) e.feasible = false;
+  const std::string page = report_html(record);
+  EXPECT_EQ(markup_error(page), "");
+  EXPECT_THAT(page, HasSubstr("No feasible design was found"));
+  EXPECT_THAT(page, HasSubstr("The nearest is candidate 2."));
+  EXPECT_FALSE(has_nan(page));
+}
+
+TEST(Report, SurvivesWhateverIsMissing) {
+  RunRecord record = sample_record();
+  record.status = "interrupted";
+  record.best_design->history.reset();
+  record.best_design->unworn = {};
+  record.best_design->contact = {};
+  std::string page = report_html(record);
+  EXPECT_EQ(markup_error(page), "");
+  EXPECT_THAT(page, HasSubstr("The run was interrupted"));
+  EXPECT_THAT(page, HasSubstr("No wear history was computed"));
+
+  record.best_design = DesignRecord{};
+  page = report_html(record);
+  EXPECT_EQ(markup_error(page), "");
+  EXPECT_THAT(page, HasSubstr("the section was not built"));
+
+  record.best_design.reset();
+  record.baseline_design.reset();
+  page = report_html(record);
+  EXPECT_EQ(markup_error(page), "");
+  EXPECT_THAT(page, HasSubstr("No design could be computed in full"));
+
+  page = report_html({});
+  EXPECT_EQ(markup_error(page), "");
+  EXPECT_THAT(page, HasSubstr("No candidate was evaluated."));
+}
+
+TEST(Report, SaysWhenTheStartStaysTheBest) {
+  RunRecord record = sample_record();
+  record.best = record.baseline;
+  EXPECT_THAT(headline(record), HasSubstr("No candidate was better than the start"));
+  record.best = 3;
+  record.evaluations[0].objective = std::numeric_limits<double>::quiet_NaN();
+  record.evaluations[0].status = "preload: stalled";
+  EXPECT_THAT(headline(record), HasSubstr("The start could not be evaluated (preload: stalled)"));
+}
+
+TEST(ReportPlots, MergeFlanksOnlyWhenTheyAreAlike) {
+  DesignRecord design = sample_design(2);
+  // Depths are the same on both sides, pressures differ by 10 %.
+  EXPECT_EQ(wear_depth_plot({.before = nullptr, .after = &design}).lines.size(), 1U);
+  EXPECT_EQ(pressure_plot({.before = nullptr, .after = &design}).lines.size(), 2U);
+}
+
+TEST(ReportPlots, ShowTheObjectiveInItsUnit) {
+  const Plot plot = objective_plot(sample_record());
+  EXPECT_EQ(plot.y.unit, "mm\u00b3");
+  ASSERT_EQ(plot.lines.size(), 1U);
+  // Best so far: the second candidate breaks the limit, the third has no value.
+  EXPECT_THAT(plot.lines[0].y, testing::Pointwise(testing::DoubleEq(), {0.8, 0.8, 0.8, 0.1}));
+  EXPECT_EQ(plot.points.size(), 4U);
+}
+
+}  // namespace
+}  // namespace dovetail::report

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "studies/report/run_record.hpp"
+
+namespace dovetail::report {
+
+/// A small run of two variables and one limit with every piece filled; no physics behind its numbers.
+[[nodiscard]] RunRecord sample_record();
+
+/// One design of it, `depth_um` deep at the neck side of both flanks.
+[[nodiscard]] DesignRecord sample_design(double depth_um);
+
+}  // namespace dovetail::report
