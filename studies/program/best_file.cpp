@@ -22,16 +22,6 @@ std::size_t offset(const std::string& text, Position position) {
   return at;
 }
 
-const Node* at_path(const Node& root, std::string_view key) {
-  const Node* node = &root;
-  while (node && !key.empty()) {
-    const std::size_t dot = key.find('.');
-    node = node->find(key.substr(0, dot));
-    key = dot == std::string_view::npos ? std::string_view() : key.substr(dot + 1);
-  }
-  return node;
-}
-
 std::string number_text(double value) {
   std::string text = shortest(value);
   // TOML wants a digit on both sides of a point and none of its floats look like a whole number.
@@ -64,7 +54,7 @@ std::string edited(const Document& document, const std::map<std::string, double>
   for (const auto& [key, value] : values) {
     const std::size_t dot = key.rfind('.');
     const std::string line = key.substr(dot + 1) + " = " + number_text(value);
-    if (const Node* node = at_path(document.root, key)) {
+    if (const Node* node = document.root.at(key)) {
       edits.push_back({offset(text, node->begin), offset(text, node->end), number_text(value)});
     } else if (const std::size_t header = end_of_header(text, key.substr(0, dot)); header != std::string::npos) {
       edits.push_back({header, header, "\n" + line});
@@ -99,7 +89,7 @@ bool reads_back(const Document& original, const std::string& text, const std::ma
   try {
     const Document document = parse_document(text, original.file);
     for (const auto& [key, value] : values) {
-      const Node* node = at_path(document.root, key);
+      const Node* node = document.root.at(key);
       if (!node || !node->is_number() || node->real != value) return false;
     }
     return read_study(document).problem.space.size() == read_study(original).problem.space.size();

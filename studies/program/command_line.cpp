@@ -2,13 +2,11 @@
 
 #include <CLI/CLI.hpp>
 #include <exception>
-#include <functional>
 #include <ostream>
 #include <sstream>
 #include <system_error>
 
-#include "studies/program/engine.hpp"
-#include "studies/program/export.hpp"
+#include "studies/program/arguments.hpp"
 #include "studies/program/version.hpp"
 
 namespace dovetail::studies {
@@ -28,209 +26,6 @@ constexpr const char* kFooter =
     "Exit status: 0 done; 2 the input is wrong (each error is a sentence on standard error); 3 a computation did not\n"
     "converge (what did converge is still written); 130 interrupted, with everything finished so far kept.\n"
     "`dovetail COMMAND --help` explains a command.";
-
-/// Options as CLI11 stores them, and the command chosen.
-struct Arguments {
-  CheckOptions check;
-  NewOptions create;
-  EvaluateOptions evaluate;
-  ReduceOptions reduce;
-  ResponseOptions response;
-  WearOptions wear;
-  RunOptions run;
-  ExportOptions geometry;
-  ReportOptions report;
-  SolverOverrides solver;
-  std::vector<std::string> set;
-  std::function<int(const Streams&)> command;
-
-  [[nodiscard]] std::vector<Override> overrides() const {
-    std::vector<Override> result;
-    std::vector<Violation> found;
-    for (const std::string& assignment : set) try {
-        result.push_back(parse_override(assignment));
-      } catch (const InputError& error) {
-        found.insert(found.end(), error.violations().begin(), error.violations().end());
-      }
-    if (!found.empty()) throw InputError(std::move(found));
-    return result;
-  }
-};
-
-void add_set(CLI::App& command, Arguments& a) {
-  command
-      .add_option("--set", a.set,
-                  "Replace a value of the study file before it is checked, e.g. --set geometry.neck_width_mm=9; may be "
-                  "repeated")
-      ->type_name("KEY=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->allow_extra_args(false);
-}
-
-void add_json(CLI::App& command, std::string& json) {
-  command
-      .add_option("--json", json,
-                  "Write the answer as JSON to FILE; - is standard output, and then nothing else goes there")
-      ->type_name("FILE");
-}
-
-void add_solver(CLI::App& command, Arguments& a) {
-  command.add_option("--harmonics", a.solver.harmonics, "Harmonics of the periodic motion")->type_name("H");
-  command.add_option("--samples", a.solver.samples, "Instants per period at which the contact is marched")
-      ->type_name("N");
-  command
-      .add_option("--tolerance", a.solver.tolerance, "Relative residual at which a steady state counts as converged")
-      ->type_name("T");
-}
-
-CLI::Option* add_study(CLI::App& command, std::string& study) {
-  return command.add_option("STUDY", study, "The study file (TOML)")->required()->type_name("");
-}
-
-void define_study_commands(CLI::App& app, Arguments& a) {
-  CLI::App* run = app.add_subcommand("run", "Optimise a study");
-  run->footer(
-      "The directory gets journal.jsonl (every evaluation, appended as it finishes), best.toml (a study file that\n"
-      "evaluates to the best design), results.h5, report.html and the exports the study asks for. Ctrl-C ends the run\n"
-      "in order; `--resume` continues it: stored evaluations are not computed again.");
-  add_study(*run, a.run.study);
-  run->add_option("-o,--output", a.run.directory, "Directory of the results (default: results/NAME)")->type_name("DIR");
-  run->add_flag("--resume", a.run.resume, "Continue the run stored in the directory");
-  run->callback([&a] { a.command = [&a](const Streams& s) { return run_study(a.run, s, study_engine); }; });
-
-  CLI::App* evaluate = app.add_subcommand("evaluate", "Compute one design: all responses with error estimates");
-  evaluate->footer(
-      "JSON: {\"status\", \"feasible\", \"parameters\", \"responses\", \"constraints\", \"error_estimates\", "
-      "\"model\",\n"
-      "\"timings_s\", \"messages\"}; parameters in the study file's units, all else SI; constraints hold when <= 0.");
-  add_study(*evaluate, a.evaluate.study);
-  add_set(*evaluate, a);
-  add_solver(*evaluate, a);
-  add_json(*evaluate, a.evaluate.json);
-  evaluate->callback([&a] {
-    a.command = [&a](const Streams& s) {
-      a.evaluate.overrides = with_solver(a.overrides(), a.solver);
-      return run_evaluate(a.evaluate, s);
-    };
-  });
-
-  CLI::App* reduce = app.add_subcommand("reduce", "Write the reduced model of a design (HDF5)");
-  add_study(*reduce, a.reduce.study);
-  add_set(*reduce, a);
-  reduce->add_option("-o,--output", a.reduce.model, "The model file to write")->type_name("MODEL.h5")->required();
-  reduce->callback([&a] {
-    a.command = [&a](const Streams& s) {
-      a.reduce.overrides = a.overrides();
-      return run_reduce(a.reduce, s);
-    };
-  });
-
-  CLI::App* check = app.add_subcommand("check", "Read and validate a study, computing nothing");
-  check->footer("Every problem is told at once, one sentence each, with the line it stands on.");
-  add_study(*check, a.check.study);
-  add_set(*check, a);
-  check->callback([&a] {
-    a.command = [&a](const Streams& s) {
-      a.check.overrides = a.overrides();
-      return run_check(a.check, s);
-    };
-  });
-
-  CLI::App* create = app.add_subcommand("new", "Write a commented study to start from");
-  create->add_option("FILE", a.create.file, "The study file to write (TOML); must not exist")
-      ->required()
-      ->type_name("");
-  create->callback([&a] { a.command = [&a](const Streams& s) { return run_new(a.create, s); }; });
-}
-
-void define_model_commands(CLI::App& app, Arguments& a) {
-  constexpr const char* kInput = "A reduced model (HDF5) or a study file (TOML)";
-  CLI::App* response = app.add_subcommand("response", "Frequency response of a model or a study's design");
-  response->footer(
-      "The frequencies are gone through in the order given; --from may exceed --to. JSON: {\"frequency_hz\", "
-      "\"status\",\n"
-      "\"iterations\", \"outputs\":{NAME:{\"amplitude\", \"cosine\", \"sine\"}}, \"dissipated_energy_j\", "
-      "\"error_force\",\n"
-      "\"error_energy\", \"wear_rate_m_per_cycle\"}; cosine[.][0] is the mean. At a frequency that did not converge "
-      "all\n"
-      "numbers but the frequency and the iterations are null.");
-  response->add_option("INPUT", a.response.input, kInput)->required()->type_name("");
-  response->add_option("--from", a.response.from_hz, "First frequency")->type_name("HZ")->required();
-  response->add_option("--to", a.response.to_hz, "Last frequency")->type_name("HZ")->required();
-  response->add_option("--points", a.response.points, "Number of frequencies, evenly spaced")
-      ->type_name("N")
-      ->required();
-  add_set(*response, a);
-  add_solver(*response, a);
-  add_json(*response, a.response.json);
-  response->callback([&a] {
-    a.command = [&a](const Streams& s) {
-      a.response.overrides = a.overrides();
-      a.response.solver = a.solver;
-      return run_response(a.response, s);
-    };
-  });
-
-  CLI::App* wear = app.add_subcommand("wear", "Worn state of a model or a study's design");
-  wear->footer(
-      "`asymptote` computes the shape at which wear comes to rest directly, `history` goes there cycle by cycle. With\n"
-      "`--follow resonance` the excitation tracks the moving resonance (the asymptote: held until wear rests, then\n"
-      "retuned, until the resonance stays); the worn volume may differ by tens of per cent. JSON: {\"method\", "
-      "\"status\",\n"
-      "\"follow\", \"frequency_hz\", \"frequencies_hz\", \"cycles\", \"worn_volume_m3\", \"depth_m\",\n"
-      "\"final_wear_rate_m_per_cycle\", \"solves\"}. A history that reached --cycles while still wearing has the "
-      "status\n"
-      "no_asymptote, one that used up --steps not_converged.");
-  wear->add_option("INPUT", a.wear.input, kInput)->required()->type_name("");
-  wear->add_option("--method", a.wear.method, "history or asymptote")
-      ->required()
-      ->type_name("METHOD")
-      ->check(CLI::IsMember({"history", "asymptote"}));
-  wear->add_option("--frequency", a.wear.frequency_hz,
-                   "Excitation frequency (default: the unworn resonance of the study's mode, of a model's lowest)")
-      ->type_name("HZ");
-  wear->add_option("--follow", a.wear.follow,
-                   "fixed: the frequency stays; resonance: it tracks the moving resonance (default: fixed)")
-      ->type_name("WHAT")
-      ->check(CLI::IsMember({"fixed", "resonance"}));
-  wear->add_option("--cycles", a.wear.cycles, "history: end after so many cycles")->type_name("N");
-  wear->add_option("--steps", a.wear.steps, "history: steps at most (default: 200)")->type_name("N");
-  wear->add_option("--increment", a.wear.increment_m, "history: largest increase of depth per step, m (default: 1e-7)")
-      ->type_name("M");
-  add_set(*wear, a);
-  add_solver(*wear, a);
-  add_json(*wear, a.wear.json);
-  wear->callback([&a] {
-    a.command = [&a](const Streams& s) {
-      a.wear.overrides = a.overrides();
-      a.wear.solver = a.solver;
-      return run_wear(a.wear, s);
-    };
-  });
-}
-
-void define_file_commands(CLI::App& app, Arguments& a) {
-  CLI::App* geometry =
-      app.add_subcommand("export", "Write the geometry or fields of a finished run's best design or of a study");
-  std::string formats;
-  for (const std::string_view format : export_formats()) formats += (formats.empty() ? "" : ", ") + std::string(format);
-  geometry->add_option("INPUT", a.geometry.input, "Directory of a run, or a study file")->required()->type_name("");
-  geometry->add_option("--format", a.geometry.format, "One of " + formats)->type_name("NAME")->required();
-  geometry->add_option("-o,--output", a.geometry.file, "The file to write")->type_name("FILE")->required();
-  add_set(*geometry, a);
-  geometry->callback([&a] {
-    a.command = [&a](const Streams& s) {
-      a.geometry.overrides = a.overrides();
-      return run_export(a.geometry, s);
-    };
-  });
-
-  CLI::App* report = app.add_subcommand("report", "Write the report of a run again, from its stored results");
-  report->add_option("DIR", a.report.directory, "Directory of the run")->required()->type_name("");
-  report->add_option("-o,--output", a.report.file, "The page to write")->type_name("FILE.html")->required();
-  report->callback([&a] { a.command = [&a](const Streams& s) { return run_report(a.report, s); }; });
-}
 
 std::string one_line(std::string text) {
   for (char& c : text)
@@ -260,9 +55,7 @@ int run_program(int argc, const char* const* argv, const Streams& streams) {
   app.set_version_flag("--version", std::string("dovetail ") + version());
   app.require_subcommand(1);
   app.footer(kFooter);
-  define_study_commands(app, arguments);
-  define_model_commands(app, arguments);
-  define_file_commands(app, arguments);
+  define_commands(app, arguments);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -88,11 +88,13 @@ int run_study(const RunOptions& options, const Streams& streams, const RunEngine
     result = optimizer::run_optimization(study.problem, engine.evaluate, study.optimizer, hooks);
   }
 
+  if (interrupt.requested())
+    streams.err << "dovetail: interrupted; writing what is finished (Ctrl-C again ends at once)" << std::endl;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   write_run(study, result, engine, seconds, directory, streams.err);
   streams.out << conclusion(study, result, directory);
   if (interrupt.requested()) {
-    streams.err << fmt::format("dovetail: interrupted; everything finished is kept, go on with --resume\n");
+    streams.err << "dovetail: everything finished is kept; go on with --resume\n";
     return kInterrupted;
   }
   if (!result.best) {

@@ -116,6 +116,16 @@ const Node* Node::find(std::string_view key) const {
   return nullptr;
 }
 
+const Node* Node::at(std::string_view path) const {
+  const Node* node = this;
+  while (node && !path.empty()) {
+    const std::size_t dot = path.find('.');
+    node = node->find(path.substr(0, dot));
+    path = dot == std::string_view::npos ? std::string_view() : path.substr(dot + 1);
+  }
+  return node;
+}
+
 Override parse_override(const std::string& assignment) {
   const std::size_t equals = assignment.find('=');
   const auto trimmed = [](std::string text) {

@@ -36,6 +36,8 @@ struct Node {
   [[nodiscard]] std::string shown() const;
   /// Member of a table, or nullptr.
   [[nodiscard]] const Node* find(std::string_view key) const;
+  /// The value at a dotted path below this table, or nullptr.
+  [[nodiscard]] const Node* at(std::string_view path) const;
 };
 
 struct Member {

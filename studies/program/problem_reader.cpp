@@ -37,15 +37,13 @@ bool is_prefix_section(const std::string& key, const std::string& section) {
   return key.starts_with(section + ".");
 }
 
-/// Whether the value at that dotted path stands in the document.
 bool given(const Node* root, std::string_view key) {
-  const Node* node = root;
-  while (node && !key.empty()) {
-    const std::size_t dot = key.find('.');
-    node = node->find(key.substr(0, dot));
-    key = dot == std::string_view::npos ? std::string_view() : key.substr(dot + 1);
-  }
-  return node != nullptr;
+  return root && root->at(key);
+}
+
+bool from_command_line(const Node* root, std::string_view key) {
+  const Node* node = root ? root->at(key) : nullptr;
+  return node && !node->origin.empty();
 }
 
 /// Why that key cannot be a variable although it is a number; empty when it can.
@@ -93,6 +91,17 @@ const Parameter* variable_parameter(const Node& value, const std::string& path, 
   return nullptr;
 }
 
+/// A value given on the command line may leave the bounds, which are for the search: it then starts at the nearest one.
+void start_from_value(DesignVariable& variable, bool overridden, const Node& node, const std::string& path,
+                      Problems& problems) {
+  const double value = variable.start;
+  if (overridden) variable.start = std::clamp(value, variable.lower, variable.upper);
+  if (variable.start < variable.lower || variable.start > variable.upper)
+    problems.missing(&node, variable.key + " = " + shortest(value),
+                     "is the start of " + path + " and must be between lower = " + shortest(variable.lower) +
+                         " and upper = " + shortest(variable.upper) + ", or give the variable a start");
+}
+
 std::vector<DesignVariable> read_variables(SectionReader& root, const optimizer::Scene& scene, Problems& problems) {
   std::vector<DesignVariable> variables;
   for (const auto& [node, path] : entries(root, "variable", problems)) {
@@ -120,9 +129,8 @@ std::vector<DesignVariable> read_variables(SectionReader& root, const optimizer:
         problems.add(*node->find("upper"), section.path("upper"), "must be > lower = " + shortest(*lower));
       else if (start && (*start < *lower || *start > *upper))
         problems.add(*node->find("start"), section.path("start"), between);
-      else if (!start && !problems.has(*key) && (variable.start < *lower || variable.start > *upper))
-        problems.missing(node, *key + " = " + shortest(variable.start),
-                         "is the start of " + path + " and " + between + ", or give the variable a start");
+      else if (!start && !problems.has(*key))
+        start_from_value(variable, from_command_line(root.node(), *key), *node, path, problems);
     }
     variables.push_back(std::move(variable));
   }

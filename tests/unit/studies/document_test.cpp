@@ -73,6 +73,14 @@ TEST(Override, ReplacesAndCreatesKeys) {
   EXPECT_EQ(after_set("solver.solver=newton"), "");
 }
 
+TEST(Override, MayLeaveTheBoundsOfAVariable) {
+  Document document = parse_document(study_template("sample"), "s.toml");
+  apply_overrides(document, std::vector{parse_override("geometry.neck_width_mm=20")});
+  const Study study = read_study(document);
+  EXPECT_DOUBLE_EQ(study.scene.geometry.neck_width, 0.020);
+  EXPECT_EQ(study.problem.space.start().back(), 9.5);
+}
+
 TEST(Override, TheLastOneWins) {
   Document document = parse_document("", "s.toml");
   apply_overrides(document, std::vector{parse_override("a=1"), parse_override("a=2")});

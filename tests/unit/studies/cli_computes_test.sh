@@ -1,0 +1,74 @@
+#!/usr/bin/env bash
+# The commands that compute, on a coarse mesh:  cli_computes_test.sh PATH_OF_DOVETAIL
+# A model file answers as the study it was reduced from, JSON has standard output to itself, a run can be resumed, and
+# best.toml evaluates to the journal's best design.
+set -u
+dovetail=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+failures=0
+
+fail() { echo "FAILED: $*"; head -20 err; failures=$((failures + 1)); }
+expect() {
+  local status=$1
+  shift
+  "$dovetail" "$@" > out 2> err < /dev/null
+  local got=$?
+  [ "$got" = "$status" ] || fail "dovetail $* gave status $got, not $status"
+}
+is_json() {
+  if command -v python3 > /dev/null; then
+    python3 -m json.tool out > /dev/null || fail "standard output is not JSON alone"
+  else
+    [ "$(head -c 1 out)$(tail -c 2 out)" = "{}" ] || fail "standard output is not JSON alone"
+  fi
+}
+same() { cmp -s "$1" "$2" || fail "$1 and $2 differ"; }
+
+"$dovetail" new full.toml > /dev/null || exit 1
+sed -e 's/^flank_elements = .*/flank_elements = 8/' -e 's/^bulk_size_mm = .*/bulk_size_mm = 6/' \
+  -e 's/^fillet_fraction = .*/fillet_fraction = 0.3/' -e 's/^aerofoil_elements = .*/aerofoil_elements = 8/' \
+  -e 's/^max_evaluations = .*/max_evaluations = 5/' -e 's/^formats = .*/formats = ["dxf", "svg", "vtu"]/' full.toml > s.toml
+
+expect 0 evaluate s.toml --json -; is_json; cp out first.json
+expect 0 evaluate s.toml --json again.json
+for key in status feasible parameters responses constraints error_estimates model timings_s; do
+  grep -q "\"$key\"" again.json || fail "evaluate has no $key"
+done
+expect 2 evaluate s.toml --set geometry.neck_width_mm=60 --json -; is_json
+grep -q infeasible out || fail "an impossible neck is not infeasible"
+
+expect 0 reduce s.toml -o m.h5; [ -s m.h5 ] || fail "no m.h5"
+expect 0 response s.toml --from 490 --to 470 --points 3 --json -; is_json; cp out study.json
+expect 0 response m.h5 --from 490 --to 470 --points 3 --json -; is_json; same out study.json
+expect 0 wear s.toml --method asymptote --json -; is_json; cp out study.json
+expect 0 wear m.h5 --method asymptote --json -; is_json; same out study.json
+expect 0 wear m.h5 --method history --frequency 480 --cycles 1000 --json -; is_json
+grep -q '"frequency_hz": 480.0' out || fail "the frequency asked for is not the one answered"
+expect 3 wear m.h5 --method history --steps 1 --json -; is_json
+expect 2 reduce s.toml -o missing/m.h5
+
+expect 0 run s.toml -o o
+for file in journal.jsonl best.toml results.h5 report.html best.dxf best.svg best.vtu study.toml; do
+  [ -s "o/$file" ] || fail "no o/$file"
+done
+expect 0 check o/best.toml
+expect 0 run s.toml -o o --resume
+grep -q '5 of them stored before' out || fail "the resumed run computed again"
+cp o/best.toml best.toml
+expect 0 evaluate best.toml --json best.json
+if command -v python3 > /dev/null; then
+  python3 - <<'PYTHON' || fail "best.toml does not evaluate to the journal's best design"
+import json
+records = [json.loads(line)["record"] for line in open("o/journal.jsonl")][1:]
+least = min((r for r in records if r["feasible"]), key=lambda r: r["responses"]["asymptotic_wear_volume_m3"])
+assert json.load(open("best.json"))["responses"] == least["responses"]
+PYTHON
+fi
+expect 0 report o -o page.html; same page.html o/report.html
+expect 0 export o --format vtu -o f.vtu; same f.vtu o/best.vtu
+expect 0 export o --format dxf -o f.dxf
+
+[ "$failures" = 0 ] && echo "all passed"
+exit "$((failures > 0))"
