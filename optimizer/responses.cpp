@@ -6,9 +6,10 @@
 namespace dovetail::optimizer {
 
 std::span<const ResponseName> response_names() {
-  static constexpr std::array<ResponseName, 17> table{{
+  static constexpr std::array<ResponseName, 18> table{{
       {"asymptotic_wear_volume_m3", "m^3", "Volume worn off both surfaces of both flanks when wear has come to rest."},
       {"asymptotic_wear_depth_max_m", "m", "Largest wear depth, both surfaces together, when wear has come to rest."},
+      {"initial_wear_rate_m3_per_cycle", "m^3", "Volume worn off per cycle while the flanks are unworn."},
       {"resonance_hz", "Hz", "Frequency of the largest amplitude of the followed mode, unworn, with friction."},
       {"worn_resonance_hz", "Hz", "The same after wear has come to rest."},
       {"resonance_drift", "", "Worn over unworn resonance frequency, minus one."},
