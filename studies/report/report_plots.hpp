@@ -7,6 +7,11 @@
 
 namespace dovetail::report {
 
+/// Largest finite magnitude, 0 when there is none.
+[[nodiscard]] double largest(const Numbers& values);
+/// Values in a unit of `si`.
+[[nodiscard]] Numbers scaled(const Numbers& values, double si);
+
 /// The two designs a figure compares; `before` null: only one design is shown. `after` is never null.
 struct Comparison {
   const DesignRecord* before = nullptr;

@@ -84,6 +84,13 @@ class Reader {
   const hdf5::File& file_;
 };
 
+/// Problem and evaluations. The evaluations' sizes are those of the problem, which is to be read first; writing others
+/// is an InputError.
+void write_problem(Writer& writer, const optimizer::Problem& problem);
+void read_problem(const Reader& reader, optimizer::Problem& problem);
+void write_evaluations(Writer& writer, const RunRecord& record);
+void read_evaluations(const Reader& reader, RunRecord& record);
+
 /// The design below `group`, both ways.
 void exchange(Writer& writer, const std::string& group, const DesignRecord& design);
 void exchange(const Reader& reader, const std::string& group, DesignRecord& design);
