@@ -1,0 +1,65 @@
+#include "optimizer/scene.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace dovetail::optimizer {
+namespace {
+
+TEST(Scene, EveryNumberReadsBackAsItWasSet) {
+  for (const Parameter& p : scene_parameters()) {
+    if (p.kind == Parameter::Kind::text || p.kind == Parameter::Kind::truth) continue;
+    Scene scene;
+    const double value = p.kind == Parameter::Kind::whole ? 7 : 0.123456789;
+    set_parameter(scene, p.key, value);
+    EXPECT_EQ(parameter(scene, p.key), value) << p.key;
+  }
+}
+
+TEST(Scene, DefaultsAreValid) {
+  EXPECT_TRUE(violations(Scene{}).empty());
+}
+
+TEST(Scene, AFlankKeySetsBothFlanksOrOne) {
+  Scene scene;
+  set_parameter(scene, "geometry.flank_angle_deg", 48);
+  EXPECT_EQ(scene.geometry.left.angle, scene.geometry.right.angle);
+  EXPECT_EQ(parameters(scene).count("geometry.left.flank_angle_deg"), 0U);
+  set_parameter(scene, "geometry.right.flank_angle_deg", 52);
+  EXPECT_DOUBLE_EQ(scene.geometry.left.angle, 48 * std::numbers::pi / 180);
+  EXPECT_EQ(parameters(scene).at("geometry.right.flank_angle_deg"), 52);
+  EXPECT_EQ(parameters(scene).count("geometry.flank_angle_deg"), 0U);
+}
+
+TEST(Scene, FrictionIsThatOfTheSelfLockingRuleToo) {
+  Scene scene;
+  set_parameter(scene, "contact.friction", 0.3);
+  EXPECT_EQ(scene.limits.friction, 0.3);
+}
+
+TEST(Scene, WrongKeysAndKindsAreRefused) {
+  Scene scene;
+  const auto refusal = [&](const char* key, double value) -> std::string {
+    try {
+      set_parameter(scene, key, value);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_THAT(refusal("geometry.nek_width_mm", 8), testing::HasSubstr("did you mean geometry.neck_width_mm?"));
+  EXPECT_THAT(refusal("solver.solver", 8), testing::HasSubstr("is not a number"));
+  EXPECT_THAT(refusal("solver.modes", 8.5), testing::HasSubstr("must be a whole number"));
+}
+
+TEST(Scene, ViolationsAreInTheFilesUnit) {
+  Scene scene;
+  scene.geometry.neck_width = -3e-3;
+  ASSERT_EQ(violations(scene).size(), 1U);
+  EXPECT_THAT(violations(scene)[0].sentence(), testing::StartsWith("geometry.neck_width_mm = -3: must be > 0"));
+}
+
+}  // namespace
+}  // namespace dovetail::optimizer
