@@ -78,7 +78,10 @@ void CondensedModel::diagonalise() {
   basis_ = Eigen::MatrixXd::Identity(ni, ni);
   local_stiffness_ = stiffness_.cc.diagonal();
   modal_ = true;
-  if (ni == 0) return;
+  if (ni == 0) {
+    for (Partition* part : {&mass_, &damping_, &stiffness_}) part->ii.resize(0, 1);
+    return;
+  }
   const Eigen::MatrixXd& m = mass_.ii;
   const Eigen::MatrixXd& c = damping_.ii;
   const Eigen::MatrixXd& k = stiffness_.ii;
