@@ -10,7 +10,7 @@ struct DesignRecordOptions {
   int curve_points = 61;         ///< >= 0, of each response curve; 0: no curves
   double curve_widths = 12;      ///< > 0, half range of the curves in half-power widths of the unworn peak
   int nodal_diameter_modes = 5;  ///< >= 0, modes per nodal diameter; 0: none
-  int history_steps = 0;         ///< >= 0, steps of the wear history; 0: none
+  int history_steps = 30;        ///< >= 0, steps of the wear history; 0: none
   int history_profiles = 6;      ///< >= 0, depth profiles kept of the history, first and last included
   bool fields = true;            ///< mesh, displacement and von Mises stress of the preload
 };

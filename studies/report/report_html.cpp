@@ -34,7 +34,7 @@ figure.nothing p{color:var(--soft)}
 table{border-collapse:collapse;font-size:.92rem;font-variant-numeric:tabular-nums}
 th,td{padding:.32rem .9rem .32rem 0;text-align:right;border-bottom:1px solid var(--hair);white-space:nowrap;font-weight:400}
 thead th{color:var(--soft);font-size:.84rem;vertical-align:bottom}tbody th,th:first-child,td.text,th.text{text-align:left}
-table.figures{width:100%}table.figures tbody th::first-letter{text-transform:uppercase}
+table.pair{width:100%}table.figures tbody th::first-letter{text-transform:uppercase}
 tr.aim th,tr.aim td{font-weight:600}tr.aim th{color:var(--after)}tr.soft td{color:var(--soft)}
 .flag{color:var(--bad);font-size:.84rem}code,pre{font:.84rem/1.5 ui-monospace,"DejaVu Sans Mono",Menlo,monospace}
 pre{overflow-x:auto;background:var(--card);border:1px solid var(--hair);border-radius:8px;padding:.9rem;margin:.6rem 0}

@@ -69,7 +69,7 @@ Plot objective_plot(const RunRecord& record) {
     failed.titles.push_back(fmt::format("candidate {} ({}): {}", i + 1, e.phase, e.status));
   }
   if (failed.x.empty()) plot.description = "Every candidate in the order it was evaluated.";
-  plot.lines.push_back(std::move(so_far));
+  if (std::isfinite(least)) plot.lines.push_back(std::move(so_far));
   for (PlotPoints* points : {&failed, &broken, &feasible, &best}) plot.points.push_back(std::move(*points));
   return plot;
 }

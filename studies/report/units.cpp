@@ -129,7 +129,10 @@ std::string key_words(std::string_view key) {
 }
 
 std::string words(std::string_view name) {
-  return spaced(split(name, kSiEndings).first);
+  std::string text = spaced(split(name, kSiEndings).first);
+  for (const auto& [ending, word] : {std::pair{" max", "largest "}, std::pair{" mean", "mean "}})
+    if (text.ends_with(ending)) return word + text.substr(0, text.size() - std::string_view(ending).size());
+  return text;
 }
 
 std::string significant(double value, int digits) {

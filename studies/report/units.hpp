@@ -24,7 +24,7 @@ struct Unit {
 /// A key in words, without section and unit: "flank mismatch", "flank angle, left".
 [[nodiscard]] std::string key_words(std::string_view key);
 
-/// A response's name in words without its unit: "asymptotic wear volume".
+/// A response's name in words without its unit: "asymptotic wear volume", "largest contact pressure".
 [[nodiscard]] std::string words(std::string_view name);
 
 /// `digits` significant digits, no exponent between 1e-4 and 1e6, true minus sign; "–" for NaN.
