@@ -44,7 +44,7 @@ RunEngine study_engine(const Study& study) {
 
 report::DesignRecord describe_fields(const Study& study) {
   return report::make_design_record(study.scene, scene_evaluator(study)->evaluate(study.scene),
-                                    {.curve_points = 0, .nodal_diameter_modes = 0});
+                                    {.curve_points = 0, .nodal_diameter_modes = 0, .history_steps = 0});
 }
 
 bool is_model_file(const std::string& file) {
