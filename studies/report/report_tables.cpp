@@ -61,6 +61,11 @@ std::string change(const EvaluationRecord& from, const EvaluationRecord& to, con
   return small ? text + " <span class=\"soft\">within error</span>" : text;
 }
 
+/// A value of a variable; what is nothing beside its range is 0.
+std::string variable_value(const optimizer::DesignVariable& variable, double value) {
+  return plain(std::abs(value) < 1e-9 * (variable.upper - variable.lower) ? 0 : value, 5);
+}
+
 std::string help_of(const std::string& name) {
   const optimizer::ResponseName* known = optimizer::find_response(name);
   return known ? std::string(known->help) : name;
@@ -110,7 +115,7 @@ std::string variable_table(const RunRecord& record) {
     const std::string bound = known ? at_bound(v, best->x[i]) : "";
     text += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td><b>{}</b></td>",
                         escape(key_words(v.key)), key_unit(v.key), plain(v.lower), plain(v.upper), plain(v.start),
-                        known ? plain(best->x[i], 5) : "\u2013");
+                        known ? variable_value(v, best->x[i]) : "\u2013");
     text += fmt::format("<td>{}</td><td class=\"text\"><code>{}</code></td></tr>\n",
                         bound.empty() ? "" : "<span class=\"flag\">at " + bound + " bound</span>", escape(v.key));
   }
@@ -164,7 +169,8 @@ std::string evaluation_table(const RunRecord& record) {
                          : "soft",
         i + 1, escape(e.phase), escape(remark), escape(status), significant(objective.factor * e.objective, 4));
     for (const double c : e.constraints) text += "<td>" + significant(c, 3) + "</td>";
-    for (const double x : e.x) text += "<td>" + plain(x, 5) + "</td>";
+    for (std::size_t k = 0; k < std::min(variables.size(), e.x.size()); ++k)
+      text += "<td>" + variable_value(variables[k], e.x[k]) + "</td>";
     text += "</tr>\n";
   }
   return text + "</tbody></table></div></details>\n";
