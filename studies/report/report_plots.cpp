@@ -156,7 +156,7 @@ Plot nodal_diameter_plot(const DesignRecord& design) {
   Plot plot{
       .title = "Natural frequencies of the glued bladed disk",
       .description = "At speed, over the number of nodal diameters; flat stretches are blade modes.",
-      .x = {.label = "nodal diameters"},
+      .x = {.label = "nodal diameters", .whole = true},
       .y =
           {
               .label = "frequency",

@@ -49,6 +49,8 @@ std::string change(const EvaluationRecord& from, const EvaluationRecord& to, con
                    const Unit& unit) {
   const double a = response(from, name), b = response(to, name);
   if (!std::isfinite(a) || !std::isfinite(b)) return "\u2013";
+  // What only rounding of the design variables makes.
+  if (std::abs(b - a) <= 1e-8 * std::max(std::abs(a), std::abs(b))) return "none";
   const double bars = error_bar(from, name) + error_bar(to, name);
   const bool small = bars > 0 && std::abs(b - a) <= bars;
   std::string text;

@@ -108,7 +108,12 @@ double error_bar(const EvaluationRecord& evaluation, const std::string& name) {
 Unit response_unit(const std::string& name, double largest) {
   if (name.ends_with("drift")) return {.symbol = "%", .si = 0.01};
   const optimizer::ResponseName* known = optimizer::find_response(name);
-  return readable_unit(known ? std::string(known->unit) : si_unit_of(name), largest);
+  std::string si = known ? std::string(known->unit) : si_unit_of(name);
+  if (!name.ends_with("_per_cycle")) return readable_unit(si, largest);
+  if (const std::size_t slash = si.find('/'); slash != std::string::npos) si.resize(slash);
+  Unit unit = readable_unit(si, largest);
+  unit.symbol += "/cycle";
+  return unit;
 }
 
 std::string objective_words(const optimizer::Problem& problem) {

@@ -27,7 +27,7 @@ Plot objective_plot(const RunRecord& record) {
       .description =
           "Every candidate in the order it was evaluated; those that could not be computed stand at the "
           "lower edge.",
-      .x = {.label = "candidate"},
+      .x = {.label = "candidate", .whole = true},
       .y = {.label = scale.label, .unit = scale.unit},
   };
   PlotPoints feasible{
@@ -86,7 +86,7 @@ std::vector<Plot> limit_plots(const RunRecord& record) {
         largest = std::max(largest, std::abs(value));
     const Unit unit = response_unit(limited.response, largest);
     Plot plot{.title = words(limited.response) + " over the search",
-              .x = {.label = "candidate"},
+              .x = {.label = "candidate", .whole = true},
               .y = {.label = words(limited.response), .unit = unit.symbol}};
     plot.title.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(plot.title.front())));
     for (const optimizer::ResponseConstraint& c : record.problem.constraints) {

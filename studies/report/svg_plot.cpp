@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "studies/report/html.hpp"
 #include "studies/report/ticks.hpp"
@@ -33,6 +34,7 @@ class Scale {
     lower = axis.lower.value_or(lower);
     upper = std::max(axis.upper.value_or(upper), lower);
     ticks_ = logarithmic_ ? logarithmic_ticks(lower, upper) : linear_ticks(lower, upper, count, tight);
+    if (axis.whole && !logarithmic_) keep_whole_ticks();
   }
   void place(double from, double to) {
     from_ = from;
@@ -46,6 +48,16 @@ class Scale {
   [[nodiscard]] const Ticks& ticks() const { return ticks_; }
 
  private:
+  void keep_whole_ticks() {
+    Ticks kept{.lower = ticks_.lower, .upper = ticks_.upper, .at = {}, .labels = {}};
+    for (const double at : ticks_.at) {
+      if (std::abs(at - std::round(at)) > 1e-9) continue;
+      kept.at.push_back(at);
+      kept.labels.push_back(plain(at, 12));
+    }
+    ticks_ = std::move(kept);
+  }
+
   bool logarithmic_;
   Ticks ticks_;
   double from_ = 0, to_ = 1;

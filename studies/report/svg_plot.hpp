@@ -42,6 +42,7 @@ struct PlotAxis {
   std::string label = {};  ///< "position along the flank"
   std::string unit = {};   ///< "mm"; empty: none
   bool logarithmic = false;
+  bool whole = false;                            ///< counts something: ticks at whole numbers only
   bool from_zero = false;                        ///< the range includes 0
   std::optional<double> lower = {}, upper = {};  ///< fixed ends of the range
 };

@@ -36,7 +36,7 @@ constexpr std::array kChoices{
     Choice{"J", 0, "\u00b5J", 1e-6},
 };
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kSiEndings{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kSiEndings{
     {{"_m3", "m^3"}, {"_m", "m"}, {"_hz", "Hz"}, {"_pa", "Pa"}, {"_kg", "kg"}, {"_j", "J"}}};
 
 constexpr std::array<std::pair<std::string_view, std::string_view>, 16> kKeyEndings{{
