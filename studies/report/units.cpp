@@ -37,7 +37,7 @@ constexpr std::array kChoices{
 };
 
 constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kSiEndings{
-    {{"_m3", "m^3"}, {"_m", "m"}, {"_hz", "Hz"}, {"_pa", "Pa"}, {"_kg", "kg"}, {"_j", "J"}}};
+    {{"_m3_per_cycle", "m^3"}, {"_m3", "m^3"}, {"_m", "m"}, {"_hz", "Hz"}, {"_pa", "Pa"}, {"_kg", "kg"}, {"_j", "J"}}};
 
 constexpr std::array<std::pair<std::string_view, std::string_view>, 16> kKeyEndings{{
     {"_um", "\u00b5m"},

@@ -83,6 +83,7 @@ TEST(Units, AreThoseEngineersRead) {
   EXPECT_EQ(readable_unit("Hz", 490).symbol, "Hz");
   EXPECT_EQ(readable_unit("kg", 0.118).symbol, "g");
   EXPECT_EQ(words("asymptotic_wear_volume_m3"), "asymptotic wear volume");
+  EXPECT_EQ(words("initial_wear_rate_m3_per_cycle"), "initial wear rate");
   EXPECT_EQ(words("contact_pressure_max_pa"), "largest contact pressure");
   EXPECT_EQ(key_words("geometry.left.flank_angle_deg"), "flank angle, left");
   EXPECT_EQ(key_unit("geometry.flank_mismatch_um"), "\u00b5m");
