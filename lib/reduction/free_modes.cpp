@@ -5,8 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <random>
 #include <vector>
+
+#include "numerics/nearest_modes.hpp"
 
 namespace dovetail::reduction {
 
@@ -14,8 +15,6 @@ namespace {
 // S carries the rounding of the elimination, some 1e-13 of its largest entry; the rigid stiffness that
 // spin softening leaves at speed is above 1e-9 of it.
 constexpr double kRigidThreshold = 1e-11;
-
-constexpr Eigen::Index kDenseSize = 200;
 }  // namespace
 
 FloatingInverse::FloatingInverse(const ContactSolver& solver, const Eigen::SparseMatrix<double>& mass)
@@ -62,160 +61,56 @@ Eigen::MatrixXd FloatingInverse::apply(const Eigen::Ref<const Eigen::MatrixXd>& 
   return x;
 }
 
-namespace {
-
-struct Pairs {
-  Status status = Status::converged;
-  Eigen::VectorXd values;   // 1 / lambda, largest magnitude first
-  Eigen::MatrixXd vectors;  // M-orthonormal
-};
-
-std::vector<Eigen::Index> by_magnitude(const Eigen::VectorXd& theta) {
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(theta.size()));
-  std::iota(order.begin(), order.end(), Eigen::Index{0});
-  std::sort(order.begin(), order.end(),
-            [&](Eigen::Index a, Eigen::Index b) { return std::abs(theta(a)) > std::abs(theta(b)); });
-  return order;
-}
-
-// All pairs of M^(1/2) K^-1 M^(1/2) with theta = 1/lambda != 0; works for singular mass.
-Pairs dense_pairs(const FloatingInverse& inverse) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> mass{Eigen::MatrixXd(inverse.mass())};
-  // Rounding may leave eigenvalues of a singular mass matrix slightly below zero.
-  const Eigen::VectorXd roots = mass.eigenvalues().cwiseMax(0).cwiseSqrt();
-  const Eigen::MatrixXd root = mass.eigenvectors() * roots.asDiagonal() * mass.eigenvectors().transpose();
-  const Eigen::MatrixXd flexible = inverse.apply(root);
-  const Eigen::MatrixXd product = root * flexible;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (product + product.transpose()));
-  const Eigen::VectorXd& theta = eigen.eigenvalues();
-  std::vector<Eigen::Index> order = by_magnitude(theta);
-  const double threshold = 1e-14 * theta.cwiseAbs().maxCoeff();
-  std::erase_if(order, [&](Eigen::Index k) { return std::abs(theta(k)) <= threshold; });
-  Pairs pairs;
-  pairs.values = theta(order);
-  pairs.vectors = flexible * eigen.eigenvectors()(Eigen::all, order) * pairs.values.cwiseInverse().asDiagonal();
-  return pairs;
-}
-
-// M-orthonormal columns with the span of `block`; nearly dependent ones are dropped.
-Eigen::MatrixXd orthonormal(const Eigen::SparseMatrix<double>& mass, const Eigen::MatrixXd& block) {
-  Eigen::MatrixXd columns = block;
-  for (int pass = 0; pass < 2; ++pass) {  // the second pass removes what rounding left in the first
-    const Eigen::MatrixXd gram = columns.transpose() * (mass * columns);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (gram + gram.transpose()));
-    const Eigen::VectorXd& squares = eigen.eigenvalues();
-    const double threshold = 1e-22 * squares.cwiseAbs().maxCoeff();
-    const Eigen::Index rank = (squares.array() > threshold).count();
-    columns = (columns * eigen.eigenvectors().rightCols(rank)).eval() *
-              squares.tail(rank).cwiseSqrt().cwiseInverse().asDiagonal();
-  }
-  return columns;
-}
-
-// Block Lanczos on K^-1 M with full re-orthogonalisation in the M-inner product, without restarts. Blocks read
-// the sparse factors once for several vectors, which is most of the cost.
-Pairs lanczos_pairs(const FloatingInverse& inverse, Eigen::Index count, double tolerance) {
-  constexpr Eigen::Index kBlock = 8;
-  // The softest pairs enter the reduction as exact eigenpairs; they converge long before the last ones.
-  constexpr double kSoft = 1e-2, kSoftTolerance = 1e-11;
+FreeModes free_modes(const FloatingInverse& inverse, int count, Eigen::Index limit, double tolerance) {
   const Eigen::SparseMatrix<double>& mass = inverse.mass();
   const Eigen::Index n = mass.rows();
-  const Eigen::Index most = std::min(n, 12 * count + 200);
-  std::mt19937 random(1);
-  std::uniform_real_distribution<double> uniform(-1, 1);
-  const Eigen::MatrixXd start = Eigen::MatrixXd::NullaryExpr(n, kBlock, [&] { return uniform(random); });
-  Eigen::MatrixXd block = orthonormal(mass, inverse.apply(start));
-
-  Pairs pairs;
-  Eigen::MatrixXd space(n, most + kBlock), mass_space(n, most + kBlock);
-  Eigen::MatrixXd projected = Eigen::MatrixXd::Zero(most + kBlock, most + kBlock);  // V^T M K^-1 M V
-  Eigen::Index size = 0;
-  while (block.cols() > 0 && size + block.cols() <= most) {
-    const Eigen::Index width = block.cols();
-    space.middleCols(size, width) = block;
-    mass_space.middleCols(size, width).noalias() = mass * block;
-    size += width;
-    Eigen::MatrixXd next = inverse.apply(mass_space.middleCols(size - width, width));
-    for (int pass = 0; pass < 2; ++pass) {
-      const Eigen::MatrixXd part = mass_space.leftCols(size).transpose() * next;
-      next.noalias() -= space.leftCols(size) * part;
-      projected.block(0, size - width, size, width) += part;
-    }
-    projected.block(size - width, 0, width, size) = projected.block(0, size - width, size, width).transpose();
-    // |next y| is the residual of a Ritz pair whose last components are y.
-    const Eigen::MatrixXd gram = next.transpose() * (mass * next);
-    if (!gram.allFinite()) {
-      pairs.status = Status::not_finite;
-      return pairs;
-    }
-    if (size >= count) {
-      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(projected.topLeftCorner(size, size));
-      std::vector<Eigen::Index> order = by_magnitude(ritz.eigenvalues());
-      order.resize(static_cast<std::size_t>(count));
-      const Eigen::VectorXd theta = ritz.eigenvalues()(order);
-      const Eigen::MatrixXd y = ritz.eigenvectors()(Eigen::all, order);
-      const double last = std::abs(theta(count - 1));
-      bool converged = true;
-      for (Eigen::Index k = 0; k < count && converged; ++k) {
-        const Eigen::VectorXd tail = y.col(k).tail(width);
-        const double residual = std::sqrt(std::max(0.0, tail.dot(gram * tail))) / std::abs(theta(k));
-        converged = residual <= (kSoft * std::abs(theta(k)) >= last ? kSoftTolerance : tolerance);
-      }
-      if (converged) {
-        pairs.values = theta;
-        pairs.vectors = space.leftCols(size) * y;
-        return pairs;
-      }
-    }
-    block = orthonormal(mass, next);
-    // The new block is orthogonal to the space only as far as `next` was large: repeat on unit vectors.
-    block -= space.leftCols(size) * (mass_space.leftCols(size).transpose() * block).eval();
-    block = orthonormal(mass, block);
-  }
-  pairs.status = Status::iteration_limit;
-  return pairs;
-}
-
-}  // namespace
-
-FreeModes free_modes(const FloatingInverse& inverse, int count, Eigen::Index limit, double tolerance) {
-  const Eigen::Index n = inverse.mass().rows();
   const Eigen::Index rigid = inverse.rigid_modes().cols();
+  const numerics::ShiftInverse<double> operation{.rows = n, .perform_op = [&](const double* b, double* x) {
+                                                   Eigen::Map<Eigen::VectorXd>(x, n) =
+                                                       inverse.apply(Eigen::Map<const Eigen::VectorXd>(b, n));
+                                                 }};
   Eigen::Index wanted = std::min(std::max<Eigen::Index>(count - rigid, inverse.negative()), limit - rigid);
   FreeModes result;
-  Pairs pairs;
+  numerics::Modes<double> modes;
+  std::vector<Eigen::Index> order;  // of the modes by distance from zero
   for (Eigen::Index asked = wanted + 1;; asked *= 2) {
-    const bool dense = n <= kDenseSize || 3 * asked > n;
-    pairs = dense ? dense_pairs(inverse) : lanczos_pairs(inverse, asked, tolerance);
-    result.status = pairs.status;
-    if (pairs.status != Status::converged) return result;
+    asked = std::min(asked, n);
+    modes = numerics::nearest_modes(operation, mass,
+                                    {.count = static_cast<int>(asked), .tolerance = tolerance, .vector_limit = 20});
+    result.status = modes.status;
+    if (modes.status != Status::converged) return result;
+    order.resize(static_cast<std::size_t>(modes.eigenvalues.size()));
+    std::iota(order.begin(), order.end(), Eigen::Index{0});
+    std::sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
+      return std::abs(modes.eigenvalues(a)) < std::abs(modes.eigenvalues(b));
+    });
     // Elastic modes may lie closer to zero than the negative ones; each of those must be in the basis, or
-    // the residual flexibility would not be positive definite.
+    // the residual flexibility would not be positive definite. The inertia of S tells how many there are.
     Eigen::Index last_negative = 0, negatives = 0;
-    for (Eigen::Index k = 0; k < pairs.values.size(); ++k) {
-      if (pairs.values(k) < 0) {
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      if (modes.eigenvalues(order[k]) < 0) {
         ++negatives;
-        last_negative = k + 1;
+        last_negative = static_cast<Eigen::Index>(k) + 1;
       }
     }
-    wanted = std::min(std::max(wanted, last_negative), pairs.values.size());
-    if (negatives >= inverse.negative() || dense) break;
+    wanted = std::min(std::max(wanted, last_negative), modes.eigenvalues.size());
+    if (negatives >= inverse.negative() || modes.eigenvalues.size() < asked || asked == n) break;
   }
 
-  result.first_neglected =
-      wanted < pairs.values.size() ? 1 / pairs.values(wanted) : std::numeric_limits<double>::infinity();
-  result.eigenvalues = Eigen::VectorXd::Zero(rigid + wanted);
+  result.first_neglected = wanted < modes.eigenvalues.size()
+                               ? modes.eigenvalues(order[static_cast<std::size_t>(wanted)])
+                               : std::numeric_limits<double>::infinity();
+  order.resize(static_cast<std::size_t>(wanted));
+  std::sort(order.begin(), order.end());
+  const Eigen::VectorXd values = modes.eigenvalues(order);
+  // One more inverse iteration, of all at once: the softest, which the reduction treats as exact, gain the most.
+  const Eigen::MatrixXd kept = modes.vectors(Eigen::all, order);
+  const Eigen::MatrixXd refined = inverse.apply(mass * kept) * values.asDiagonal();
+  const Eigen::Index negative = (values.array() < 0).count();
+  result.eigenvalues.resize(rigid + wanted);
+  result.eigenvalues << values.head(negative), Eigen::VectorXd::Zero(rigid), values.tail(wanted - negative);
   result.vectors.resize(n, rigid + wanted);
-  result.vectors << inverse.rigid_modes(), pairs.vectors.leftCols(wanted);
-  result.eigenvalues.tail(wanted) = pairs.values.head(wanted).cwiseInverse();
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(rigid + wanted));
-  std::iota(order.begin(), order.end(), Eigen::Index{0});
-  std::sort(order.begin(), order.end(),
-            [&](Eigen::Index a, Eigen::Index b) { return result.eigenvalues(a) < result.eigenvalues(b); });
-  const Eigen::VectorXd sorted_values = result.eigenvalues(order);
-  const Eigen::MatrixXd sorted_vectors = result.vectors(Eigen::all, order);
-  result.eigenvalues = sorted_values;
-  result.vectors = sorted_vectors;
+  result.vectors << refined.leftCols(negative), inverse.rigid_modes(), refined.rightCols(wanted - negative);
   return result;
 }
 

@@ -45,10 +45,10 @@ struct FreeModes {
 };
 
 /// The `count` modes of K v = lambda M v nearest to lambda = 0, with all rigid and negative ones (which
-/// may make it more than `count`), at most `limit`. Shift-invert block Lanczos at zero; small or nearly
-/// complete problems by a dense eigen-decomposition. M may be singular on the contact dofs. `tolerance` bounds
-/// the residual |K^-1 M v - v / lambda| lambda, whose square is the error of the eigenvalue; the softest modes
-/// are accurate to 1e-11. Statuses: `iteration_limit`, `not_finite`.
+/// may make it more than `count`), at most `limit`: numerics::nearest_modes on K^-1, then one inverse iteration.
+/// Rigid modes are known beforehand, and the inertia of S tells how many negative ones must be found. M may be
+/// singular on the contact dofs. `tolerance` bounds the residual |K^-1 M v - v / lambda| lambda, whose square is
+/// the error of the eigenvalue; the softest modes are far more accurate. Statuses: `iteration_limit`, `not_finite`.
 [[nodiscard]] FreeModes free_modes(const FloatingInverse& inverse, int count, Eigen::Index limit, double tolerance);
 
 }  // namespace dovetail::reduction

@@ -120,7 +120,7 @@ TEST(SparseCholesky, MovesWithItsFactors) {
 
 TEST(SmallestModes, FindsDoubleEigenvaluesTwice) {
   const Eigen::SparseMatrix<double> a = laplacian<double>(25, 1.0);
-  const Modes<double> modes = smallest_modes<double>(a, identity<double>(625), {.count = 20});
+  const Modes<double> modes = smallest_modes<double>(a, identity<double>(625), {.count = 20, .tolerance = 1e-11});
   ASSERT_EQ(modes.status, Status::converged);
   const Eigen::VectorXd exact = laplacian_eigenvalues(25).head(20);
   EXPECT_LT(((modes.eigenvalues - exact).array() / exact.array()).abs().maxCoeff(), 1e-10);
@@ -159,6 +159,46 @@ TEST(SmallestModes, SaysWhenItsVectorsDoNotSuffice) {
       smallest_modes<double>(laplacian<double>(100, 1.0), identity<double>(10000),
                              {.count = 1, .shift = -1e4, .tolerance = 1e-13, .vector_limit = 3});
   EXPECT_EQ(modes.status, Status::iteration_limit);
+}
+
+/// Diagonal K with the given eigenvalues and M = I / 4: lambda = 4 k.
+ShiftInverse<double> diagonal_inverse(const Eigen::VectorXd& stiffness) {
+  return {.rows = stiffness.size(), .perform_op = [&stiffness](const double* b, double* x) {
+            Eigen::Map<Eigen::VectorXd>(x, stiffness.size()) =
+                Eigen::Map<const Eigen::VectorXd>(b, stiffness.size()).cwiseQuotient(stiffness);
+          }};
+}
+
+TEST(NearestModes, FindsEveryCopyAndBothSigns) {
+  // Fourfold -0.3 and threefold 0.5 among 500 eigenvalues from 1 on: a Krylov space of one vector holds one of each.
+  Eigen::VectorXd stiffness = Eigen::VectorXd::LinSpaced(500, 1, 300);
+  stiffness.segment(100, 4).setConstant(-0.3);
+  stiffness.segment(300, 3).setConstant(0.5);
+  const Eigen::SparseMatrix<double> mass = 0.25 * identity<double>(500);
+  for (double tolerance : {1e-6, 1e-11}) {
+    const Modes<double> modes = nearest_modes(diagonal_inverse(stiffness), mass, {.count = 8, .tolerance = tolerance});
+    ASSERT_EQ(modes.status, Status::converged);
+    Eigen::VectorXd exact(8);
+    exact << -1.2, -1.2, -1.2, -1.2, 2, 2, 2, 4;
+    // The error of an eigenvalue is below the residual, at worst tolerance times lambda.
+    EXPECT_LT((modes.eigenvalues - exact).cwiseAbs().maxCoeff(), std::max(1e-12, 4 * tolerance));
+    EXPECT_LT((modes.vectors.transpose() * mass * modes.vectors - Eigen::MatrixXd::Identity(8, 8)).norm(), 1e-11);
+  }
+}
+
+TEST(NearestModes, DoesNotDependOnTheUnits) {
+  // 1/lambda is 1e-16 to 1e-13 of what is usual, below the absolute thresholds of the eigen-solver.
+  const Eigen::VectorXd stiffness = 1e14 * Eigen::VectorXd::LinSpaced(400, 1, 4000).array().square();
+  const Modes<double> modes = nearest_modes(diagonal_inverse(stiffness), identity<double>(400), {.count = 6});
+  ASSERT_EQ(modes.status, Status::converged);
+  EXPECT_LT((modes.eigenvalues.array() / stiffness.head(6).array() - 1).abs().maxCoeff(), 1e-9);
+}
+
+TEST(NearestModes, SaysThatTheSolverReturnsNoNumbers) {
+  Eigen::VectorXd stiffness = Eigen::VectorXd::LinSpaced(400, 1, 4000);
+  stiffness(7) = std::numeric_limits<double>::quiet_NaN();
+  const Modes<double> modes = nearest_modes(diagonal_inverse(stiffness), identity<double>(400), {.count = 6});
+  EXPECT_EQ(modes.status, Status::not_finite);
 }
 
 }  // namespace
