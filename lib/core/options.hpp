@@ -39,7 +39,7 @@ struct Field {
   double si_per_unit = 1.0;  ///< value in the study file times this is the member's value
   Range range = kAnyNumber;  ///< numbers only, in the file's unit
   std::string_view help = {};
-  bool required = false;     ///< the study file must give it
+  bool required = false;                       ///< the study file must give it
   std::vector<std::string_view> choices = {};  ///< strings only; empty: anything
 };
 

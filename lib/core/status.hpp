@@ -7,26 +7,34 @@ namespace dovetail {
 /// How an iterative computation ended. Non-convergence is a value a caller must look at: no solver
 /// of this project throws because it did not converge, and none returns `converged` when it did not.
 enum class Status {
-  converged,         ///< the stopping rule of the solver holds
-  iteration_limit,   ///< the allowed number of iterations was used up
-  stalled,           ///< steps or decrease fell below what double precision resolves
-  singular,          ///< a linear system could not be solved
-  not_finite,        ///< a NaN or infinity appeared
-  not_periodic,      ///< the contact march did not become periodic
-  no_bracket,        ///< a scalar search found no sign change / no extremum in its range
-  interrupted,       ///< the caller asked to stop
+  converged,        ///< the stopping rule of the solver holds
+  iteration_limit,  ///< the allowed number of iterations was used up
+  stalled,          ///< steps or decrease fell below what double precision resolves
+  singular,         ///< a linear system could not be solved
+  not_finite,       ///< a NaN or infinity appeared
+  not_periodic,     ///< the contact march did not become periodic
+  no_bracket,       ///< a scalar search found no sign change / no extremum in its range
+  interrupted,      ///< the caller asked to stop
 };
 
 [[nodiscard]] constexpr std::string_view to_string(Status status) {
   switch (status) {
-    case Status::converged: return "converged";
-    case Status::iteration_limit: return "iteration_limit";
-    case Status::stalled: return "stalled";
-    case Status::singular: return "singular";
-    case Status::not_finite: return "not_finite";
-    case Status::not_periodic: return "not_periodic";
-    case Status::no_bracket: return "no_bracket";
-    case Status::interrupted: return "interrupted";
+    case Status::converged:
+      return "converged";
+    case Status::iteration_limit:
+      return "iteration_limit";
+    case Status::stalled:
+      return "stalled";
+    case Status::singular:
+      return "singular";
+    case Status::not_finite:
+      return "not_finite";
+    case Status::not_periodic:
+      return "not_periodic";
+    case Status::no_bracket:
+      return "no_bracket";
+    case Status::interrupted:
+      return "interrupted";
   }
   return "unknown";
 }

@@ -27,7 +27,9 @@ std::span<const dovetail::Field<Sample>> dovetail::option_table<Sample>() {
 namespace dovetail {
 namespace {
 
-TEST(Options, DefaultsAreValid) { EXPECT_TRUE(violations(Sample{}).empty()); }
+TEST(Options, DefaultsAreValid) {
+  EXPECT_TRUE(violations(Sample{}).empty());
+}
 
 TEST(Options, EveryViolationIsReportedAtOnceInFileUnits) {
   const std::vector<Violation> found = violations(Sample{.length = -0.002, .count = 0, .law = "wrong"}, "sample");
