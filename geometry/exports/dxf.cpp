@@ -8,7 +8,8 @@
 #include <numbers>
 #include <string>
 
-#include "geometry/exports/replace_file.hpp"
+#include "core/errors.hpp"
+#include "core/replace_file.hpp"
 
 namespace dovetail::geometry {
 
@@ -109,7 +110,10 @@ bool write_file(const std::filesystem::path& file, std::span<const Layer> layers
 }  // namespace
 
 void write_dxf(const std::filesystem::path& file, std::span<const Layer> layers) {
-  replace_file(file, [&](const std::filesystem::path& temporary) { return write_file(temporary, layers); });
+  dovetail::replace_file(file, [&](const std::filesystem::path& place) {
+    if (!write_file(place, layers))
+      throw InputError({.file = {}, .key = file.string(), .value = {}, .allowed = "cannot be written completely"});
+  });
 }
 
 }  // namespace dovetail::geometry

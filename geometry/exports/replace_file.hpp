@@ -1,14 +1,17 @@
 #pragma once
 
-#include <filesystem>
-#include <functional>
+#include "core/errors.hpp"
+#include "core/replace_file.hpp"
 
 namespace dovetail::geometry {
 
-/// Lets `write` fill a temporary file beside `target` and renames it to `target`: readers see the old file or the
-/// complete new one, never a part. When `write` throws or returns false, or the rename fails, the temporary file is
-/// removed and InputError (naming the file) or the exception of `write` is thrown.
-void replace_file(const std::filesystem::path& target,
-                  const std::function<bool(const std::filesystem::path& temporary)>& write);
+/// dovetail::replace_file for a `write` that says whether it succeeded.
+inline void replace_file(const std::filesystem::path& target,
+                         const std::function<bool(const std::filesystem::path& temporary)>& write) {
+  dovetail::replace_file(target, [&](const std::filesystem::path& place) {
+    if (!write(place))
+      throw InputError({.file = {}, .key = target.string(), .value = {}, .allowed = "cannot be written completely"});
+  });
+}
 
 }  // namespace dovetail::geometry

@@ -4,10 +4,9 @@
 
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <numbers>
 
-#include "geometry/exports/replace_file.hpp"
+#include "core/replace_file.hpp"
 #include "geometry/measures.hpp"
 
 namespace dovetail::geometry {
@@ -70,12 +69,7 @@ std::string svg(std::span<const Layer> layers, std::optional<Eigen::AlignedBox2d
 
 void write_svg(const std::filesystem::path& file, std::span<const Layer> layers,
                std::optional<Eigen::AlignedBox2d> window) {
-  replace_file(file, [&](const std::filesystem::path& temporary) {
-    std::ofstream out(temporary, std::ios::binary);
-    out << svg(layers, window);
-    out.close();
-    return out.good();
-  });
+  replace_file(file, svg(layers, window));
 }
 
 }  // namespace dovetail::geometry

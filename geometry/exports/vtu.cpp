@@ -5,11 +5,10 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <set>
 
 #include "core/errors.hpp"
-#include "geometry/exports/replace_file.hpp"
+#include "core/replace_file.hpp"
 
 namespace dovetail::geometry {
 
@@ -123,12 +122,7 @@ std::string vtu(const fem::Mesh& mesh, std::span<const MeshField> point_fields,
 void write_vtu(const std::filesystem::path& file, const fem::Mesh& mesh, std::span<const MeshField> point_fields,
                std::span<const MeshField> cell_fields) {
   const std::string text = vtu(mesh, point_fields, cell_fields);
-  replace_file(file, [&](const std::filesystem::path& temporary) {
-    std::ofstream out(temporary, std::ios::binary);
-    out << text;
-    out.close();
-    return out.good();
-  });
+  replace_file(file, text);
 }
 
 }  // namespace dovetail::geometry

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/hdf5_handles.hpp"
+#include "core/replace_file.hpp"
 
 namespace dovetail::hdf5 {
 
@@ -103,37 +104,19 @@ void File::make_group(const std::string& group) {
 }
 
 void write_and_rename(const std::string& path, const std::function<void(File&)>& write) {
-  // In the same folder, because a rename does not cross file systems.
-  const std::string temporary = path + ".part" + std::to_string(getpid());
-  const auto discard = [&] {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-  };
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error))
-    throw InputError(
-        {.file = path, .line = 0, .key = "/", .value = {}, .allowed = "cannot be written: it is a folder"});
-  try {
-    File file = File::create(temporary);
-    write(file);
-    file.close();
-  } catch (const InputError& refused) {
-    discard();
-    // The user knows the name asked for, not the temporary one.
-    std::vector<Violation> found = refused.violations();
-    for (Violation& violation : found)
-      if (violation.file == temporary) violation.file = path;
-    throw InputError(found);
-  } catch (...) {
-    discard();
-    throw;
-  }
-  std::filesystem::rename(temporary, path, error);
-  if (error) {
-    discard();
-    throw InputError(
-        {.file = path, .line = 0, .key = "/", .value = {}, .allowed = "cannot be written: " + error.message()});
-  }
+  replace_file(path, [&](const std::filesystem::path& place) {
+    try {
+      File file = File::create(place.string());
+      write(file);
+      file.close();
+    } catch (const InputError& refused) {
+      // The user knows the name asked for, not the temporary one.
+      std::vector<Violation> found = refused.violations();
+      for (Violation& violation : found)
+        if (violation.file == place.string()) violation.file = path;
+      throw InputError(found);
+    }
+  });
 }
 
 }  // namespace dovetail::hdf5

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <ostream>
 
+#include "core/replace_file.hpp"
 #include "studies/program/commands.hpp"
 #include "studies/program/engine.hpp"
 #include "studies/program/export.hpp"
@@ -26,16 +27,6 @@ fs::path run_file(const std::string& directory, const std::string& name, const s
   return file;
 }
 
-void check_target(const std::string& file) {
-  const fs::path folder = fs::path(file).has_parent_path() ? fs::path(file).parent_path() : ".";
-  std::error_code ignored;
-  if (!fs::is_directory(folder, ignored))
-    throw InputError(Violation{.file = {},
-                               .key = file,
-                               .value = {},
-                               .allowed = "cannot be written: the directory " + folder.string() + " does not exist"});
-}
-
 report::FieldRecord fields_of(const ExportOptions& options, bool of_run) {
   if (of_run) {
     const report::RunRecord record = report::read_results(run_file(options.input, "results.h5", "results"));
@@ -58,7 +49,7 @@ int run_export(const ExportOptions& options, const Streams& streams) {
     for (const std::string_view known : export_formats()) (allowed += ' ') += known;
     throw InputError(Violation{.file = {}, .key = "--format", .value = options.format, .allowed = allowed});
   }
-  check_target(options.file);
+  check_replaceable(options.file);
   const bool of_run = fs::is_directory(options.input);
   if (is_field_format(options.format)) {
     export_fields(fields_of(options, of_run), options.file);

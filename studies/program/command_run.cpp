@@ -4,12 +4,12 @@
 #include <filesystem>
 #include <ostream>
 
+#include "core/replace_file.hpp"
 #include "optimizer/fingerprint.hpp"
 #include "optimizer/journal.hpp"
 #include "optimizer/run.hpp"
 #include "studies/program/commands.hpp"
 #include "studies/program/interrupt.hpp"
-#include "studies/program/output_file.hpp"
 #include "studies/program/progress.hpp"
 #include "studies/program/run_output.hpp"
 #include "studies/program/version.hpp"
@@ -76,7 +76,7 @@ int run_study(const RunOptions& options, const Streams& streams, const RunEngine
   optimizer::Journal journal =
       options.resume ? optimizer::Journal::resume(file, fingerprint) : optimizer::Journal::create(file, fingerprint);
   if (!journal.note().empty()) streams.err << "dovetail: " << journal.note() << "\n";
-  write_file(directory / "study.toml", study.text);
+  replace_file(directory / "study.toml", study.text);
 
   const OrderlyInterrupt interrupt;
   OptimizationResult result;

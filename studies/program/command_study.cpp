@@ -4,20 +4,20 @@
 #include <filesystem>
 #include <ostream>
 
+#include "core/replace_file.hpp"
 #include "optimizer/problem.hpp"
 #include "optimizer/responses.hpp"
 #include "reduction/model_file.hpp"
 #include "studies/program/commands.hpp"
 #include "studies/program/engine.hpp"
 #include "studies/program/json.hpp"
-#include "studies/program/output_file.hpp"
 #include "studies/program/study_template.hpp"
 
 namespace dovetail::studies {
 
 void deliver_json(const std::string& where, const std::string& text, const Streams& streams) {
   if (where.empty()) return;
-  if (where != "-") return write_file(where, text);
+  if (where != "-") return replace_file(where, text);
   streams.out << text << std::flush;
   if (!streams.out)
     throw InputError(Violation{.file = {}, .key = "standard output", .value = {}, .allowed = "cannot be written"});
@@ -39,7 +39,7 @@ int run_new(const NewOptions& options, const Streams& streams) {
   std::string title = file.stem().string();
   for (char& c : title)
     if (c == '"' || c == '\\' || static_cast<unsigned char>(c) < 0x20) c = ' ';
-  write_file(file, study_template(title));
+  replace_file(file, study_template(title));
   streams.out << fmt::format("{}: written; try `dovetail evaluate {}`\n", options.file, options.file);
   return kDone;
 }

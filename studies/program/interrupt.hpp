@@ -1,7 +1,6 @@
 #pragma once
 
 #include <atomic>
-#include <string>
 
 namespace dovetail::studies {
 
@@ -21,16 +20,7 @@ class OrderlyInterrupt {
   [[nodiscard]] bool requested() const { return flag().load(); }
 };
 
-/// Handles SIGINT and SIGTERM of this process from now on.
+/// Handles SIGINT and SIGTERM of this process from now on. One that ends the process removes the file being written.
 void install_interrupt_handler();
-
-/// While it lives, an interrupt that ends the process removes this file first. One at a time.
-class RemoveOnInterrupt {
- public:
-  explicit RemoveOnInterrupt(const std::string& file);
-  ~RemoveOnInterrupt();
-  RemoveOnInterrupt(const RemoveOnInterrupt&) = delete;
-  RemoveOnInterrupt& operator=(const RemoveOnInterrupt&) = delete;
-};
 
 }  // namespace dovetail::studies

@@ -3,10 +3,10 @@
 #include <optional>
 #include <ostream>
 
+#include "core/replace_file.hpp"
 #include "studies/program/best_file.hpp"
 #include "studies/program/export.hpp"
 #include "studies/program/field_export.hpp"
-#include "studies/program/output_file.hpp"
 #include "studies/program/version.hpp"
 #include "studies/report/report_html.hpp"
 #include "studies/report/results_file.hpp"
@@ -53,8 +53,8 @@ void write_run(const Study& study, const OptimizationResult& result, const RunEn
   // The design first: it costs nothing and must not be lost when describing it is cut short.
   if (result.best) {
     const optimizer::Candidate& best = result.evaluations[*result.best];
-    write_file(directory / "best.toml",
-               with_values(parse_document(study.text, study.file), variable_values(study, best)));
+    replace_file(directory / "best.toml",
+                 with_values(parse_document(study.text, study.file), variable_values(study, best)));
   }
   const report::RunRecord record = record_of(study, result, engine, seconds);
   report::write_results(directory / "results.h5", record);

@@ -11,7 +11,6 @@
 
 #include "core/errors.hpp"
 #include "geometry/exports/dxf.hpp"
-#include "geometry/exports/replace_file.hpp"
 #include "geometry/exports/svg.hpp"
 #include "geometry/measures.hpp"
 
@@ -36,7 +35,6 @@ class ExportTest : public testing::Test {
 };
 using Dxf = ExportTest;
 using Svg = ExportTest;
-using ReplaceFile = ExportTest;
 
 ProfileParameters formed_design() {
   ProfileParameters p;
@@ -173,20 +171,6 @@ TEST_F(Svg, IsWrittenToAFile) {
   std::stringstream text;
   text << in.rdbuf();
   EXPECT_EQ(text.str(), svg(layers));
-  EXPECT_EQ(files(), 1U);
-}
-
-TEST_F(ReplaceFile, KeepsTheOldFileWhenWritingFails) {
-  const std::filesystem::path file = folder_ / "data";
-  std::ofstream(file) << "old";
-  const auto fail = [](const std::filesystem::path& temporary) {
-    std::ofstream(temporary) << "part";
-    return false;
-  };
-  EXPECT_THROW(replace_file(file, fail), InputError);
-  std::string text;
-  std::ifstream(file) >> text;
-  EXPECT_EQ(text, "old");
   EXPECT_EQ(files(), 1U);
 }
 

@@ -6,9 +6,9 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/replace_file.hpp"
 #include "optimizer/journal.hpp"
 #include "studies/program/commands.hpp"
-#include "studies/program/output_file.hpp"
 #include "tests/unit/studies/sample_study.hpp"
 
 namespace dovetail::studies {
@@ -26,7 +26,7 @@ class Run : public testing::Test {
     fs::remove_all(directory_);
     fs::create_directories(directory_);
     std::string text = replaced(study_template("sample"), "max_evaluations = 100", "max_evaluations = 40");
-    write_file(study(), text);
+    replace_file(study(), text);
   }
   void TearDown() override { fs::remove_all(directory_); }
 
@@ -89,7 +89,7 @@ TEST_F(Run, WritesAStudyThatEvaluatesToTheBestDesign) {
 
 TEST_F(Run, RefusesAnExistingDirectory) {
   fs::create_directories(results());
-  write_file(results() / "notes.txt", "mine");
+  replace_file(results() / "notes.txt", "mine");
   int calls = 0;
   try {
     run(false, counted(calls));
@@ -127,7 +127,7 @@ TEST_F(Run, ResumingAnotherStudyIsRefused) {
   ASSERT_EQ(run(false, counted(calls)), kDone);
   std::ifstream stream(study());
   const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  write_file(study(), replaced(text, "friction = 0.5", "friction = 0.4"));
+  replace_file(study(), replaced(text, "friction = 0.5", "friction = 0.4"));
   EXPECT_THROW(run(true, counted(calls)), InputError);
 }
 
@@ -147,31 +147,10 @@ TEST_F(Run, WithoutAFeasibleDesignNothingIsCalledBest) {
 }
 
 TEST_F(Run, NeedsVariablesAndLeavesNothingWithoutThem) {
-  write_file(study(), study_template("s").substr(0, study_template("s").find("# What the optimiser may change")));
+  replace_file(study(), study_template("s").substr(0, study_template("s").find("# What the optimiser may change")));
   int calls = 0;
   EXPECT_THROW(run(false, counted(calls)), InputError);
   EXPECT_FALSE(fs::exists(results()));
-}
-
-TEST(OutputFile, FailuresLeaveNothingBehind) {
-  const fs::path directory = fs::temp_directory_path() / "dovetail_output_file";
-  fs::remove_all(directory);
-  fs::create_directories(directory);
-  EXPECT_THROW(write_file(directory / "missing" / "a.json", "x"), InputError);
-  EXPECT_THROW(write_file(directory, "x"), InputError);
-  write_file(directory / "a.json", "old");
-  EXPECT_THROW(write_file_by(directory / "a.json",
-                             [](const fs::path& place) {
-                               std::ofstream(place) << "half";
-                               throw std::runtime_error("no more");
-                             }),
-               std::runtime_error);
-  std::ifstream stream(directory / "a.json");
-  std::string kept;
-  stream >> kept;
-  EXPECT_EQ(kept, "old");
-  EXPECT_EQ(std::distance(fs::directory_iterator(directory), fs::directory_iterator()), 1);
-  fs::remove_all(directory);
 }
 
 }  // namespace
