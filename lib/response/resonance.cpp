@@ -56,7 +56,7 @@ class PeakSearch {
       SteadyState state = steady_state(model_, omega, condition_, options_, guess);
       ++result_.solves;
       result_.jacobians += state.iterations;
-      last_status_ = state.status == Status::converged && !state.linearisation ? Status::singular : state.status;
+      last_status_ = state.status;
       if (last_status_ == Status::converged) {
         accept(std::move(state));
         return true;

@@ -43,9 +43,12 @@ struct Scaled {
   }
 };
 
-// What is left of forces after cancellation: a few units in the last place of the largest terms of f.
+// What is left of forces after cancellation: a few units in the last place of the largest terms of f. A start at which
+// rounding swamps the excitation is no measure of the forces at the solution.
 double rounding_floor(const Scaled& scaled) {
-  return 4e-15 * (scaled.problem.system().force.norm() + scaled.state.prediction.norm()) / scaled.force;
+  constexpr double kLargest = 1e-6;
+  const double forces = scaled.problem.system().force.norm() + scaled.state.prediction.norm();
+  return std::min(4e-15 * forces / scaled.force, kLargest);
 }
 
 }  // namespace

@@ -72,7 +72,7 @@ class Search {
   [[nodiscard]] SteadyState result() const {
     const SteadyResidual residual = problem(ratio_);
     ResidualState state;
-    residual.evaluate(best_.displacement, options_.linearise, state);
+    residual.evaluate(best_.displacement, best_.status == Status::converged, state);
     SteadyState steady;
     summarise(residual, state, steady);
     steady.iterations = iterations_;
@@ -80,9 +80,14 @@ class Search {
     steady.penalty_ratio = ratio_;
     steady.status = best_.status;
     if (steady.status == Status::converged && state.status != Status::converged) steady.status = state.status;
-    if (steady.status != Status::converged || !options_.linearise) return steady;
+    if (steady.status != Status::converged) return steady;
     auto linear = std::make_shared<const Linearisation>(residual, std::move(state));
-    if (linear->status() == Status::converged && !linear->regularised()) steady.linearisation = std::move(linear);
+    // A body that nothing holds drifts until the residual is small against rounding: that is no state of it.
+    constexpr double kFloats = 1e-13;
+    if (linear->status() != Status::converged || linear->regularised() || linear->reciprocal_condition() < kFloats)
+      steady.status = Status::singular;
+    else if (options_.linearise)
+      steady.linearisation = std::move(linear);
     return steady;
   }
 

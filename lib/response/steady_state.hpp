@@ -50,12 +50,13 @@ struct SteadyState {
   double contact_work = 0;  ///< of the truncated contact force on the truncated velocity; input - damping exactly
   double error_force = 0;   ///< e_lambda [Salles 2009, eq. 36]
   double error_energy = 0;  ///< e_E [Salles 2009, eq. 38]
-  /// Jacobian at the solution, for predictors and sensitivities; null when the solve failed.
+  /// Jacobian at the solution, for predictors and sensitivities; null when the solve failed or it was not asked for.
   std::shared_ptr<const Linearisation> linearisation;
 };
 
 /// The periodic response to the model's excitation at `omega` (rad/s, > 0). `guess` is U [nc, 2H+1] of a nearby
-/// state or empty (start closed). Throws InputError on bad options or sizes; everything else is a status.
+/// state or empty (start closed). Throws InputError on bad options or sizes; everything else is a status: singular when
+/// the forces balance but the Jacobian is singular there, as for a body that nothing holds.
 [[nodiscard]] SteadyState steady_state(const std::shared_ptr<const CondensedModel>& model, double omega,
                                        const ContactCondition& condition, const SteadyOptions& options,
                                        const Eigen::MatrixXd& guess = {});

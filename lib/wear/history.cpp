@@ -157,8 +157,7 @@ History history(const std::shared_ptr<const response::CondensedModel>& model, do
       if (control.stopped()) return finish(HistoryEnd::interrupted, Status::interrupted);
       const VectorXd change = jump * rate;
       MatrixXd guess = result.steady.displacement;
-      if (options.predictor && result.steady.linearisation &&
-          result.steady.linearisation->status() == Status::converged)
+      if (options.predictor && result.steady.linearisation)
         guess += result.steady.linearisation->response_to_wear(change);
       next = run.solve(result.steady.omega, run.depth() + change, guess);
       count(next);

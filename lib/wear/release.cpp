@@ -61,12 +61,6 @@ response::SteadyState Release::solve_on(const std::shared_ptr<const response::Co
   }
   state = response::steady_state(model, omega_, condition, options, guess);
   count(1, state.iterations);
-  // A body that nothing holds drifts until the residual is small against rounding: no state at all.
-  constexpr double kFloats = 1e-13;
-  const response::Linearisation* linearisation = state.linearisation.get();
-  const bool regular = linearisation != nullptr &&
-                       (linearisation->factorised_size() == 0 || linearisation->reciprocal_condition() > kFloats);
-  if (state.status == Status::converged && !regular) state.status = Status::singular;
   return state;
 }
 

@@ -198,6 +198,47 @@ TEST(SteadyState, SolversAgree) {
   }
 }
 
+// A free body on `nodes` contact nodes, pressed on them: nothing else holds it, and rounding leaves its stiffness
+// against being moved as a whole at about 1e-16 of the others instead of zero.
+reduction::ReducedModel free_body(Eigen::Index nodes) {
+  reduction::ReducedModel model = random_model(nodes, 1, false);
+  const Eigen::Index n = model.stiffness.rows();
+  Eigen::MatrixXd rigid = Eigen::MatrixXd::Zero(n, 2);
+  for (Eigen::Index i = 0; i < n; ++i) rigid(i, i % 2) = 1;  // contact dofs begin at an even index: N, T, N, T, ...
+  const Eigen::MatrixXd keep =
+      Eigen::MatrixXd::Identity(n, n) - rigid * (rigid.transpose() * rigid).inverse() * rigid.transpose();
+  model.stiffness = keep * model.stiffness * keep;
+  model.damping = 0.03 * model.stiffness;
+  model.static_force *= 20;
+  model.contact.friction.setConstant(0.8);
+  return model;
+}
+
+TEST(SteadyState, OfABodyThatNothingHoldsIsSingular) {
+  const auto model = std::make_shared<const CondensedModel>(free_body(3));
+  const SteadyState held = steady_state(model, 1.3, {}, {});
+  ASSERT_EQ(held.status, Status::converged);
+  ASSERT_TRUE(held.linearisation);
+  for (const bool linearise : {true, false}) {
+    const SteadyState floating = steady_state(model, 1.3, {.released = {1, 1, 1}}, {.linearise = linearise});
+    EXPECT_NE(floating.status, Status::converged) << linearise << " " << floating.residual;
+    EXPECT_FALSE(floating.linearisation);
+  }
+}
+
+TEST(SteadyState, OfABodyThatIsFreeToGoNowhereInParticularIsSingular) {
+  // Without a static load the free body is in equilibrium wherever it is: the residual vanishes, the place is not
+  // known.
+  reduction::ReducedModel body = free_body(3);
+  body.static_force.setZero();
+  const auto model = std::make_shared<const CondensedModel>(body);
+  for (const bool linearise : {true, false}) {
+    const SteadyState floating = steady_state(model, 1.3, {.released = {1, 1, 1}}, {.linearise = linearise});
+    EXPECT_EQ(floating.status, Status::singular) << linearise << " " << floating.residual;
+    EXPECT_FALSE(floating.linearisation);
+  }
+}
+
 TEST(Linearisation, PredictsWearAndFrequency) {
   const auto model = std::make_shared<const CondensedModel>(random_model(4, 2, false));
   const SteadyOptions options{.tolerance = 1e-13, .periodic_tolerance = 1e-13};
