@@ -1,6 +1,7 @@
 #include "wear/asymptote.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -91,6 +92,11 @@ Asymptote asymptote(const std::shared_ptr<const response::CondensedModel>& model
                     const AsymptoteOptions& options, const response::SteadyState* unworn, const Control& control) {
   if (std::vector<Violation> wrong = violations(options, "asymptote"); !wrong.empty())
     throw InputError(std::move(wrong));
+  if (std::count(start.released.begin(), start.released.end(), 0) != std::ssize(start.released))
+    throw InputError({.file = {},
+                      .key = "start.released",
+                      .value = "some nodes",
+                      .allowed = "must release no node: which ones wear off is the answer"});
 
   const reduction::ContactNodes& contact = model->contact();
   Release release(model, omega, start, steady, control);

@@ -82,9 +82,10 @@ struct Asymptote {
 /// states are not unique: where pressures shift while the joint wears, or nodes lift off, a history can end deeper.
 ///
 /// @param omega      excitation frequency rad/s, held; the unworn resonance is a good choice
-/// @param start      wear depth already there (the result includes it) and slip origin; its `released` must be empty
+/// @param start      wear depth already there (the result includes it) and slip origin; it must release no node
 /// @param unworn     steady state of `start` at omega to begin with, or null
-/// Cost: 5 to 15 steady states, warm-started. Throws InputError for options out of range.
+/// Cost: 5 to 15 steady states, warm-started. Throws InputError for options out of range and
+/// for nodes released at the start.
 [[nodiscard]] Asymptote asymptote(const std::shared_ptr<const response::CondensedModel>& model, double omega,
                                   const response::ContactCondition& start, const response::SteadyOptions& steady,
                                   const AsymptoteOptions& options = {}, const response::SteadyState* unworn = nullptr,

@@ -61,7 +61,7 @@ struct History {
 /// the step is halved from the last converged one.
 ///
 /// @param omega      exciting frequency rad/s; with follow = resonance where the first search starts
-/// @param start      wear depth to start from and slip origin; its `released` mask must be empty
+/// @param start      wear depth to start from and slip origin; nodes released in it never touch
 /// @param resonance  names the output whose amplitude is recorded and, when asked for, followed
 /// Cost: one steady state per step (or one resonance). Throws InputError for options out of range.
 [[nodiscard]] History history(const std::shared_ptr<const response::CondensedModel>& model, double omega,

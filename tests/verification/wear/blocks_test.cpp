@@ -113,6 +113,14 @@ TEST(Block, GapAndInterferenceShiftTheFloorOnly) {
   }
 }
 
+TEST(Block, IsNotAskedWithNodesReleasedAlready) {
+  response::ContactCondition start;
+  start.released.assign(static_cast<std::size_t>(condensed(stuck_block())->nodes()), 0);
+  EXPECT_NO_THROW((void)asymptote(condensed(stuck_block()), 1.0, start, kSteady, kOptions));
+  start.released[0] = 1;
+  EXPECT_THROW((void)asymptote(condensed(stuck_block()), 1.0, start, kSteady, kOptions), InputError);
+}
+
 TEST(Block, HalvesAndReportsStepsThatFail) {
   // With no iterations to speak of, nothing converges: the history says so and invents no state.
   response::SteadyOptions hasty = kSteady;
