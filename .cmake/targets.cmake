@@ -45,5 +45,8 @@ function(dovetail_test name)
   target_link_libraries(${name} PRIVATE dovetail_warnings ${ARG_LINK} GTest::gtest_main GTest::gmock)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
   include(GoogleTest)
-  gtest_discover_tests(${name} PROPERTIES LABELS ${ARG_LABEL} DISCOVERY_TIMEOUT 60)
+  # Tests run side by side: threads of OpenBLAS within each would only slow the others down.
+  gtest_discover_tests(${name}
+    PROPERTIES LABELS ${ARG_LABEL} ENVIRONMENT OPENBLAS_NUM_THREADS=1
+    DISCOVERY_TIMEOUT 60)
 endfunction()

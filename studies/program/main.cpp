@@ -1,9 +1,13 @@
 #include <iostream>
 
+#include "numerics/dense_lu.hpp"
 #include "studies/program/command_line.hpp"
 #include "studies/program/interrupt.hpp"
 
 int main(int argc, char** argv) {
+  // Candidates are evaluated side by side: threads of OpenBLAS within each would only compete with the others, and one
+  // thread gives the same digits whatever the machine.
+  dovetail::numerics::set_blas_threads(1);
   dovetail::studies::install_interrupt_handler();
   return dovetail::studies::run_program(argc, argv, {.out = std::cout, .err = std::cerr});
 }
