@@ -1,4 +1,4 @@
-# The libraries this project stands on; all of them are Debian packages (see .debian-packages).
+# The libraries this project stands on; all of them are Debian packages (see .setup/packages.txt).
 find_package(Threads REQUIRED)
 find_package(PkgConfig REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
