@@ -1,0 +1,99 @@
+// How smooth the responses are along each design variable of a study, through its start design:
+//   build/tests/benchmarks/smoothness STUDY.toml [POINTS=41] [PAGE.html]
+// Prints, per variable and response, the largest jump, and writes the lines as a page of plots. The jump is
+// max |third difference| / 2 relative to the largest value on the line: a step of height s gives s, a smooth curve
+// something that falls with the third power of the spacing.
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "core/errors.hpp"
+#include "numerics/dense_lu.hpp"
+#include "optimizer/evaluator.hpp"
+#include "studies/program/engine.hpp"
+#include "studies/program/study.hpp"
+#include "studies/report/html.hpp"
+#include "studies/report/svg_plot.hpp"
+
+namespace dovetail {
+namespace {
+
+const std::vector<std::string> kResponses{"resonance_hz",
+                                          "peak_amplitude_m",
+                                          "blade_fillet_stress_pa",
+                                          "disk_fillet_stress_pa",
+                                          "contact_pressure_max_pa",
+                                          "initial_wear_rate_m3_per_cycle",
+                                          "asymptotic_wear_volume_m3",
+                                          "asymptotic_wear_depth_max_m",
+                                          "resonance_drift"};
+
+double largest_jump(const std::vector<double>& y) {
+  double jump = 0, size = 0;
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    size = std::max(size, std::abs(y[i]));
+    if (i >= 3) jump = std::max(jump, std::abs(y[i] - 3 * y[i - 1] + 3 * y[i - 2] - y[i - 3]) / 2);
+  }
+  return size > 0 ? jump / size : 0;
+}
+
+int run(const std::string& file, int points, const std::string& page) {
+  const studies::Study study = studies::load_study(file);
+  const auto evaluator = studies::scene_evaluator(study);
+  std::ofstream out(page);
+  out << "<!doctype html><meta charset=utf-8><title>Smoothness</title><style>body{font:15px sans-serif;max-width:70em;"
+         "margin:2em auto}figure{display:inline-block;width:33em;vertical-align:top}"
+      << report::plot_style() << "</style><h1>Responses along lines through the start design</h1>";
+  for (const optimizer::DesignVariable& variable : study.problem.space.variables()) {
+    std::vector<double> x;
+    std::vector<std::vector<double>> y(kResponses.size());
+    int failed = 0;
+    for (int i = 0; i < points; ++i) {
+      optimizer::Scene scene = study.scene;
+      const double value = variable.lower + (variable.upper - variable.lower) * i / (points - 1);
+      optimizer::set_parameter(scene, variable.key, value);
+      const optimizer::Evaluation evaluation = evaluator->evaluate(scene).evaluation;
+      std::fprintf(stderr, "%s = %g: %s\n", variable.key.c_str(), value, evaluation.status.c_str());
+      if (!evaluation.converged()) {
+        ++failed;
+        continue;
+      }
+      x.push_back(value);
+      for (std::size_t r = 0; r < kResponses.size(); ++r) y[r].push_back(evaluation.responses.at(kResponses[r]));
+    }
+    out << "<h2>" << report::escape(variable.key) << "</h2>";
+    for (std::size_t r = 0; r < kResponses.size(); ++r) {
+      std::printf("%-34s %-32s largest jump %.2e%s\n", variable.key.c_str(), kResponses[r].c_str(), largest_jump(y[r]),
+                  failed > 0 ? "  (points missing)" : "");
+      report::Plot plot;
+      plot.title = kResponses[r];
+      plot.x.label = variable.key;
+      plot.lines.push_back({.x = x, .y = y[r], .dots = true});
+      out << report::plot_figure(plot);
+    }
+    std::fflush(stdout);
+  }
+  return out ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace dovetail
+
+int main(int argc, char** argv) {
+  if (argc < 2) {
+    std::cerr << "usage: smoothness STUDY.toml [POINTS] [PAGE.html]\n";
+    return 2;
+  }
+  dovetail::numerics::set_blas_threads(1);
+  try {
+    return dovetail::run(argv[1], argc > 2 ? std::max(4, std::atoi(argv[2])) : 41,
+                         argc > 3 ? argv[3] : "smoothness.html");
+  } catch (const dovetail::InputError& error) {
+    std::cerr << error.what() << '\n';
+    return 2;
+  }
+}

@@ -1,0 +1,186 @@
+// The whole path on a coarse section of the default joint: geometry to worn resonance.
+#include "optimizer/evaluator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "optimizer/problem.hpp"
+#include "reduction/accuracy.hpp"
+#include "wear/history.hpp"
+
+namespace dovetail::optimizer {
+namespace {
+
+Scene coarse_scene() {
+  Scene scene;
+  scene.mesh.flank_elements = 12;
+  scene.mesh.fillet_fraction = 0.2;
+  scene.mesh.bulk_size = 4e-3;
+  scene.geometry.left.mismatch = scene.geometry.right.mismatch = 4e-6;
+  return scene;
+}
+
+const SceneEvaluator& evaluator() {
+  static const SceneEvaluator instance(coarse_scene());
+  return instance;
+}
+
+const CandidateResult& baseline() {
+  static const CandidateResult result = evaluator().evaluate(coarse_scene());
+  return result;
+}
+
+TEST(SectionEvaluation, ConvergesWithEveryResponseAndAFiniteErrorBar) {
+  const Evaluation& evaluation = baseline().evaluation;
+  ASSERT_TRUE(evaluation.converged()) << evaluation.status;
+  for (const auto& [name, value] : evaluation.responses) EXPECT_TRUE(std::isfinite(value)) << name;
+  EXPECT_GE(evaluation.responses.size(), 17U);
+  for (const auto& [name, bar] : evaluation.error_estimates) EXPECT_TRUE(std::isfinite(bar) && bar >= 0) << name;
+}
+
+TEST(SectionEvaluation, FlanksCarryTheCentrifugalPull) {
+  // Static equilibrium of the blade in the radial direction, its displacement neglected against its radius (1e-4).
+  const CandidateModel& model = baseline().model;
+  const Scene scene = coarse_scene();
+  const double angle = scene.geometry.right.angle;
+  double radial = 0;
+  for (Eigen::Index i = 0; i < model.system.contact.count(); ++i) {
+    const double normal = model.preload.force(2 * i);
+    const double tangential = model.preload.force(2 * i + 1);
+    // Force on the blade is -lambda; n = (+-cos, sin), t points down the flank: (+-sin, -cos).
+    radial += -(normal * std::sin(angle) - tangential * std::cos(angle));
+  }
+  const double speed = scene.loading.speed;
+  double pull = 0;
+  const fem::Mesh& mesh = model.mesh.sector.mesh;
+  std::vector<bool> blade_node(static_cast<std::size_t>(mesh.node_count()), false);
+  for (int e = 0; e < mesh.element_count(); ++e)
+    if (mesh.regions[static_cast<std::size_t>(mesh.region[static_cast<std::size_t>(e)])].body == 0)
+      for (const int node : mesh.elements[static_cast<std::size_t>(e)])
+        blade_node[static_cast<std::size_t>(node)] = true;
+  const Eigen::VectorXd load = fem::centrifugal_load(model.system.full.mass, mesh);
+  for (int node = 0; node < mesh.node_count(); ++node)
+    if (blade_node[static_cast<std::size_t>(node)]) pull += speed * speed * load(2 * node + 1);
+  EXPECT_NEAR(-radial, pull, 2e-3 * pull);
+}
+
+TEST(SectionEvaluation, ReducedModelAgreesWithTheFullOneAtEveryHarmonic) {
+  // The reduction of the evaluator compared with the full matrices it came from: errors like (h w / w_cut)^2.
+  const CandidateModel& model = baseline().model;
+  const double omega = baseline().unworn->omega;
+  reduction::FullModel full;
+  full.stiffness = fem::constrain(model.stiffness, model.system.constraints);
+  full.mass = model.system.mass;
+  full.static_force = model.system.centrifugal;
+  full.cosine_force = model.system.tip;
+  full.sine_force = Eigen::MatrixXd::Zero(model.system.size(), 1);
+  full.outputs = model.system.tip;
+  full.output_names = {"tip_x"};
+  full.contact = model.reduction.model.contact;
+  for (Eigen::Index i = 0; i < full.contact.count(); ++i) {
+    full.contact.normal(i) = static_cast<int>(model.system.internal_size() + 2 * i);
+    full.contact.tangential(i, 0) = full.contact.normal(i) + 1;
+  }
+  // 1.001: beside the resonance of the glued blade, where Z is large but finite.
+  const std::array<double, 4> at{0.0, 1.01 * omega, 2 * omega, 3 * omega};
+  for (const reduction::StiffnessError& error : reduction::compare(full, model.reduction, at)) {
+    EXPECT_LT(error.stiffness, 2e-3) << error.angular_frequency / omega;
+    EXPECT_LT(error.flexibility, 1e-4) << error.angular_frequency / omega;
+  }
+}
+
+TEST(SectionEvaluation, EnergyIsBalancedAtTheResonance) {
+  // Harmonic by harmonic the truncated contact force does the work input - damping: to the residual tolerance.
+  const response::SteadyState& state = baseline().unworn->state;
+  EXPECT_NEAR(state.input_energy, state.damping_energy + state.contact_work, 1e-7 * state.input_energy);
+  // Friction's own count from the slip differs by truncation in harmonics and samples: under 5 % at H = 3.
+  EXPECT_NEAR(state.friction_energy, state.contact_work, 0.05 * state.contact_work);
+}
+
+TEST(SectionEvaluation, EnergyBalanceConvergesWithHarmonicsAndSamples) {
+  const CandidateModel& model = baseline().model;
+  std::vector<double> defect;
+  for (const int harmonics : {3, 9, 27}) {
+    response::SteadyOptions options = steady_options({});
+    options.harmonics = harmonics;
+    options.samples = 128 * harmonics;
+    const response::SteadyState state = response::steady_state(model.condensed, baseline().unworn->omega, {}, options);
+    ASSERT_EQ(state.status, Status::converged);
+    defect.push_back(std::abs(state.input_energy - state.damping_energy - state.friction_energy) / state.input_energy);
+  }
+  EXPECT_LT(defect[1], defect[0]);
+  EXPECT_LT(defect[2], 0.5 * defect[1]);
+}
+
+TEST(SectionEvaluation, DirectAsymptoteAgreesWithTheHistory) {
+  const CandidateResult& result = baseline();
+  const wear::Asymptote& direct = *result.asymptote;
+  ASSERT_EQ(direct.verdict, wear::Verdict::asymptote);
+  ASSERT_GT(direct.largest_depth, 0);
+  // First order in the increment: 1 % of the depth leaves about 1 % of it.
+  wear::HistoryOptions options{.increment = 0.01 * direct.largest_depth, .steps = 2000};
+  options.rate_fraction = 1e-6;
+  const wear::History history = wear::history(result.model.condensed, result.unworn->omega, {},
+                                              steady_options(coarse_scene().solver), options, {});
+  ASSERT_EQ(history.status, Status::converged);
+  const Eigen::VectorXd last = history.depth.row(history.depth.rows() - 1);
+  EXPECT_LT((last - direct.depth).cwiseAbs().maxCoeff(), 0.05 * direct.largest_depth);
+}
+
+TEST(SectionEvaluation, RunsTwiceToTheSameBits) {
+  const CandidateResult again = evaluator().evaluate(coarse_scene());
+  EXPECT_EQ(again.evaluation.responses, baseline().evaluation.responses);
+  EXPECT_EQ(again.evaluation.error_estimates, baseline().evaluation.error_estimates);
+}
+
+TEST(SectionEvaluation, MirrorImagesWearAlike) {
+  Scene left = coarse_scene();
+  Scene right = coarse_scene();
+  left.geometry.left.mismatch = 10e-6;
+  right.geometry.right.mismatch = 10e-6;
+  const Evaluation a = evaluator().evaluate(left).evaluation;
+  const Evaluation b = evaluator().evaluate(right).evaluation;
+  ASSERT_TRUE(a.converged() && b.converged()) << a.status << b.status;
+  for (const char* name : {"resonance_hz", "asymptotic_wear_volume_m3", "blade_fillet_stress_pa", "mass_kg"})
+    EXPECT_NEAR(a.responses.at(name), b.responses.at(name), 1e-5 * std::abs(b.responses.at(name))) << name;
+}
+
+TEST(SectionEvaluation, InfeasibleDesignIsNamedNotComputed) {
+  Scene scene = coarse_scene();
+  scene.geometry.left.angle = scene.geometry.right.angle = 0.4;  // below atan(0.5) = 0.46: locks
+  const Evaluation evaluation = evaluator().evaluate(scene).evaluation;
+  EXPECT_EQ(evaluation.status, "infeasible");
+  EXPECT_FALSE(evaluation.feasible);
+  EXPECT_GT(evaluation.constraints.at("rule:self_locking_left"), 0);
+  EXPECT_FALSE(evaluation.messages.empty());
+  EXPECT_FALSE(evaluation.responses.contains("resonance_hz"));
+}
+
+TEST(SectionEvaluation, SceneOutOfRangeIsRefused) {
+  Scene scene = coarse_scene();
+  scene.contact.friction = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(static_cast<void>(evaluator().evaluate(scene)), InputError);
+}
+
+TEST(SectionEvaluation, ErrorBarsCoverAFinerComputationInTime) {
+  Scene fine = coarse_scene();
+  fine.solver.harmonics = 9;
+  fine.solver.samples = 512;
+  fine.solver.modes = 40;
+  const Evaluation reference = evaluator().evaluate(fine).evaluation;
+  ASSERT_TRUE(reference.converged()) << reference.status;
+  const Evaluation& coarse = baseline().evaluation;
+  for (const auto& [name, bar] : coarse.error_estimates) {
+    // Twice the bar: the bars are estimates of the error, not bounds; rounding of the search for the rest.
+    const double difference = std::abs(coarse.responses.at(name) - reference.responses.at(name));
+    EXPECT_LE(difference, 2 * bar + 1e-9 * std::abs(reference.responses.at(name)))
+        << name << ": " << coarse.responses.at(name) << " +- " << bar << ", finer " << reference.responses.at(name);
+  }
+}
+
+}  // namespace
+}  // namespace dovetail::optimizer
