@@ -1,5 +1,9 @@
 #include "response/preload.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 #include "response/real_block.hpp"
 #include "response/solve.hpp"
 
@@ -54,15 +58,24 @@ Preload quasi_static(const std::shared_ptr<const CondensedModel>& model, const P
   ResidualState state;
   // An interference fit presses before any load does. Without one there is nothing to solve at load zero.
   const bool pressed = nodes > 0 && contact.gap.minCoeff() < 0;
-  for (int step = pressed ? 0 : 1; step <= options.steps; ++step) {
-    const double scale = static_cast<double>(step) / options.steps;
+  double reached = 0, step = 1.0 / options.steps;
+  bool at_zero = pressed;
+  while (at_zero || reached < 1) {
+    double scale = at_zero ? 0 : reached + step;
+    if (scale > 1 - 1e-9) scale = 1;
     Level level = solve_level(model, scale, condition, options, displacement);
     preload.iterations += level.iterations;
     preload.status = level.status;
+    const bool tried_zero = std::exchange(at_zero, false);
     if (level.status != Status::converged) {
-      if (step == 0) continue;
-      return preload;
+      if (tried_zero) continue;
+      // The path is what counts, not its steps: shorter ones follow it more closely.
+      step /= 2;
+      if (step * options.steps < std::ldexp(1.0, -options.halvings)) return preload;
+      continue;
     }
+    reached = scale;
+    step = std::min(2 * step, 1.0 / options.steps);
     displacement = level.displacement;
     state = std::move(level.state);
     for (Eigen::Index i = 0; i < nodes; ++i)

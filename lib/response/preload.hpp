@@ -10,6 +10,7 @@ namespace dovetail::response {
 
 struct PreloadOptions {
   int steps = 20;                 ///< equal load steps from 0 to the full static force, >= 1
+  int halvings = 10;              ///< times a load step that does not converge is halved, in [0, 30]
   double tolerance = 1e-10;       ///< residual relative to the static force, > 0
   int max_iterations = 60;        ///< Jacobians per step and penalty, >= 1
   double normal_penalty = 0;      ///< N/m, 0: local contact stiffness
@@ -29,7 +30,8 @@ struct Preload {
 };
 
 /// Ramps the static force from 0 to 1 and solves the contact problem of harmonic 0 at every step, each with one
-/// march step from the slip of the step before. `wear_depth` [Nc] adds to the gaps; may be empty.
+/// march step from the slip of the step before; a step that does not converge is halved. `wear_depth` [Nc] adds to the
+/// gaps; may be empty.
 [[nodiscard]] Preload quasi_static(const std::shared_ptr<const CondensedModel>& model,
                                    const PreloadOptions& options = {}, const Eigen::VectorXd& wear_depth = {});
 

@@ -131,6 +131,23 @@ TEST(SectionEvaluation, DirectAsymptoteAgreesWithTheHistory) {
   EXPECT_LT((last - direct.depth).cwiseAbs().maxCoeff(), 0.05 * direct.largest_depth);
 }
 
+TEST(SectionEvaluation, SpinsUpFlanksThatTouchAtBothEnds) {
+  // Hollow flanks on a mismatch: contact starts at one end and jumps to both within one of the preload's equal load
+  // steps, which Newton's method does not follow; the path does in shorter ones.
+  Scene scene;
+  for (geometry::FlankParameters* flank : {&scene.geometry.left, &scene.geometry.right}) {
+    flank->mismatch = 6.694892451738145e-6;
+    flank->crown = -2.7817521711339706e-6;
+    flank->angle = 0.94607466;
+    flank->length = 5.582930293028078e-3;
+  }
+  scene.geometry.neck_width = 8.678662842517202e-3;
+  scene.geometry.neck_fillet_radius = 1.824488370054469e-3;
+  const SceneEvaluator own(Scene{});
+  const Evaluation evaluation = own.evaluate(scene).evaluation;
+  EXPECT_TRUE(evaluation.converged()) << evaluation.status;
+}
+
 TEST(SectionEvaluation, RunsTwiceToTheSameBits) {
   const CandidateResult again = evaluator().evaluate(coarse_scene());
   EXPECT_EQ(again.evaluation.responses, baseline().evaluation.responses);
