@@ -10,7 +10,10 @@ if(DOVETAIL_WERROR)
   target_compile_options(dovetail_warnings INTERFACE -Werror)
 endif()
 if(DOVETAIL_SANITIZE)
-  add_compile_options(-fsanitize=address,undefined -fno-omit-frame-pointer)
+  # Without the checks whose errors the address sanitiser or the processor reports as well: they double the time and
+  # memory that compiling Eigen takes, and vptr rejects handles of CGAL's arrangements.
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize=null,object-size,alignment,vptr
+    -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)
 endif()
 
@@ -47,6 +50,7 @@ function(dovetail_test name)
   include(GoogleTest)
   # Tests run side by side: threads of OpenBLAS within each would only slow the others down.
   gtest_discover_tests(${name}
+    NO_PRETTY_VALUES  # bytes of a parameter without a printer are no name
     PROPERTIES LABELS ${ARG_LABEL} ENVIRONMENT OPENBLAS_NUM_THREADS=1
     DISCOVERY_TIMEOUT 60)
 endfunction()
