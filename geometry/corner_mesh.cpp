@@ -91,9 +91,8 @@ class Builder {
       if (crosses(e)) {
         const bool tip = e > 0 && is_aerofoil(chain_[index(e - 1)]);
         right = tip ? std::vector{0.5, 1.0} : graded_parts(0.5, 1.0, edge.length(), point, size_);
-        std::vector<double> left;
-        for (double f : right) left.push_back(1 - f);
-        std::reverse(left.begin(), left.end());
+        std::vector<double> left(right.rbegin(), right.rend());
+        for (double& f : left) f = 1 - f;
         right.insert(right.begin(), left.begin(), left.end() - 1);
         continue;
       }

@@ -45,7 +45,7 @@ std::string lower_case(std::string text) {
 
 }  // namespace
 
-std::string svg(std::span<const Layer> layers, std::optional<Eigen::AlignedBox2d> window) {
+std::string svg(std::span<const Layer> layers, const std::optional<Eigen::AlignedBox2d>& window) {
   Eigen::AlignedBox2d box;
   for (const Layer& layer : layers) box.extend(bounding_box(layer.chain));
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(0.02 * box.sizes().maxCoeff());
@@ -68,7 +68,7 @@ std::string svg(std::span<const Layer> layers, std::optional<Eigen::AlignedBox2d
 }
 
 void write_svg(const std::filesystem::path& file, std::span<const Layer> layers,
-               std::optional<Eigen::AlignedBox2d> window) {
+               const std::optional<Eigen::AlignedBox2d>& window) {
   replace_file(file, svg(layers, window));
 }
 
