@@ -14,14 +14,14 @@ struct Evaluation {
   /// stage that failed and why, e.g. "steady_state: iteration_limit". Only a converged evaluation may be
   /// used as a result.
   std::string status = "converged";
-  bool feasible = true;                            ///< geometry valid and all constraints met
-  std::map<std::string, double> parameters;        ///< KEY as for --set -> value in the file's unit
-  std::map<std::string, double> responses;         ///< name with SI unit -> value
-  std::map<std::string, double> constraints;       ///< name -> c, satisfied when c <= 0 (normalised, smooth)
-  std::map<std::string, double> error_estimates;   ///< response name -> error bar
-  std::map<std::string, double> model;             ///< sizes chosen: dofs, contact nodes, modes, ...
+  bool feasible = true;                           ///< geometry valid and all constraints met
+  std::map<std::string, double> parameters;       ///< KEY as for --set -> value in the file's unit
+  std::map<std::string, double> responses;        ///< name with SI unit -> value
+  std::map<std::string, double> constraints;      ///< name -> c, satisfied when c <= 0 (normalised, smooth)
+  std::map<std::string, double> error_estimates;  ///< response name -> error bar
+  std::map<std::string, double> model;            ///< sizes chosen: dofs, contact nodes, modes, ...
   std::map<std::string, double> timings_s;
-  std::vector<std::string> messages;               ///< broken rules, re-meshing, fall-backs: for people
+  std::vector<std::string> messages;  ///< broken rules, re-meshing, fall-backs: for people
   /// Optional derivatives: name of a response or constraint -> gradient by design variable, in the
   /// order of the design space. Empty when not computed.
   std::map<std::string, std::vector<double>> derivatives;

@@ -77,9 +77,9 @@ inline Step sample_step(const double* prediction, double friction, SlipReturn ru
 /// Where the derivative pass may start: after the last sample before the last period that forgot all history, or
 /// at the very beginning.
 struct DerivativeStart {
-  long sample = -1;  ///< absolute index of that sample; -1: the beginning
+  long sample = -1;    ///< absolute index of that sample; -1: the beginning
   Memory memory = {};  ///< after it
-  Memory orbit = {};  ///< at the start of the last period
+  Memory orbit = {};   ///< at the start of the last period
 };
 
 /// Differentiates the march from `start` to the end of period `result.periods`.

@@ -72,7 +72,8 @@ Eigen::SparseMatrix<double> nodal_stress_operator(const Mesh& mesh, std::span<co
     const double share = 1.0 / static_cast<double>(std::max<std::size_t>(incidences.size(), 1));
     for (const Incidence& incidence : incidences) {
       const Eigen::Vector2d local = node_coordinates(incidence.local);
-      const ElementGradients g = plane_gradients(element_nodes(mesh, incidence.element), local.x(), local.y()).gradients;
+      const ElementGradients g =
+          plane_gradients(element_nodes(mesh, incidence.element), local.x(), local.y()).gradients;
       const Eigen::Matrix3d& d = elasticities[static_cast<std::size_t>(mesh.region[incidence.element])];
       for (int a = 0; a < 6; ++a) {
         const int column = 2 * mesh.elements[incidence.element][static_cast<std::size_t>(a)];

@@ -34,7 +34,7 @@ int main() {
   const auto model = std::make_shared<const dovetail::response::CondensedModel>(slider());
   const dovetail::response::SteadyState state = dovetail::response::steady_state(model, 1.2, {}, {});
   std::printf("%d nodes, %s\n", mesh.sector.mesh.node_count(), std::string(to_string(state.status)).c_str());
-  const bool good = mesh.quality.inverted_elements == 0 && state.status == dovetail::Status::converged &&
-                    state.friction_energy > 0;
+  const bool good =
+      mesh.quality.inverted_elements == 0 && state.status == dovetail::Status::converged && state.friction_energy > 0;
   return good ? 0 : 1;
 }
