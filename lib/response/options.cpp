@@ -61,8 +61,9 @@ std::span<const Field<SteadyOptions>> option_table<SteadyOptions>() {
                            .member = &SteadyOptions::periodic_tolerance,
                            .range = kPositive,
                            .help = "change of the slip state over a period, relative"},
-      Field<SteadyOptions>{
-          .key = "linearise", .member = &SteadyOptions::linearise, .help = "factorise the Jacobian at the solution"},
+      Field<SteadyOptions>{.key = "linearise",
+                           .member = &SteadyOptions::linearise,
+                           .help = "keep the factorised Jacobian of the solution"},
   };
   return fields;
 }

@@ -20,7 +20,7 @@ struct SteadyOptions {
   std::string slip_return = "first_order";  ///< first_order | second_order
   int max_periods = 2000;                   ///< marched before a node counts as not periodic, >= 2
   double periodic_tolerance = 1e-10;        ///< of the slip state, relative to the largest limit force, > 0
-  bool linearise = true;                    ///< factorise the Jacobian at the solution, for predictors and derivatives
+  bool linearise = true;  ///< keep the factorised Jacobian of the solution, for predictors and derivatives
 };
 
 /// Throws InputError listing every option out of range.
