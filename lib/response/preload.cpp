@@ -26,21 +26,36 @@ Level solve_level(const std::shared_ptr<const CondensedModel>& model, double sca
   if (level.status != Status::converged) return level;
   const contact::PseudoPenalty penalty = contact::pseudo_penalty(model->local_stiffness(), model->directions(),
                                                                  options.normal_penalty, options.tangential_penalty);
-  for (const double ratio : contact::kPenaltyCascade) {
-    const SteadyResidual residual(model, system, numerics::FourierBasis(0, 1), penalty.scaled(ratio), condition,
+  const auto attempt = [&](const std::shared_ptr<const HarmonicSystem>& at, double ratio, const Eigen::MatrixXd& from) {
+    const SteadyResidual residual(model, at, numerics::FourierBasis(0, 1), penalty.scaled(ratio), condition,
                                   {.periodic = false});
-    for (const bool closed : {false, true}) {
-      if (!closed && start.size() == 0) continue;
-      Attempt attempt = solve(residual, closed ? residual.closed_start() : start, Method::newton, options.tolerance,
-                              options.max_iterations);
-      level.iterations += attempt.iterations;
-      level.status = attempt.status;
-      level.displacement = std::move(attempt.displacement);
-      if (level.status != Status::converged) continue;
-      residual.evaluate(level.displacement, false, level.state);
-      return level;
-    }
+    Attempt found = solve(residual, from.size() > 0 ? from : residual.closed_start(), Method::newton, options.tolerance,
+                          options.max_iterations);
+    level.iterations += found.iterations;
+    level.status = found.status;
+    level.displacement = std::move(found.displacement);
+    if (level.status == Status::converged) residual.evaluate(level.displacement, false, level.state);
+    return level.status == Status::converged;
+  };
+  for (const double ratio : contact::kPenaltyCascade) {
+    if (start.size() > 0 && attempt(system, ratio, start)) return level;
+    if (attempt(system, ratio, {})) return level;
   }
+  // Springs that pull the contact back to where it starts keep a floating body near its slot; taken away in steps, they
+  // lead to the state in which the contact alone holds it.
+  const SteadyResidual plain(model, system, numerics::FourierBasis(0, 1), penalty, condition, {.periodic = false});
+  const Eigen::MatrixXd anchor = start.size() > 0 ? start : plain.closed_start();
+  const double scale_of_stiffness = model->local_stiffness().maxCoeff();
+  Eigen::MatrixXd from = anchor;
+  for (const double share : {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7}) {
+    const double spring = share * scale_of_stiffness;
+    auto leaned = std::make_shared<HarmonicSystem>(*system);
+    leaned->harmonics.front().stiffness.diagonal().array() += spring;
+    leaned->force.col(0) += spring * anchor.col(0);
+    if (attempt(leaned, 1, from)) from = level.displacement;
+  }
+  for (const double ratio : contact::kPenaltyCascade)
+    if (attempt(system, ratio, from)) return level;
   return level;
 }
 

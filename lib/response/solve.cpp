@@ -1,6 +1,8 @@
 #include "response/solve.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
+#include <limits>
 
 #include "numerics/newton.hpp"
 #include "numerics/powell.hpp"
@@ -51,6 +53,22 @@ double rounding_floor(const Scaled& scaled) {
   return std::min(4e-15 * forces / scaled.force, kLargest);
 }
 
+// Whether the contact that carries load holds the body: the static stiffness with those nodes closed and stuck must not
+// have a negative direction. Spin softening gives a floating blade a root of the equations far away from its slot
+// (K regular but indefinite, all nodes open): the residual vanishes there, but it is no state the blade can be in.
+bool is_held(const SteadyResidual& residual, const ResidualState& state) {
+  Eigen::MatrixXd stiffness = residual.system().harmonics.front().stiffness.real();
+  // Rounding may turn a direction without stiffness into a slightly negative one.
+  constexpr double kRounding = 1e-11;
+  const double shift = kRounding * stiffness.diagonal().cwiseAbs().maxCoeff();
+  const Eigen::Index d = residual.model().directions();
+  for (Eigen::Index i = 0; i < residual.model().nodes(); ++i) {
+    const bool carries = !residual.released(i) && !state.nodes[static_cast<std::size_t>(i)].always_separated;
+    for (Eigen::Index r = i * d; r < (i + 1) * d; ++r) stiffness(r, r) += carries ? residual.penalty_of(r) : shift;
+  }
+  return stiffness.size() == 0 || Eigen::LLT<Eigen::MatrixXd>(stiffness).info() == Eigen::Success;
+}
+
 }  // namespace
 
 Attempt solve(const SteadyResidual& residual, const Eigen::MatrixXd& start, Method method, double tolerance,
@@ -83,6 +101,13 @@ Attempt solve(const SteadyResidual& residual, const Eigen::MatrixXd& start, Meth
                .displacement = {}};
   }
   attempt.displacement = scaled.displacement(x);
+  if (attempt.status == Status::converged) {
+    residual.evaluate(attempt.displacement, false, scaled.state);
+    if (!is_held(residual, scaled.state)) {
+      attempt.status = Status::singular;
+      attempt.residual = std::numeric_limits<double>::infinity();
+    }
+  }
   return attempt;
 }
 
