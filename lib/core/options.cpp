@@ -12,6 +12,15 @@ bool Range::contains(double value) const {
   return !(upper_open ? value >= upper : value > upper);
 }
 
+bool Range::contains_rounded(double value) const {
+  if (contains(value)) return true;
+  if (!std::isfinite(value)) return false;
+  // A product and a quotient, each rounded to half a unit in the last place; twice that for safety.
+  constexpr double kRounding = 2 * std::numeric_limits<double>::epsilon();
+  const auto at = [&](double end, bool open) { return !open && std::abs(value - end) <= kRounding * std::abs(end); };
+  return at(lower, lower_open) || at(upper, upper_open);
+}
+
 std::string Range::phrase() const {
   const bool below = std::isfinite(lower);
   const bool above = std::isfinite(upper);

@@ -20,6 +20,8 @@ struct Range {
   bool upper_open = false;
 
   [[nodiscard]] bool contains(double value) const;
+  /// The same for a number converted to SI and back, which may have left a closed end by a few roundings.
+  [[nodiscard]] bool contains_rounded(double value) const;
   /// "must be > 0 and <= 90", "must be a finite number"
   [[nodiscard]] std::string phrase() const;
 };
@@ -81,7 +83,7 @@ std::vector<Violation> violations(const S& options, const std::string& prefix) {
       if (!known) found.push_back({.file = {}, .key = key, .value = options.*(*text), .allowed = allowed});
     } else if (!std::holds_alternative<bool S::*>(field.member)) {
       const double value = value_in_file_unit(options, field);
-      if (!field.range.contains(value))
+      if (!field.range.contains_rounded(value))
         found.push_back({.file = {}, .key = key, .value = shortest(value), .allowed = field.range.phrase()});
     }
   }

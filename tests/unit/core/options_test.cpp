@@ -45,6 +45,26 @@ TEST(Options, NotANumberIsNeverInRange) {
   EXPECT_EQ(violations(Sample{.length = std::numeric_limits<double>::quiet_NaN()}).size(), 1U);
 }
 
+TEST(Options, AClosedEndMayBeLeftByTheRoundingOfTheUnits) {
+  const Range range{.lower = 0.3, .upper = 500};
+  EXPECT_FALSE(range.contains(500.00000000000006));
+  EXPECT_TRUE(range.contains_rounded(500.00000000000006));
+  EXPECT_TRUE(range.contains_rounded(0.29999999999999993));
+  EXPECT_FALSE(range.contains_rounded(500.0000000001));
+  EXPECT_FALSE(range.contains_rounded(0.2999999999));
+  EXPECT_FALSE(range.contains_rounded(std::numeric_limits<double>::quiet_NaN()));
+  EXPECT_FALSE(range.contains_rounded(kInfinity));
+  EXPECT_TRUE(kAnyNumber.contains_rounded(1e300));
+  EXPECT_FALSE(kAnyNumber.contains_rounded(kInfinity));
+}
+
+TEST(Options, AnOpenEndIsNeverInside) {
+  const Range range{.lower = 0, .upper = 0.5, .lower_open = true, .upper_open = true};
+  EXPECT_FALSE(range.contains_rounded(0));
+  EXPECT_FALSE(range.contains_rounded(0.5));
+  EXPECT_FALSE(kNonNegative.contains_rounded(-1e-300));
+}
+
 TEST(Options, NearestFindsTheMisspeltKey) {
   const std::vector<std::string> keys{"neck_width_mm", "neck_height_mm", "slot_length_mm"};
   EXPECT_EQ(nearest("nek_width_mm", keys), "neck_width_mm");
