@@ -17,7 +17,9 @@ bool Range::contains_rounded(double value) const {
   if (!std::isfinite(value)) return false;
   // A product and a quotient, each rounded to half a unit in the last place; twice that for safety.
   constexpr double kRounding = 2 * std::numeric_limits<double>::epsilon();
-  const auto at = [&](double end, bool open) { return !open && std::abs(value - end) <= kRounding * std::abs(end); };
+  const auto at = [&](double end, bool open) {
+    return !open && std::isfinite(end) && std::abs(value - end) <= kRounding * std::abs(end);
+  };
   return at(lower, lower_open) || at(upper, upper_open);
 }
 
