@@ -52,13 +52,13 @@ std::vector<std::string> responses_of(const Problem& problem) {
 
 }  // namespace
 
-void check(const Problem& problem) {
+namespace {
+
+std::vector<Violation> violations_of_terms(const Problem& problem) {
   std::vector<Violation> found;
   const auto wrong = [&](std::string key, std::string value, std::string allowed) {
     found.push_back({.file = {}, .key = std::move(key), .value = std::move(value), .allowed = std::move(allowed)});
   };
-  if (problem.space.size() == 0) wrong("variables", "none", "must name at least one design variable");
-  if (problem.objective.empty()) wrong("objective", "none", "must name at least one response");
   for (const ObjectiveTerm& term : problem.objective) {
     const std::string at = "objective." + term.response;
     if (term.response.empty()) wrong("objective.response", "", "must name a response");
@@ -85,6 +85,23 @@ void check(const Problem& problem) {
   for (std::size_t i = 0; i < names.size(); ++i)
     if (std::find(names.begin() + static_cast<std::ptrdiff_t>(i) + 1, names.end(), names[i]) != names.end())
       wrong("constraints", names[i], "must limit a response only once on each side");
+  return found;
+}
+
+}  // namespace
+
+void check_terms(const Problem& problem) {
+  if (std::vector<Violation> found = violations_of_terms(problem); !found.empty()) throw InputError(std::move(found));
+}
+
+void check(const Problem& problem) {
+  std::vector<Violation> found;
+  const auto none = [&](const char* key, const char* allowed) {
+    found.push_back({.file = {}, .key = key, .value = "none", .allowed = allowed});
+  };
+  if (problem.space.size() == 0) none("variables", "must name at least one design variable");
+  if (problem.objective.empty()) none("objective", "must name at least one response");
+  for (Violation& wrong : violations_of_terms(problem)) found.push_back(std::move(wrong));
   if (!found.empty()) throw InputError(std::move(found));
 }
 

@@ -35,7 +35,10 @@ struct Problem {
   std::vector<ResponseConstraint> constraints;
 };
 
-/// Throws InputError with everything wrong in `problem` (no term, non-finite weights, missing limits, zero scales).
+/// Throws InputError with everything wrong in the terms and limits there are (non-finite weights, missing limits, zero
+/// scales): enough to judge a design.
+void check_terms(const Problem& problem);
+/// The same, and what a search needs besides: a variable and a term.
 void check(const Problem& problem);
 
 /// Names of the response constraints in the order algorithms see them: "peak_amplitude_m:upper", ...

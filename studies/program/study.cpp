@@ -145,7 +145,7 @@ Study read_study(const Document& document) {
   read_exports(root, study, problems);
   root.finish();
   problems.raise();
-  if (!study.problem.objective.empty()) optimizer::check(study.problem);
+  optimizer::check_terms(study.problem);
   return study;
 }
 

@@ -194,6 +194,19 @@ TEST(Study, VariablesAreChecked) {
   EXPECT_THAT(variable("key = 3\nlower = 4\nupper = 5\nunit = \"mm\"\n"), HasSubstr("variable[3].unit"));
 }
 
+TEST(Study, WithoutVariablesADesignIsStillJudged) {
+  std::string text = sample();
+  for (std::size_t at = text.find("\n[[variable]]"); at != std::string::npos; at = text.find("\n[[variable]]"))
+    text.erase(at, text.find("\n[", at + 2) - at);
+  const Study study = read(text);
+  EXPECT_EQ(study.problem.space.size(), 0U);
+  EXPECT_EQ(study.problem.objective.size(), 1U);
+  EXPECT_EQ(study.problem.constraints.size(), 2U);
+  EXPECT_THAT(complaints(text + "\n[[constraint]]\nresponse = \"mass_kg\"\nupper = 1\n\n"
+                                "[[constraint]]\nresponse = \"mass_kg\"\nupper = 2\n"),
+              HasSubstr("must limit a response only once on each side"));
+}
+
 TEST(Study, AVariableOfBothFlanksConflictsWithOneFixed) {
   EXPECT_THAT(complaints(sample() + "\n[geometry.left]\nflank_crown_um = 2\n"),
               HasSubstr("cannot vary both flanks while geometry.left.flank_crown_um fixes one of them"));
