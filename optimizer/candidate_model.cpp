@@ -79,7 +79,22 @@ std::vector<fem::Material> materials(const Scene& scene) {
   return {scene.blade, scene.disk};
 }
 
-ModelBuilder::ModelBuilder(const Scene& reference) : sizes_(reference.mesh), family_(reference.geometry, sizes_) {}
+ModelBuilder::ModelBuilder(const Scene& reference) : sizes_(reference.mesh) {
+  if (std::vector<Violation> found = violations(reference); !found.empty()) throw InputError(std::move(found));
+  try {
+    family_.emplace(reference.geometry, sizes_);
+  } catch (const InputError&) {
+    // All ranges hold, so the boundary crosses itself: no reason to refuse candidates whose own does not.
+  }
+}
+
+geometry::MeshedSector ModelBuilder::mesh_of(const geometry::ProfileParameters& parameters) const {
+  if (family_) return family_->mesh_of(parameters);
+  geometry::MeshedSector own = geometry::mesh_sector(parameters, sizes_);
+  own.remeshed = true;
+  own.note = "The reference design cannot be meshed, so this design is its own reference. " + own.note;
+  return own;
+}
 
 CandidateModel ModelBuilder::build(const Scene& scene) const {
   if (std::vector<Violation> found = violations(scene); !found.empty()) throw InputError(std::move(found));
@@ -95,7 +110,12 @@ CandidateModel ModelBuilder::build(const Scene& scene) const {
     return candidate;
   }
 
-  candidate.mesh = family_.mesh_of(scene.geometry);
+  try {
+    candidate.mesh = mesh_of(scene.geometry);
+  } catch (const InputError& error) {
+    candidate.status = std::string("mesh: ") + error.what();
+    return candidate;
+  }
   if (candidate.mesh.remeshed) candidate.messages.push_back(candidate.mesh.note);
   candidate.timings_s["mesh"] = watch.lap();
   if (candidate.mesh.quality.inverted_elements > 0) {

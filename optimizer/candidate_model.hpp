@@ -2,6 +2,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,11 +38,12 @@ struct CandidateModel {
 };
 
 /// Builds the models of many candidates on one mesh topology, that of the reference scene's geometry and
-/// mesh sizes. A candidate's model depends on the reference and the candidate only. `build` may be called
+/// mesh sizes. When the reference is a geometry that cannot be meshed, each candidate is meshed on its own
+/// topology and says so. A candidate's model depends on the reference and the candidate only. `build` may be called
 /// from several threads.
 class ModelBuilder {
  public:
-  /// Throws InputError when the reference cannot be meshed.
+  /// Throws InputError for a reference that violates its ranges.
   explicit ModelBuilder(const Scene& reference);
 
   /// Stages in order: feasibility, mesh motion, assembly, preload without geometric stiffness (for the stresses it
@@ -50,8 +52,10 @@ class ModelBuilder {
   [[nodiscard]] CandidateModel build(const Scene& scene) const;
 
  private:
+  [[nodiscard]] geometry::MeshedSector mesh_of(const geometry::ProfileParameters& parameters) const;
+
   geometry::MeshSizes sizes_;
-  geometry::MeshFamily family_;
+  std::optional<geometry::MeshFamily> family_;  ///< absent when the reference cannot be meshed
 };
 
 /// The section at standstill as finite elements, no preload: for exports and frequencies of the bare geometry.

@@ -21,11 +21,7 @@ Scene reference_scene(const Study& study) {
 }
 
 std::shared_ptr<const SceneEvaluator> scene_evaluator(const Study& study) {
-  try {
-    return std::make_shared<const SceneEvaluator>(reference_scene(study));
-  } catch (const InputError&) {
-    return std::make_shared<const SceneEvaluator>(study.scene);
-  }
+  return std::make_shared<const SceneEvaluator>(reference_scene(study));
 }
 
 RunEngine study_engine(const Study& study) {
@@ -91,12 +87,28 @@ LoadedModel from_study(const std::string& file, const std::vector<Override>& ove
   return loaded;
 }
 
+/// A model is solved within the ranges that a study file keeps. Throws InputError naming the options.
+void require_ranges(const SolverOverrides& solver) {
+  std::vector<Violation> found;
+  for (const Override& given : with_solver({}, solver)) {
+    const Range& range = optimizer::find_parameter(given.key)->range;
+    const bool whole = given.key != "solver.tolerance";
+    const double value = !whole                            ? *solver.tolerance
+                         : given.key == "solver.harmonics" ? *solver.harmonics
+                                                           : *solver.samples;
+    if (!range.contains(value))
+      found.push_back({.file = {}, .key = given.origin, .value = {}, .allowed = range.phrase()});
+  }
+  if (!found.empty()) throw InputError(std::move(found));
+}
+
 LoadedModel from_file(const std::string& file, const std::vector<Override>& overrides, const SolverOverrides& solver) {
   if (!overrides.empty())
     throw InputError(Violation{.file = file,
                                .key = overrides.front().origin,
                                .value = {},
                                .allowed = "sets a key of a study file, but the input is a reduced model"});
+  require_ranges(solver);
   LoadedModel loaded;
   loaded.steady.harmonics = solver.harmonics.value_or(loaded.steady.harmonics);
   loaded.steady.samples = solver.samples.value_or(loaded.steady.samples);
