@@ -17,7 +17,9 @@ std::span<const ResponseName> response_names() {
       {"worn_peak_amplitude_m", "m", "Amplitude of the aerofoil tip at the worn resonance."},
       {"mass_kg", "kg", "Mass of one blade."},
       {"peak_stress_pa", "Pa", "Largest nodal von Mises stress on the fillets, over a period at the unworn resonance."},
-      {"contact_pressure_max_pa", "Pa", "Smooth maximum of the flank pressure under the spin-up load."},
+      {"contact_pressure_max_pa", "Pa",
+       "Smooth maximum of the flank pressure under the spin-up load; at a sharp flank end its peak does not converge "
+       "with the mesh."},
       {"contact_pressure_mean_pa", "Pa", "Mean flank pressure under the spin-up load, of the more loaded flank."},
       {"neck_tension_pa", "Pa", "Mean tension across the narrowest width of the blade's neck under the spin-up load."},
       {"blade_fillet_stress_pa", "Pa",

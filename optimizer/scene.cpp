@@ -75,7 +75,7 @@ std::span<const Field<optimizer::SolverSettings>> option_table<optimizer::Solver
   static const std::array<Field<S>, 5> table{
       Field<S>{.key = "harmonics",
                .member = &S::harmonics,
-               .range = {.lower = 1, .upper = 255},
+               .range = {.lower = 1, .upper = 200},
                .help = "harmonics of the periodic motion"},
       Field<S>{.key = "samples",
                .member = &S::samples,
@@ -287,7 +287,7 @@ std::vector<Violation> violations(const Scene& scene) {
         if (!known) found.push_back({.file = {}, .key = key, .value = object.*(*text), .allowed = allowed});
       } else if (!std::holds_alternative<bool S::*>(field.member)) {
         const double value = number(object, field);
-        if (!field.range.contains(value))
+        if (!field.range.contains_rounded(value))
           found.push_back({.file = {}, .key = key, .value = shortest(value), .allowed = field.range.phrase()});
       }
     }
