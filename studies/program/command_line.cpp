@@ -1,11 +1,14 @@
 #include "studies/program/command_line.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
+#include <new>
 #include <ostream>
 #include <sstream>
 #include <system_error>
 
+#include "core/options.hpp"
 #include "studies/program/arguments.hpp"
 #include "studies/program/version.hpp"
 
@@ -33,8 +36,18 @@ std::string one_line(std::string text) {
   return text;
 }
 
-/// Help and version are answers; everything else CLI11 complains about is one line.
-int parse_failure(const CLI::App& app, const CLI::ParseError& error, const Streams& streams) {
+/// What to say of a first word that is no command; empty when it is one.
+std::string unknown_command(const CLI::App& app, const std::string& word) {
+  std::vector<std::string> commands;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    commands.push_back(command->get_name());
+  if (std::find(commands.begin(), commands.end(), word) != commands.end()) return {};
+  const std::string near = nearest(word, commands);
+  return "unknown command " + one_line(word) + (near.empty() ? "" : "; did you mean " + near + "?");
+}
+
+/// Help and version are answers; everything else CLI11 complains about is one line. `word` is the first argument.
+int parse_failure(const CLI::App& app, const CLI::ParseError& error, const std::string& word, const Streams& streams) {
   std::ostringstream answer, ignored;
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
     app.exit(error, answer, ignored);
@@ -43,7 +56,9 @@ int parse_failure(const CLI::App& app, const CLI::ParseError& error, const Strea
   }
   std::string command;
   for (const CLI::App* chosen : app.get_subcommands()) command = " " + chosen->get_name();
-  streams.err << "dovetail" << command << ": " << one_line(error.what()) << "; see dovetail" << command << " --help\n";
+  std::string complaint = word.empty() || word.starts_with("-") ? "" : unknown_command(app, word);
+  if (complaint.empty()) complaint = one_line(error.what());
+  streams.err << "dovetail" << command << ": " << complaint << "; see dovetail" << command << " --help\n";
   return kWrongInput;
 }
 
@@ -59,7 +74,7 @@ int run_program(int argc, const char* const* argv, const Streams& streams) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return parse_failure(app, error, streams);
+    return parse_failure(app, error, argc > 1 ? argv[1] : "", streams);
   }
   try {
     return arguments.command(streams);
@@ -68,6 +83,10 @@ int run_program(int argc, const char* const* argv, const Streams& streams) {
     return kWrongInput;
   } catch (const std::system_error& error) {
     streams.err << "dovetail: " << one_line(error.what()) << "\n";
+    return kWrongInput;
+  } catch (const std::bad_alloc&) {
+    streams.err << "dovetail: there is not enough memory for this; fewer harmonics, samples, modes or elements need "
+                   "less\n";
     return kWrongInput;
   } catch (const std::exception& error) {
     streams.err << "dovetail: the computation ended unexpectedly: " << one_line(error.what()) << "\n";

@@ -18,12 +18,12 @@ constexpr double kTurn = 2 * std::numbers::pi;
 
 std::vector<double> frequencies(const ResponseOptions& options) {
   std::vector<Violation> found;
-  const auto positive = [&](const char* option, double value) {
-    if (!kPositive.contains(value))
-      found.push_back({.file = {}, .key = option, .value = shortest(value), .allowed = kPositive.phrase()});
+  const auto require = [&](const char* option, double value) {
+    if (!kFrequencies.contains(value))
+      found.push_back({.file = {}, .key = option, .value = shortest(value), .allowed = kFrequencies.phrase()});
   };
-  positive("--from", options.from_hz);
-  positive("--to", options.to_hz);
+  require("--from", options.from_hz);
+  require("--to", options.to_hz);
   if (options.points < 1 || options.points > 1000000)
     found.push_back({.file = {},
                      .key = "--points",

@@ -26,8 +26,12 @@ void deliver_json(const std::string& where, const std::string& text, const Strea
 int run_check(const CheckOptions& options, const Streams& streams) {
   const Study study = load_study(options.study, options.overrides);
   const optimizer::Problem& problem = study.problem;
-  streams.out << fmt::format("{}: valid; {} variables, {} objectives, {} constraints\n", options.study,
-                             problem.space.size(), problem.objective.size(), problem.constraints.size());
+  const auto counted = [](std::size_t count, const char* what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+  };
+  streams.out << fmt::format("{}: valid; {}, {}, {}\n", options.study, counted(problem.space.size(), "variable"),
+                             counted(problem.objective.size(), "objective"),
+                             counted(problem.constraints.size(), "constraint"));
   return kDone;
 }
 

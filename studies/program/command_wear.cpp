@@ -25,8 +25,8 @@ void validate(const WearOptions& options) {
   const auto bad = [&](const char* option, const std::string& value, const std::string& allowed) {
     found.push_back({.file = {}, .key = option, .value = value, .allowed = allowed});
   };
-  if (options.frequency_hz && !kPositive.contains(*options.frequency_hz))
-    bad("--frequency", shortest(*options.frequency_hz), kPositive.phrase());
+  if (options.frequency_hz && !kFrequencies.contains(*options.frequency_hz))
+    bad("--frequency", shortest(*options.frequency_hz), kFrequencies.phrase());
   if (options.cycles && !kPositive.contains(*options.cycles))
     bad("--cycles", shortest(*options.cycles), kPositive.phrase());
   if (options.increment_m && !kPositive.contains(*options.increment_m))

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/options.hpp"
 #include "studies/program/run_engine.hpp"
 #include "studies/program/study.hpp"
 
@@ -18,6 +19,9 @@ struct Streams {
   std::ostream& out;
   std::ostream& err;
 };
+
+/// Frequencies that may be asked for, in Hz: their squares and those of rad/s stay far from overflow.
+inline constexpr Range kFrequencies{.lower = 0, .upper = 1e9, .lower_open = true};
 
 /// Each command is a function from its options to an exit status; it throws InputError for wrong input, before it
 /// computes or writes anything.

@@ -35,18 +35,20 @@ done
 # Wrong arguments: one line, status 2
 expect 2; lines 1
 expect 2 --bogus; lines 1
-expect 2 bogus; lines 1
+expect 2 bogus; lines 1; says "unknown command bogus"
+expect 2 evalute x.toml; lines 1; says "unknown command evalute; did you mean evaluate?"
 expect 2 check; lines 1
 expect 2 check --bogus x.toml; lines 1; says "--bogus"
 expect 2 wear x.toml --method guess; lines 1
 expect 2 response x.toml --from 1 --to 2 --points many; lines 1
 expect 2 response x.toml --from nan --to 2 --points 2; lines 1; says "--from = nan: must be > 0"
 expect 2 response x.toml --from 1 --to -2 --points 0; lines 2; says "--to = -2: must be > 0"; says "--points = 0"
+expect 2 response x.toml --from 1e308 --to 2 --points 2; lines 1; says "--from = 1e+308: must be > 0 and <= 1e+09"
 expect 2 wear x.toml --method asymptote --frequency 0; lines 1; says "--frequency = 0: must be > 0"
 
 # A new study is valid and not overwritten
 expect 0 new s.toml
-expect 0 check s.toml; answers "s.toml: valid"; lines 0
+expect 0 check s.toml; answers "s.toml: valid; 3 variables, 1 objective, 2 constraints"; lines 0
 cp s.toml kept.toml
 expect 2 new s.toml; says "s.toml: exists already"; lines 1
 cmp -s s.toml kept.toml || fail "new changed an existing file"
@@ -87,12 +89,24 @@ expect 2 check s.toml --set geometry --set =3; lines 2; says "must be KEY=VALUE"
 expect 2 evaluate s.toml --harmonics 0; lines 1; says "--harmonics 0: must be >= 1"
 expect 2 response s.toml --from 1 --to 2 --points 2 --tolerance nan; lines 1; says "--tolerance nan"
 
+# The end of a range is inside it, whatever the units round to
+expect 0 export s.toml --format dxf -o crown.dxf --set geometry.flank_crown_um=500
+
+# An impossible geometry is an answer: its rules, not an error of the mesh
+for impossible in geometry.sectors=90 geometry.bore_radius_mm=260; do
+  expect 2 evaluate s.toml --set "$impossible" --json -; answers '"status": "infeasible"'
+  says "s.toml: the design is infeasible: "
+  expect 2 response s.toml --set "$impossible" --from 1 --to 2 --points 2; says "the design is infeasible: "; silent
+done
+
 # Model files
 printf '\x89HDF\r\n\x1a\n and no more' > torn.h5
 for file in torn.h5 nowhere.h5; do
   expect 2 response $file --from 1 --to 2 --points 2 --json -; silent; says "$file"
   expect 2 wear $file --method history --json o.json; silent; says "$file"; absent o.json
 done
+expect 2 response torn.h5 --from 1 --to 2 --points 2 --harmonics 201; lines 1; says "--harmonics 201: must be >= 1 and <= 200"
+expect 2 wear torn.h5 --method asymptote --samples 2000000000 --tolerance 1; lines 2; says "--samples 2000000000: must be"
 expect 2 wear torn.h5 --method asymptote --set contact.friction=1; lines 1; says "--set contact.friction=1"
 
 # run: directories are not overwritten
@@ -101,6 +115,9 @@ expect 2 run s.toml -o full; lines 1; says "full: exists already; give --resume"
 expect 2 run s.toml -o s.toml; lines 1; says "s.toml: is not a directory"
 sed '/^\[\[variable/,$d' s.toml > fixed.toml
 expect 2 run fixed.toml -o o; says "has no [[variable]]"; absent o
+sed '/^\[\[variable/,/^$/d' s.toml > judged.toml
+expect 0 check judged.toml; answers "0 variables, 1 objective, 2 constraints"
+expect 2 run judged.toml -o o; lines 1; says "has no [[variable]]"; absent o
 
 # export and report
 expect 0 export s.toml --format dxf -o s.dxf; [ -s s.dxf ] || fail "no s.dxf"
