@@ -84,6 +84,8 @@ std::string dynamics(const Scene& scene, CandidateResult& result) {
     return "asymptote: " + std::string(asymptote.verdict == wear::Verdict::not_converged
                                            ? to_string(asymptote.status)
                                            : wear::to_string(asymptote.verdict));
+  evaluation.model["wear_certificate"] = asymptote.certificate;
+  evaluation.model["nodal_wear_volume_m3"] = asymptote.worn_volume;
   responses["initial_wear_rate_m3_per_cycle"] = wear::worn_volume(model.reduction.model.contact, asymptote.unworn_rate);
   responses["asymptotic_wear_volume_m3"] = asymptote.interpolated_volume;
   responses["asymptotic_wear_depth_max_m"] = asymptote.interpolated_largest_depth;

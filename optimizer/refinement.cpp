@@ -60,7 +60,11 @@ void wear_bars(const CandidateResult& result, const response::SteadyOptions& fin
   double& volume = bars["asymptotic_wear_volume_m3"];
   double& depth = bars["asymptotic_wear_depth_max_m"];
   volume = depth = 0;
-  if (asymptote.largest_depth == 0) return;  // nothing slips: no wear whatever the settings
+  if (asymptote.largest_depth == 0) {
+    // Every node sticks: no wear at these settings, and no measure of how near to slip finer ones would come.
+    if (asymptote.unworn_rate.maxCoeff() > wear::AsymptoteOptions{}.rate_threshold) volume = depth = kUnknown;
+    return;
+  }
 
   response::ContactCondition condition;
   condition.released.assign(asymptote.released.begin(), asymptote.released.end());
@@ -99,7 +103,7 @@ std::map<std::string, double> error_estimates(const Scene& scene, const Candidat
   };
   bars["resonance_hz"] = frequency_bar(*result.unworn, unworn);
   bars["worn_resonance_hz"] = frequency_bar(*result.worn, worn);
-  // The reduction and the mesh shift both resonances alike: they leave the drift alone.
+  // The reduction shifts both resonances alike: it leaves the drift alone.
   bars["resonance_drift"] = (unworn.omega + worn.omega) / result.unworn->omega + 2 * search.frequency_tolerance;
   bars["peak_amplitude_m"] = unworn.amplitude;
   bars["worn_peak_amplitude_m"] = worn.amplitude;

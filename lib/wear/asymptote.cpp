@@ -143,9 +143,13 @@ Asymptote asymptote(const std::shared_ptr<const response::CondensedModel>& model
       result.rate = worn.wear_rate;
       result.steady = worn;
       result.certificate = fastest > 0.0 ? worn.wear_rate.maxCoeff() / fastest : 0.0;
-    } else if (worn.status == Status::interrupted) {
-      result.status = Status::interrupted;
+      if (!(result.certificate <= options.certificate_limit)) {
+        result.verdict = Verdict::not_converged;
+        result.status = Status::stalled;
+      }
+    } else {
       result.verdict = Verdict::not_converged;
+      result.status = worn.status;
     }
   }
   return finish();

@@ -73,6 +73,10 @@ std::span<const Field<wear::AsymptoteOptions>> option_table<wear::AsymptoteOptio
       Field<Options>{.key = "certify",
                      .member = &Options::certify,
                      .help = "solve once more with the worn gap and contact everywhere"},
+      Field<Options>{.key = "certificate_limit",
+                     .member = &Options::certificate_limit,
+                     .range = {.lower = 0, .upper = 1, .lower_open = true},
+                     .help = "largest remaining wear rate, relative to the unworn one, of a certified worn state"},
   };
   return fields;
 }

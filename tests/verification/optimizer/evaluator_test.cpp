@@ -148,6 +148,28 @@ TEST(SectionEvaluation, SpinsUpFlanksThatTouchAtBothEnds) {
   EXPECT_TRUE(evaluation.converged()) << evaluation.status;
 }
 
+TEST(SectionEvaluation, SpinUpStaysInTheSlot) {
+  // Spin softening gives the blade a second balance of forces, fallen towards the axis with all contact open. At 40
+  // degrees Newton's method goes there from closed contact.
+  Scene scene;
+  scene.geometry.left.angle = scene.geometry.right.angle = 40 * 3.14159265358979 / 180;
+  const SceneEvaluator own(scene);
+  const Evaluation evaluation = own.evaluate(scene).evaluation;
+  ASSERT_TRUE(evaluation.converged()) << evaluation.status;
+  EXPECT_GT(evaluation.responses.at("contact_pressure_mean_pa"), 7e7);
+  EXPECT_GT(evaluation.responses.at("asymptotic_wear_volume_m3"), 1e-10);
+}
+
+TEST(SectionEvaluation, GrossSlipHasNoAsymptote) {
+  // Twenty newtons slide whole flanks: releasing them would leave nothing that holds the blade.
+  Scene scene = coarse_scene();
+  scene.loading.tip_force = 20;
+  const Evaluation evaluation = evaluator().evaluate(scene).evaluation;
+  EXPECT_FALSE(evaluation.converged());
+  EXPECT_FALSE(evaluation.responses.contains("asymptotic_wear_volume_m3"));
+  EXPECT_GT(evaluation.responses.at("dissipated_energy_j"), 0);
+}
+
 TEST(SectionEvaluation, RunsTwiceToTheSameBits) {
   const CandidateResult again = evaluator().evaluate(coarse_scene());
   EXPECT_EQ(again.evaluation.responses, baseline().evaluation.responses);
