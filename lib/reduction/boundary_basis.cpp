@@ -21,8 +21,7 @@ Eigen::MatrixXd independent_loads(const FullModel& full) {
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(unit);
   qr.setThreshold(1e-12);
   const Eigen::VectorXi kept = qr.colsPermutation().indices().head(qr.rank());
-  const Eigen::MatrixXd independent = unit(Eigen::all, kept);
-  return independent;
+  return unit(Eigen::all, kept);
 }
 
 // Projects the M-component of `basis` out of `x`; twice, because once leaves what cancels.
