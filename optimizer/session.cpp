@@ -168,7 +168,8 @@ void EvaluationSession::call_evaluator(Pending& candidate) const {
 
 void EvaluationSession::commit(Pending& candidate, const std::string& phase) {
   const bool replayed = candidate.known != nullptr;
-  Evaluation evaluation = replayed ? *candidate.known : std::move(candidate.evaluation);
+  if (replayed) candidate.evaluation = *candidate.known;
+  Evaluation evaluation = std::move(candidate.evaluation);
   if (evaluation.parameters.empty()) {
     const std::vector<std::string> keys = problem_.space.keys();
     for (std::size_t i = 0; i < keys.size(); ++i) evaluation.parameters[keys[i]] = candidate.x[i];

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 /// A file of a run's directory. Throws InputError when it is not there.
 fs::path run_file(const std::string& directory, const std::string& name, const std::string& what) {
   std::error_code ignored;
-  const fs::path file = fs::path(directory) / name;
+  fs::path file = fs::path(directory) / name;
   if (!fs::is_directory(directory, ignored))
     throw InputError(Violation{.file = {}, .key = directory, .value = {}, .allowed = "is not the directory of a run"});
   if (!fs::exists(file, ignored))

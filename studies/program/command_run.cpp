@@ -35,7 +35,7 @@ void require_runnable(const Study& study) {
 
 /// The directory of the results, created; an existing one is only touched to resume it.
 fs::path prepare_directory(const RunOptions& options, const Study& study) {
-  const fs::path directory = options.directory.empty() ? fs::path("results") / study.name : fs::path(options.directory);
+  fs::path directory = options.directory.empty() ? fs::path("results") / study.name : fs::path(options.directory);
   std::error_code error;
   if (fs::exists(directory, error)) {
     if (!fs::is_directory(directory, error)) throw InputError(refused(directory.string(), "is not a directory"));
