@@ -15,6 +15,8 @@ namespace {
 // S carries the rounding of the elimination, some 1e-13 of its largest entry; the rigid stiffness that
 // spin softening leaves at speed is above 1e-9 of it.
 constexpr double kRigidThreshold = 1e-11;
+// The search for negative modes ends at this multiple of the modes first asked for.
+constexpr Eigen::Index kSearchRange = 4, kSearchAlways = 100;  // but not below so many modes
 }  // namespace
 
 FloatingInverse::FloatingInverse(const ContactSolver& solver, const Eigen::SparseMatrix<double>& mass)
@@ -70,6 +72,7 @@ FreeModes free_modes(const FloatingInverse& inverse, int count, Eigen::Index lim
                                                        inverse.apply(Eigen::Map<const Eigen::VectorXd>(b, n));
                                                  }};
   Eigen::Index wanted = std::min(std::max<Eigen::Index>(count - rigid, inverse.negative()), limit - rigid);
+  const Eigen::Index most = std::max(kSearchRange * (wanted + 1), kSearchAlways);
   FreeModes result;
   numerics::Modes<double> modes;
   std::vector<Eigen::Index> order;  // of the modes by distance from zero
@@ -95,6 +98,11 @@ FreeModes free_modes(const FloatingInverse& inverse, int count, Eigen::Index lim
     }
     wanted = std::min(std::max(wanted, last_negative), modes.eigenvalues.size());
     if (negatives >= inverse.negative() || modes.eigenvalues.size() < asked || asked == n) break;
+    // A negative direction of K without mass belongs to no finite eigenvalue: no number of modes would show it.
+    if (2 * asked > most) {
+      result.status = Status::iteration_limit;
+      return result;
+    }
   }
 
   result.first_neglected = wanted < modes.eigenvalues.size()

@@ -48,7 +48,9 @@ struct FreeModes {
 /// may make it more than `count`), at most `limit`: numerics::nearest_modes on K^-1, then one inverse iteration.
 /// Rigid modes are known beforehand, and the inertia of S tells how many negative ones must be found. M may be
 /// singular on the contact dofs. `tolerance` bounds the residual |K^-1 M v - v / lambda| lambda, whose square is
-/// the error of the eigenvalue; the softest modes are far more accurate. Statuses: `iteration_limit`, `not_finite`.
+/// the error of the eigenvalue; the softest modes are far more accurate. Statuses: `not_finite`, `iteration_limit`:
+/// also when negative modes are missing among four times as many as were first asked for (or 100), as when K is
+/// indefinite on massless dofs (contact stresses near the modulus), where no finite eigenvalue belongs to them.
 [[nodiscard]] FreeModes free_modes(const FloatingInverse& inverse, int count, Eigen::Index limit, double tolerance);
 
 }  // namespace dovetail::reduction

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <random>
 #include <utility>
 #include <vector>
 
@@ -199,6 +200,22 @@ TEST(NearestModes, SaysThatTheSolverReturnsNoNumbers) {
   stiffness(7) = std::numeric_limits<double>::quiet_NaN();
   const Modes<double> modes = nearest_modes(diagonal_inverse(stiffness), identity<double>(400), {.count = 6});
   EXPECT_EQ(modes.status, Status::not_finite);
+}
+
+TEST(NearestModes, EndsWithinItsApplications) {
+  // An operator that never gives the same image twice has no modes: only the bound ends the search.
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int count : {1, 30, 130}) {
+    int applied = 0;
+    const ShiftInverse<double> noise{.rows = 400, .perform_op = [&](const double*, double* x) {
+                                       ++applied;
+                                       for (int k = 0; k < 400; ++k) x[k] = uniform(random);
+                                     }};
+    const Modes<double> modes = nearest_modes(noise, identity<double>(400), {.count = count, .vector_limit = 3});
+    EXPECT_EQ(modes.status, Status::iteration_limit);
+    EXPECT_LE(applied, 3 * (3 * count + 40) + 1440);
+  }
 }
 
 }  // namespace
