@@ -43,11 +43,9 @@ std::string escape(std::string_view text) {
       result += "&quot;";
     else if (c == '\'')
       result += "&#39;";
-    else if (c < 0x20 && c != '\n' && c != '\t' && c != '\r')
-      result += kReplacement;
-    else if (c < 0x80)
+    else if ((c >= 0x20 && c < 0x80) || c == '\n' || c == '\t' || c == '\r')
       result += static_cast<char>(c);
-    else if (const std::size_t length = sequence(text, i); length > 0) {
+    else if (const std::size_t length = sequence(text, i); c >= 0x80 && length > 0) {
       result += text.substr(i, length);
       size = length;
     } else {

@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <utility>
 
-#include "geometry/exports/replace_file.hpp"
+#include "core/replace_file.hpp"
 #include "studies/report/html.hpp"
 #include "studies/report/report_plots.hpp"
 #include "studies/report/report_tables.hpp"
@@ -176,13 +175,7 @@ std::string report_html(const RunRecord& record) {
 }
 
 void write_report(const std::filesystem::path& file, const RunRecord& record) {
-  const std::string text = report_html(record);
-  geometry::replace_file(file, [&](const std::filesystem::path& temporary) {
-    std::ofstream out(temporary, std::ios::binary);
-    out << text;
-    out.close();
-    return out.good();
-  });
+  replace_file(file, report_html(record));
 }
 
 }  // namespace dovetail::report
