@@ -143,7 +143,7 @@ Asymptote asymptote(const std::shared_ptr<const response::CondensedModel>& model
       result.rate = worn.wear_rate;
       result.steady = worn;
       result.certificate = fastest > 0.0 ? worn.wear_rate.maxCoeff() / fastest : 0.0;
-      if (!(result.certificate <= options.certificate_limit)) {
+      if (!(worn.wear_rate.maxCoeff() <= std::max(options.certificate_limit * fastest, options.rate_threshold))) {
         result.verdict = Verdict::not_converged;
         result.status = Status::stalled;
       }

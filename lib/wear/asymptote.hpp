@@ -44,7 +44,8 @@ struct AsymptoteOptions {
   bool interpolate_edge = true;
   // Solve once more with the worn gap and contact everywhere, and report the remaining rate.
   bool certify = true;
-  // in (0, 1]. With a larger remaining rate, or when that state cannot be solved, the verdict is not_converged.
+  // in (0, 1]. With a remaining rate above this fraction of the unworn one (and above rate_threshold), or when that
+  // state cannot be solved, the verdict is not_converged.
   double certificate_limit = 1e-2;
 };
 
