@@ -161,7 +161,9 @@ TEST(GluedModes, LowersTheShiftForAFloatingBody) {
   const FullMatrices full = Assembler(sector.mesh).stiffness_and_mass(sector.mesh, materials);
   const Constraints<double> constraints = real_constraints(sector, BoreSupport::free);
   numerics::SparseCholesky<double> cholesky;
-  const numerics::Modes<double> modes = glued_modes(full.stiffness, full.mass, constraints, {.count = 4}, cholesky);
+  // Asked for more accurately than the 1e-9 they are held to.
+  const numerics::Modes<double> modes =
+      glued_modes(full.stiffness, full.mass, constraints, {.count = 4, .tolerance = 1e-11}, cholesky);
   ASSERT_EQ(modes.status, Status::converged);
   EXPECT_LT(modes.shift, 0);
   const Eigen::MatrixXd stiffness = constrain(full.stiffness, constraints), mass = constrain(full.mass, constraints);
