@@ -1,0 +1,31 @@
+#pragma once
+
+#include <algorithm>
+#include <ctime>
+#include <vector>
+
+namespace dovetail::work_precision {
+
+/// Processor time of this thread, s: other programs on the machine do not count.
+inline double processor_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// Median processor time of `function`, repeated until `seconds` have passed and `least` times at least. s
+template <class Function>
+double median_seconds(Function&& function, double seconds, int least = 3) {
+  std::vector<double> times;
+  const double start = processor_seconds();
+  while (static_cast<int>(times.size()) < least || processor_seconds() - start < seconds) {
+    const double before = processor_seconds();
+    function();
+    times.push_back(processor_seconds() - before);
+  }
+  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
+  std::nth_element(times.begin(), middle, times.end());
+  return *middle;
+}
+
+}  // namespace dovetail::work_precision
