@@ -1,12 +1,12 @@
 #include "response/solve.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <limits>
 
 #include "numerics/newton.hpp"
 #include "numerics/powell.hpp"
 #include "response/linearisation.hpp"
+#include "response/problem.hpp"
 
 namespace dovetail::response {
 namespace {
@@ -45,30 +45,6 @@ struct Scaled {
   }
 };
 
-// What is left of forces after cancellation: a few units in the last place of the largest terms of f. A start at which
-// rounding swamps the excitation is no measure of the forces at the solution.
-double rounding_floor(const Scaled& scaled) {
-  constexpr double kLargest = 1e-6;
-  const double forces = scaled.problem.system().force.norm() + scaled.state.prediction.norm();
-  return std::min(4e-15 * forces / scaled.force, kLargest);
-}
-
-// Whether the contact that carries load holds the body: the static stiffness with those nodes closed and stuck must not
-// have a negative direction. Spin softening gives a floating blade a root of the equations far away from its slot
-// (K regular but indefinite, all nodes open): the residual vanishes there, but it is no state the blade can be in.
-bool is_held(const SteadyResidual& residual, const ResidualState& state) {
-  Eigen::MatrixXd stiffness = residual.system().harmonics.front().stiffness.real();
-  // Rounding may turn a direction without stiffness into a slightly negative one.
-  constexpr double kRounding = 1e-11;
-  const double shift = kRounding * stiffness.diagonal().cwiseAbs().maxCoeff();
-  const Eigen::Index d = residual.model().directions();
-  for (Eigen::Index i = 0; i < residual.model().nodes(); ++i) {
-    const bool carries = !residual.released(i) && !state.nodes[static_cast<std::size_t>(i)].always_separated;
-    for (Eigen::Index r = i * d; r < (i + 1) * d; ++r) stiffness(r, r) += carries ? residual.penalty_of(r) : shift;
-  }
-  return stiffness.size() == 0 || Eigen::LLT<Eigen::MatrixXd>(stiffness).info() == Eigen::Success;
-}
-
 }  // namespace
 
 Attempt solve(const SteadyResidual& residual, const Eigen::MatrixXd& start, Method method, double tolerance,
@@ -76,7 +52,7 @@ Attempt solve(const SteadyResidual& residual, const Eigen::MatrixXd& start, Meth
   Scaled scaled(residual);
   Eigen::VectorXd x = Eigen::VectorXd(start.reshaped()).cwiseQuotient(scaled.unit);
   scaled.residual(x);
-  const double goal = std::max(tolerance, rounding_floor(scaled));
+  const double goal = std::max(tolerance, rounding_floor(residual, scaled.state));
   Attempt attempt;
   if (method == Method::newton) {
     const numerics::NewtonSystem system{.residual = [&](const Eigen::VectorXd& at) { return scaled.residual(at); },

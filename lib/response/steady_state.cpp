@@ -2,19 +2,11 @@
 
 #include <string>
 
+#include "response/problem.hpp"
 #include "response/solve.hpp"
-#include "response/summary.hpp"
 
 namespace dovetail::response {
 namespace {
-
-contact::MarchOptions march_options(const SteadyOptions& options) {
-  return {.slip_return = options.slip_return == "second_order" ? contact::SlipReturn::second_order
-                                                               : contact::SlipReturn::first_order,
-          .periodic = true,
-          .max_periods = options.max_periods,
-          .tolerance = options.periodic_tolerance};
-}
 
 // Everything tried for one steady state, in order, until something converges.
 class Search {
@@ -28,10 +20,7 @@ class Search {
         basis_(options.harmonics, options.samples) {}
 
   [[nodiscard]] SteadyResidual problem(double ratio) const {
-    const contact::PseudoPenalty penalty = contact::pseudo_penalty(
-        model_->local_stiffness(), model_->directions(), options_.normal_penalty, options_.tangential_penalty);
-    return {
-        model_, system_, basis_, penalty.scaled(ratio * options_.penalty_scale), condition_, march_options(options_)};
+    return steady_problem(model_, system_, basis_, condition_, options_, ratio);
   }
 
   // Tries one start; true when it converged. Keeps the attempt if it is the best so far.
@@ -70,24 +59,10 @@ class Search {
   }
 
   [[nodiscard]] SteadyState result() const {
-    const SteadyResidual residual = problem(ratio_);
-    ResidualState state;
-    residual.evaluate(best_.displacement, best_.status == Status::converged, state);
-    SteadyState steady;
-    summarise(residual, state, steady);
+    SteadyState steady = described(problem(ratio_), best_.displacement, best_.status, options_.linearise);
     steady.iterations = iterations_;
     steady.evaluations = evaluations_;
     steady.penalty_ratio = ratio_;
-    steady.status = best_.status;
-    if (steady.status == Status::converged && state.status != Status::converged) steady.status = state.status;
-    if (steady.status != Status::converged) return steady;
-    auto linear = std::make_shared<const Linearisation>(residual, std::move(state));
-    // A body that nothing holds drifts until the residual is small against rounding: that is no state of it.
-    constexpr double kFloats = 1e-13;
-    if (linear->status() != Status::converged || linear->regularised() || linear->reciprocal_condition() < kFloats)
-      steady.status = Status::singular;
-    else if (options_.linearise)
-      steady.linearisation = std::move(linear);
     return steady;
   }
 

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "response/steady_state.hpp"
+
+namespace dovetail::response {
+
+/// f(U) of one frequency as `options` ask for it, with eps multiplied by `penalty_ratio`. `basis` is that of the
+/// options, made once for many problems.
+[[nodiscard]] SteadyResidual steady_problem(const std::shared_ptr<const CondensedModel>& model,
+                                            std::shared_ptr<const HarmonicSystem> system,
+                                            const numerics::FourierBasis& basis, const ContactCondition& condition,
+                                            const SteadyOptions& options, double penalty_ratio);
+
+/// What there is to say of U [nc, 2H+1], found with `status`: everything of a SteadyState but counts and the penalty
+/// ratio. A converged U whose Jacobian is singular becomes Status::singular; otherwise the linearisation is kept when
+/// `keep_linearisation`.
+[[nodiscard]] SteadyState described(const SteadyResidual& residual, const Eigen::MatrixXd& displacement, Status status,
+                                    bool keep_linearisation);
+
+/// What is left of forces after cancellation, relative to the excitation: no smaller residual can be asked for at this
+/// point. At most 1e-6: a start at which rounding swamps the excitation is no measure of the solution.
+[[nodiscard]] double rounding_floor(const SteadyResidual& residual, const ResidualState& state);
+
+/// Whether the contact that carries load holds the body: the static stiffness with those nodes closed and stuck must
+/// not have a negative direction. Spin softening gives a floating blade a root of the equations far away from its slot
+/// (K regular but indefinite, all nodes open): the residual vanishes there, but it is no state the blade can be in.
+[[nodiscard]] bool is_held(const SteadyResidual& residual, const ResidualState& state);
+
+}  // namespace dovetail::response
