@@ -1,0 +1,71 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "core/options.hpp"
+#include "response/resonance.hpp"
+#include "response/steady_state.hpp"
+
+namespace dovetail::response {
+
+/// What is bounded over the residual tractions.
+enum class BoundedQuantity {
+  amplitude,            ///< half peak-to-peak of one output at the frequency given
+  friction_energy,      ///< J per cycle
+  wear_rate,            ///< sum over nodes of area times depth per cycle, m^3
+  resonance_amplitude,  ///< amplitude at the maximum of the response curve near the frequency given
+  resonance_frequency,  ///< rad/s
+};
+
+[[nodiscard]] std::string_view to_string(BoundedQuantity quantity);
+
+struct TractionBoundsOptions {
+  int output = 0;                       ///< of the amplitudes and the resonance, [0, n_out)
+  int corners = 8;                      ///< corners of the admissible set tried as starts besides the given state, >= 0
+  int max_solves = 400;                 ///< steady states (or resonances) in all, >= 2
+  double tolerance = 1e-8;              ///< relative gain below which a climb ends, > 0
+  double resonance_search_range = 0.2;  ///< of omega, for the resonance quantities, (0, 1)
+};
+
+/// One attained value and the state it belongs to.
+struct AttainedValue {
+  double value = 0;
+  double omega = 0;             ///< rad/s: the frequency given, or the resonance
+  Eigen::MatrixXd slip_origin;  ///< X_T [Nc, d-1] that gives it, m: pass it on as ContactCondition::slip_origin
+  Eigen::MatrixXd traction;     ///< m = mean lambda_T / (mu mean lambda_N) there [Nc, d-1]; 0 where nothing is carried
+};
+
+/// Bounds of a response over the residual tractions of the nodes that stay stuck. They are *attained* values: the true
+/// range contains [minimum, maximum], and is larger when a climb ended in a local extreme.
+struct TractionBounds {
+  Status status = Status::iteration_limit;  ///< converged; iteration_limit: max_solves ended the search; or of nominal
+  std::string reason;                       ///< one sentence, never empty
+  AttainedValue nominal;                    ///< at the slip origin given
+  AttainedValue minimum, maximum;           ///< smallest and largest value found, nominal included
+  int stuck_nodes = 0;                      ///< that stayed stuck in the nominal state: only their tractions are free
+  int solves = 0;                           ///< steady states (or resonances) asked for
+  int failed = 0;                           ///< of them, not converged: they count for nothing
+};
+
+/// Nodes that stay stuck all the period keep the tractions their history left them, |m| <= 1 of mu lambda_N: the
+/// response is a family with the slip origins X_T as its parameters. This searches it for the smallest and largest
+/// value of one quantity: from the given state, from corners of the admissible set |m| <= 1 and from the corners the
+/// gradient points to, it climbs along projected gradients, each value being a steady state solved from an admissible
+/// slip origin (a node whose traction does not fit slips in the march until it does). The gradient is exact where nodes
+/// never slipped. Mean tractions relate to slip origins by the static stiffness with the nominal contact states.
+///
+/// `omega` rad/s; near the resonance for the resonance quantities. `guess` is U of a nearby state or empty.
+[[nodiscard]] TractionBounds traction_bounds(const std::shared_ptr<const CondensedModel>& model, double omega,
+                                             const ContactCondition& condition, const SteadyOptions& options,
+                                             BoundedQuantity quantity, const TractionBoundsOptions& bounds = {},
+                                             const Eigen::MatrixXd& guess = {});
+
+}  // namespace dovetail::response
+
+namespace dovetail {
+template <>
+std::span<const Field<response::TractionBoundsOptions>> option_table<response::TractionBoundsOptions>();
+}
