@@ -24,22 +24,6 @@ std::string legend_entry(const std::string& drawing, const std::string& name) {
   return fmt::format("<li><svg viewBox=\"0 0 24 12\" aria-hidden=\"true\">{}</svg>{}</li>", drawing, escape(name));
 }
 
-std::string legend(const Plot& plot) {
-  std::string text;
-  for (const PlotLine& line : plot.lines)
-    if (!line.name.empty())
-      text += legend_entry(
-          fmt::format("<path class=\"line {} {}\" d=\"M1 6H23\"/>", kRoleClass[static_cast<std::size_t>(line.role)],
-                      kStrokeClass[static_cast<std::size_t>(line.stroke)]),
-          line.name);
-  for (const PlotPoints& points : plot.points)
-    if (!points.name.empty() && !points.x.empty())
-      text += legend_entry(fmt::format(fmt::runtime(kShape[static_cast<std::size_t>(points.shape)]),
-                                       kRoleClass[static_cast<std::size_t>(points.role)]),
-                           points.name);
-  return text.empty() ? "" : "<ul class=\"legend\">" + text + "</ul>\n";
-}
-
 std::string heading(const PlotAxis& axis, const std::string& name) {
   const std::string text = name.empty() ? axis.label : name;
   return fmt::format("<th scope=\"col\">{}</th>", escape(axis.unit.empty() ? text : text + " (" + axis.unit + ")"));
@@ -82,11 +66,27 @@ std::string numbers(const Plot& plot) {
 
 }  // namespace
 
+std::string plot_legend(const Plot& plot) {
+  std::string text;
+  for (const PlotLine& line : plot.lines)
+    if (!line.name.empty())
+      text += legend_entry(
+          fmt::format("<path class=\"line {} {}\" d=\"M1 6H23\"/>", kRoleClass[static_cast<std::size_t>(line.role)],
+                      kStrokeClass[static_cast<std::size_t>(line.stroke)]),
+          line.name);
+  for (const PlotPoints& points : plot.points)
+    if (!points.name.empty() && !points.x.empty())
+      text += legend_entry(fmt::format(fmt::runtime(kShape[static_cast<std::size_t>(points.shape)]),
+                                       kRoleClass[static_cast<std::size_t>(points.role)]),
+                           points.name);
+  return text.empty() ? "" : "<ul class=\"legend\">" + text + "</ul>\n";
+}
+
 std::string plot_figure(const Plot& plot) {
   const std::string title = "<h3>" + escape(plot.title) + "</h3>\n";
   if (is_empty(plot))
     return "<figure class=\"nothing\">" + title + "<p>Nothing to show: these values were not computed.</p></figure>\n";
-  std::string text = "<figure>" + title + legend(plot) + plot_svg(plot);
+  std::string text = "<figure>" + title + plot_legend(plot) + plot_svg(plot);
   if (!plot.description.empty()) text += "<figcaption>" + escape(plot.description) + "</figcaption>\n";
   return text + numbers(plot) + "</figure>\n";
 }
@@ -100,6 +100,7 @@ std::string plot_style() {
 svg.plot{display:block;width:100%;height:auto;overflow:visible}
 svg.plot text{font:12.5px system-ui,-apple-system,"Segoe UI",Roboto,sans-serif;fill:var(--soft)}
 .grid path{stroke:var(--hair);stroke-width:1;fill:none}.grid path.base,.grid path.tick{stroke:var(--base)}
+svg.plot text.point{font-size:11px}
 .grid text.y{text-anchor:end;font-variant-numeric:tabular-nums}.grid text.x{text-anchor:middle}
 svg.plot text.title{fill:var(--ink)}.grid text.x-title{text-anchor:end}
 path.line{fill:none;stroke-width:2;stroke-linejoin:round;stroke-linecap:round}

@@ -224,6 +224,11 @@ std::string plot_svg(const Plot& plot) {
         left, y(level.y), right, right - 2, y(level.y) - 5, escape(level.name));
   }
   for (const PlotLine& line : plot.lines) text += path_of(line, plot, x, y);
+  for (const PlotLine& line : plot.lines)
+    for (std::size_t i = 0; i < std::min({line.x.size(), line.y.size(), line.labels.size()}); ++i)
+      if (drawable(line.x[i], plot.x) && drawable(line.y[i], plot.y))
+        text += fmt::format("<text class=\"point\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", x(line.x[i]) + 5,
+                            y(line.y[i]) - 5, escape(line.labels[i]));
   for (const PlotLine& line : plot.lines) {
     if (!line.dots) continue;
     for (std::size_t i = 0; i < std::min(line.x.size(), line.y.size()); ++i) {

@@ -16,6 +16,7 @@ enum class Shape { circle, cross, triangle, star };
 struct PlotLine {
   std::string name = {};  ///< in the legend; empty: not listed
   std::vector<double> x = {}, y = {};
+  std::vector<std::string> labels = {};  ///< written beside the points; empty: none
   Role role = Role::after;
   Stroke stroke = Stroke::solid;
   bool dots = false;    ///< a small dot at each point, with its values as tooltip
@@ -62,6 +63,9 @@ struct Plot {
 
 /// The plot as one inline <svg>, of role img with its title; colours are the style sheet's (plot_style()).
 [[nodiscard]] std::string plot_svg(const Plot& plot);
+
+/// What lines and markers mean, as a list; empty without names.
+[[nodiscard]] std::string plot_legend(const Plot& plot);
 
 /// <figure>: title, legend, drawing, description, and the numbers as a table under <details>. An empty plot becomes a
 /// sentence.
