@@ -1,0 +1,76 @@
+#include "tests/hard_cases/law.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dovetail::hard_cases {
+namespace {
+
+class Follower {
+ public:
+  Follower(double friction, bool second_order, const Vector& slip_force)
+      : friction_(friction), second_order_(second_order), slip_(slip_force) {}
+
+  Vector advance(const Vector& prediction) {
+    const double normal = std::max(0.0, prediction[0]);
+    const double limit = friction_ * normal;
+    const double trial_y = prediction[1] - slip_[1], trial_z = prediction[2] - slip_[2];
+    const double size = std::hypot(trial_y, trial_z);
+    Vector force{normal, trial_y, trial_z};
+    const bool slides = normal > 0 && (size > limit || friction_ == 0);
+    if (normal <= 0) {
+      force = {0, 0, 0};
+    } else if (slides) {
+      double angle = size > 0 ? std::atan2(trial_z, trial_y) : 0;
+      const double turn = std::remainder(angle - angle_, 8 * std::atan(1.0));
+      // On a straight path at constant limit b, tan(phi / 2) = |pre| sin(turn) / (b + |pre| cos(turn)).
+      if (second_order_ && slid_ && std::cos(turn) > 0)
+        angle = angle_ + 2 * std::atan2(size * std::sin(turn), limit + size * std::cos(turn));
+      force[1] = limit * std::cos(angle);
+      force[2] = limit * std::sin(angle);
+      angle_ = angle;
+    }
+    slid_ = slides;
+    for (std::size_t r = 0; r < 3; ++r)
+      if (r == 0 || normal <= 0 || slides) slip_[r] = prediction[r] - force[r];
+    return force;
+  }
+  [[nodiscard]] const Vector& slip() const { return slip_; }
+
+ private:
+  double friction_;
+  bool second_order_;
+  Vector slip_;
+  double angle_ = 0;
+  bool slid_ = false;
+};
+
+}  // namespace
+
+Orbit periodic_orbit(const std::vector<Vector>& prediction, double friction, bool second_order,
+                     const Vector& slip_force) {
+  constexpr int kMaxPeriods = 20000;
+  double largest = 0;
+  for (const Vector& p : prediction) largest = std::max({largest, std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
+  Follower follower(friction, second_order, slip_force);
+  Orbit orbit;
+  orbit.force.resize(prediction.size());
+  orbit.slip_force.resize(prediction.size());
+  for (int period = 0; period < kMaxPeriods && !orbit.periodic; ++period) {
+    const Vector before = follower.slip();
+    for (std::size_t n = 0; n < prediction.size(); ++n) {
+      orbit.force[n] = follower.advance(prediction[n]);
+      orbit.slip_force[n] = follower.slip();
+    }
+    const Vector& after = follower.slip();
+    const double change = std::hypot(after[1] - before[1], after[2] - before[2]);
+    orbit.periodic = change <= 1e-14 * largest;
+  }
+  return orbit;
+}
+
+Orbit free_orbit(const std::vector<Vector>& prediction) {
+  return {.force = std::vector<Vector>(prediction.size(), Vector{0, 0, 0}), .slip_force = prediction, .periodic = true};
+}
+
+}  // namespace dovetail::hard_cases

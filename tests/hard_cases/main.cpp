@@ -1,0 +1,37 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+
+#include "tests/hard_cases/suite.hpp"
+
+// Solves the hard cases and prints what became of them. Exit status 1 when a converged state is wrong.
+int main(int argc, char** argv) {
+  using namespace dovetail::hard_cases;
+  CLI::App app("Hard cases of the steady state: each converges, checked independently, or says why not.");
+  std::vector<std::string> only;
+  std::string csv;
+  bool quiet = false;
+  app.add_option("--only", only, "families, or single problems as FAMILY/NUMBER");
+  app.add_option("--csv", csv, "file for one line per problem");
+  app.add_flag("--quiet", quiet, "no line per problem that did not converge");
+  CLI11_PARSE(app, argc, argv);
+  const auto asked = [&](const std::string& family, int index) {
+    return only.empty() || std::any_of(only.begin(), only.end(), [&](const std::string& name) {
+             return name == family || name == family + "/" + std::to_string(index);
+           });
+  };
+  std::vector<Outcome> outcomes;
+  for (const Family& family : families())
+    for (int index = 0; index < family.count; ++index) {
+      if (!asked(family.name, index)) continue;
+      outcomes.push_back(attempt(family.name, index, family.make(index)));
+      if (!quiet) fmt::print("{}", failures({outcomes.back()}));
+      std::fflush(stdout);
+    }
+  fmt::print("\n{}", table(outcomes));
+  if (!csv.empty()) std::ofstream(csv) << comma_separated(outcomes);
+  return std::any_of(outcomes.begin(), outcomes.end(), [](const Outcome& o) { return !o.wrong.empty(); }) ? 1 : 0;
+}

@@ -1,0 +1,141 @@
+#include "tests/hard_cases/suite.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <map>
+#include <memory>
+
+#include "response/steady_state.hpp"
+
+namespace dovetail::hard_cases {
+
+Outcome attempt(const std::string& family, int index, const Problem& problem) {
+  Outcome outcome{.family = family,
+                  .index = index,
+                  .has_answer = problem.no_answer.empty(),
+                  .contact_mass = problem.contact_mass,
+                  .nodes = static_cast<int>(problem.model.contact.count())};
+  const auto start = std::chrono::steady_clock::now();
+  response::SteadyState state;
+  try {
+    const auto model = std::make_shared<const response::CondensedModel>(problem.model);
+    state = response::steady_state(model, problem.omega, problem.condition, problem.options);
+  } catch (const std::exception& error) {
+    outcome.thrown = error.what();
+    return outcome;
+  }
+  outcome.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  outcome.status = state.status;
+  outcome.iterations = state.iterations;
+  outcome.residual = state.residual;
+  outcome.penalty_ratio = state.penalty_ratio;
+  outcome.unknowns = static_cast<int>(state.displacement.size());
+  if (!outcome.converged()) return outcome;
+  outcome.verdict = examine(problem, {.displacement = state.displacement,
+                                      .normal = state.penalty.normal,
+                                      .tangential = state.penalty.tangential,
+                                      .friction_energy = state.friction_energy,
+                                      .input_energy = state.input_energy,
+                                      .damping_energy = state.damping_energy,
+                                      .contact_work = state.contact_work});
+  outcome.wrong = outcome.has_answer ? objection(problem, outcome.verdict) : "there is no such state";
+  return outcome;
+}
+
+namespace {
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// What the columns of the table count, of one family or of several.
+struct Line {
+  int problems = 0, converged = 0, wrong = 0, thrown = 0, max_iterations = 0;
+  std::map<Status, int> classified;
+  std::vector<double> iterations, milliseconds;
+
+  void add(const Outcome& outcome) {
+    ++problems;
+    milliseconds.push_back(outcome.milliseconds);
+    if (!outcome.wrong.empty()) ++wrong;
+    if (!outcome.thrown.empty()) ++thrown;
+    if (outcome.converged()) {
+      ++converged;
+      iterations.push_back(outcome.iterations);
+      max_iterations = std::max(max_iterations, outcome.iterations);
+    } else if (outcome.thrown.empty()) {
+      ++classified[outcome.status];
+    }
+  }
+  [[nodiscard]] std::string print(const std::string& name) const {
+    std::string reasons;
+    for (const auto& [status, count] : classified)
+      reasons += fmt::format("{}{} {}", reasons.empty() ? "" : ", ", count, to_string(status));
+    if (thrown > 0) reasons += fmt::format(", {} threw", thrown);
+    return fmt::format("{:<24}{:>9}{:>11}{:>7}{:>8.0f}{:>6}{:>9.1f}  {}\n", name, problems, converged, wrong,
+                       median(iterations), max_iterations, median(milliseconds), reasons.empty() ? "-" : reasons);
+  }
+};
+
+}  // namespace
+
+std::string table(const std::vector<Outcome>& outcomes) {
+  std::vector<std::string> order;
+  std::map<std::string, Line> lines;
+  Line massless, massive, none, all;
+  for (const Outcome& outcome : outcomes) {
+    if (!lines.contains(outcome.family)) order.push_back(outcome.family);
+    lines[outcome.family].add(outcome);
+    (!outcome.has_answer ? none : outcome.contact_mass ? massive : massless).add(outcome);
+    all.add(outcome);
+  }
+  std::string text = fmt::format("{:<24}{:>9}{:>11}{:>7}{:>8}{:>6}{:>9}  {}\n", "family", "problems", "converged",
+                                 "wrong", "median", "max", "median", "classified");
+  text += fmt::format("{:<24}{:>9}{:>11}{:>7}{:>14}{:>9}\n", "", "", "", "", "iterations", "ms");
+  for (const std::string& name : order) text += lines.at(name).print(name);
+  text += "\n" + massless.print("massless contact nodes");
+  if (massive.problems > 0) text += massive.print("mass on contact nodes");
+  if (none.problems > 0) text += none.print("no steady state exists");
+  return text + all.print("all");
+}
+
+std::string failures(const std::vector<Outcome>& outcomes) {
+  std::string text;
+  for (const Outcome& outcome : outcomes) {
+    if (!outcome.wrong.empty())
+      text += fmt::format(
+          "{:<28} WRONG: {}; residual {:.1e} (rounding {:.1e}), finer samples {:.1e}, penetration {:.1e}, tension "
+          "{:.1e}, cone {:.1e}, energy {:.1e}\n",
+          outcome.id(), outcome.wrong, outcome.verdict.residual, outcome.verdict.rounding,
+          outcome.verdict.fine_residual, outcome.verdict.penetration, outcome.verdict.tension, outcome.verdict.cone,
+          outcome.verdict.energy);
+    else if (!outcome.thrown.empty())
+      text += fmt::format("{:<28} threw: {}\n", outcome.id(), outcome.thrown);
+    else if (!outcome.converged() && outcome.has_answer)
+      text += fmt::format("{:<28} {}: {} nodes, {} unknowns, {} iterations, {:.0f} ms, residual {:.1e}\n", outcome.id(),
+                          to_string(outcome.status), outcome.nodes, outcome.unknowns, outcome.iterations,
+                          outcome.milliseconds, outcome.residual);
+  }
+  return text;
+}
+
+std::string comma_separated(const std::vector<Outcome>& outcomes) {
+  std::string text =
+      "id,status,nodes,unknowns,iterations,milliseconds,residual,penalty_ratio,check_residual,check_rounding,"
+      "check_fine_residual,penetration,tension,cone,energy,wrong\n";
+  for (const Outcome& o : outcomes)
+    text += fmt::format("{},{},{},{},{},{:.3f},{:.3e},{},{:.3e},{:.3e},{:.3e},{:.3e},{:.3e},{:.3e},{:.3e},{}\n", o.id(),
+                        o.thrown.empty() ? std::string(to_string(o.status)) : "threw", o.nodes, o.unknowns,
+                        o.iterations, o.milliseconds, o.residual, o.penalty_ratio, o.verdict.residual,
+                        o.verdict.rounding, o.verdict.fine_residual, o.verdict.penetration, o.verdict.tension,
+                        o.verdict.cone, o.verdict.energy, o.wrong);
+  return text;
+}
+
+}  // namespace dovetail::hard_cases

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/status.hpp"
+#include "tests/hard_cases/oracle.hpp"
+
+namespace dovetail::hard_cases {
+
+/// How one problem ended.
+struct Outcome {
+  std::string family;
+  int index = 0;
+  Status status = Status::iteration_limit;
+  std::string thrown = {};  ///< message of an exception; none is expected
+  std::string wrong = {};   ///< converged, and the independent check objects: why
+  Verdict verdict = {};     ///< of converged states
+  bool has_answer = true;   ///< false: proved by construction that there is none
+  bool contact_mass = false;
+  int nodes = 0, unknowns = 0, iterations = 0;
+  double milliseconds = 0, residual = 0, penalty_ratio = 1;
+
+  [[nodiscard]] std::string id() const { return family + "/" + std::to_string(index); }
+  [[nodiscard]] bool converged() const { return status == Status::converged && thrown.empty(); }
+};
+
+/// Solves and examines one problem.
+[[nodiscard]] Outcome attempt(const std::string& family, int index, const Problem& problem);
+
+/// One line per family and their sums.
+[[nodiscard]] std::string table(const std::vector<Outcome>& outcomes);
+/// One line per problem that did not converge or is wrong.
+[[nodiscard]] std::string failures(const std::vector<Outcome>& outcomes);
+/// One line of a comma-separated table per problem, with a header.
+[[nodiscard]] std::string comma_separated(const std::vector<Outcome>& outcomes);
+
+}  // namespace dovetail::hard_cases
