@@ -14,69 +14,131 @@ bool is_identity_row(const Eigen::MatrixXd& derivative, Eigen::Index l) {
 
 }  // namespace
 
-Linearisation::Linearisation(SteadyResidual residual, ResidualState state)
+Linearisation::Linearisation(SteadyResidual residual, ResidualState state, const Linearisation* previous)
     : residual_(std::move(residual)), state_(std::move(state)) {
   assert(state_.has_derivative);
-  const Eigen::Index nc = residual_.model().contact_size(), d = residual_.model().directions();
-  const Eigen::Index k = residual_.basis().coefficients();
-  std::vector<double> diagonal;
+  if (previous && same_jacobian(*previous)) {
+    factors_ = previous->factors_;
+    shares_factors_ = true;
+    return;
+  }
+  factors_ = factorise(0);
+  // A body that floats in a trial state has no Jacobian to solve with: lean it slightly on its contact.
+  if (factors_->separated.status() != Status::converged || factors_->lu.status() == Status::singular ||
+      factors_->lu.reciprocal_condition() < 1e-15)
+    factors_ = factorise(1e-6);
+}
+
+bool Linearisation::same_jacobian(const Linearisation& other) const {
+  if (other.status() != Status::converged || other.regularised()) return false;
+  if (residual_.shared_system() != other.residual_.shared_system()) return false;
+  if (residual_.penalty().normal != other.residual_.penalty().normal ||
+      residual_.penalty().tangential != other.residual_.penalty().tangential)
+    return false;
+  constexpr double kRounding = 1e-13;
+  for (std::size_t i = 0; i < state_.nodes.size(); ++i) {
+    const Eigen::MatrixXd &here = state_.nodes[i].force_derivative, &there = other.state_.nodes[i].force_derivative;
+    if ((here - there).cwiseAbs().maxCoeff() > kRounding) return false;
+  }
+  return true;
+}
+
+JacobianBlocks Linearisation::kept_blocks(const Factors& factors) const {
+  JacobianBlocks blocks;
+  blocks.stiffness = factors.separated.stiffness();
+  for (const Eigen::Index i : factors.nodes)
+    blocks.derivative.push_back(&state_.nodes[static_cast<std::size_t>(i)].force_derivative);
+  blocks.penalty.resize(static_cast<Eigen::Index>(factors.separated.kept().size()));
+  for (Eigen::Index a = 0; a < blocks.penalty.size(); ++a)
+    blocks.penalty(a) = residual_.penalty_of(factors.separated.kept()[static_cast<std::size_t>(a)]);
+  return blocks;
+}
+
+std::shared_ptr<const Linearisation::Factors> Linearisation::factorise(double regularisation) const {
+  const Eigen::Index d = residual_.model().directions(), k = residual_.basis().coefficients();
+  std::vector<Eigen::Index> open, kept, nodes;
   for (Eigen::Index i = 0; i < residual_.model().nodes(); ++i) {
-    const Eigen::MatrixXd& derivative = state_.nodes[static_cast<std::size_t>(i)].force_derivative;
+    const bool separated = regularisation == 0 && state_.nodes[static_cast<std::size_t>(i)].always_separated;
+    if (!separated) nodes.push_back(i);
+    for (Eigen::Index r = 0; r < d; ++r) (separated ? open : kept).push_back(i * d + r);
+  }
+  auto factors = std::make_shared<Factors>(
+      Factors{.separated = SeparatedNodes(residual_.shared_system(), std::move(open), std::move(kept)),
+              .nodes = std::move(nodes),
+              .active = {},
+              .direct = {},
+              .direct_diagonal = {},
+              .regularisation = regularisation,
+              .lu = {}});
+  if (factors->separated.status() != Status::converged) return factors;
+  const JacobianBlocks blocks = kept_blocks(*factors);
+  std::vector<double> diagonal;
+  for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(factors->nodes.size()); ++i)
     for (Eigen::Index l = 0; l < d * k; ++l) {
-      const Eigen::Index dof = i * d + l % d, unknown = (l / d) * nc + dof;
-      if (is_identity_row(derivative, l)) {
-        direct_.push_back(unknown);
-        diagonal.push_back(residual_.penalty_of(dof));
+      const Eigen::Index dof = i * d + l % d, unknown = (l / d) * blocks.size() + dof;
+      if (is_identity_row(*blocks.derivative[static_cast<std::size_t>(i)], l)) {
+        factors->direct.push_back(unknown);
+        diagonal.push_back(blocks.penalty(dof));
       } else {
-        active_.push_back(unknown);
+        factors->active.push_back(unknown);
       }
     }
-  }
-  direct_diagonal_ = Eigen::Map<Eigen::VectorXd>(diagonal.data(), static_cast<Eigen::Index>(diagonal.size()));
-  factorise(0);
-  // A body that floats in a trial state has no Jacobian to solve with: lean it slightly on its contact.
-  if (lu_.status() == Status::singular || lu_.reciprocal_condition() < 1e-15) {
-    regularised_ = true;
-    factorise(1e-6);
-  }
-}
-
-void Linearisation::factorise(double regularisation) {
-  const auto active = static_cast<Eigen::Index>(active_.size()), direct = static_cast<Eigen::Index>(direct_.size());
+  factors->direct_diagonal = Eigen::Map<Eigen::VectorXd>(diagonal.data(), static_cast<Eigen::Index>(diagonal.size()));
+  const auto active = static_cast<Eigen::Index>(factors->active.size());
   Eigen::MatrixXd matrix(active, active);
-  coupling_.resize(active, direct);
-  std::vector<double*> columns(static_cast<std::size_t>(unknowns()), nullptr);
+  std::vector<double*> columns(static_cast<std::size_t>(blocks.size() * k), nullptr);
   for (Eigen::Index j = 0; j < active; ++j)
-    columns[static_cast<std::size_t>(active_[static_cast<std::size_t>(j)])] = matrix.col(j).data();
-  for (Eigen::Index j = 0; j < direct; ++j)
-    columns[static_cast<std::size_t>(direct_[static_cast<std::size_t>(j)])] = coupling_.col(j).data();
-  residual_.assemble(state_, active_, columns, regularisation);
-  lu_.factorise(std::move(matrix));
-}
-
-Eigen::Index Linearisation::unknowns() const {
-  return residual_.unknowns();
+    columns[static_cast<std::size_t>(factors->active[static_cast<std::size_t>(j)])] = matrix.col(j).data();
+  assemble(blocks, factors->active, columns, regularisation);
+  factors->lu.factorise(std::move(matrix));
+  return factors;
 }
 
 Eigen::MatrixXd Linearisation::solve(const Eigen::Ref<const Eigen::MatrixXd>& rhs) const {
-  Eigen::MatrixXd solution(rhs.rows(), rhs.cols());
-  const Eigen::MatrixXd direct =
-      direct_diagonal_.cwiseInverse().asDiagonal() * Eigen::MatrixXd(rhs(direct_, Eigen::all));
-  Eigen::MatrixXd rest = rhs(active_, Eigen::all);
-  rest.noalias() -= coupling_ * direct;
-  solution(direct_, Eigen::all) = direct;
-  solution(active_, Eigen::all) = lu_.solve(std::move(rest));
-  return solution;
+  const Factors& f = *factors_;
+  const JacobianBlocks blocks = kept_blocks(f);
+  const Eigen::MatrixXd all = rhs, on_open = f.separated.part_of(f.separated.open(), all);
+  Eigen::MatrixXd kept = f.separated.part_of(f.separated.kept(), all);
+  if (on_open.rows() > 0) {
+    const Eigen::MatrixXd pushed = f.separated.apply_shape(Form::transposed, on_open);
+    kept -= pushed - apply_derivative(blocks, pushed, false);
+  }
+  Eigen::MatrixXd solution = Eigen::MatrixXd::Zero(kept.rows(), kept.cols());
+  if (!f.direct.empty()) {
+    solution(f.direct, Eigen::all) =
+        f.direct_diagonal.cwiseInverse().asDiagonal() * Eigen::MatrixXd(kept(f.direct, Eigen::all));
+    if (!f.active.empty()) kept -= (1 - f.regularisation) * apply_jacobian(blocks, solution);
+  }
+  solution(f.active, Eigen::all) = f.lu.solve(kept(f.active, Eigen::all));
+  if (on_open.rows() == 0) return solution;
+  Eigen::MatrixXd result(rhs.rows(), rhs.cols());
+  f.separated.put_part(f.separated.kept(), solution, result);
+  f.separated.put_part(f.separated.open(),
+                       f.separated.solve_open(on_open, false) - f.separated.apply_shape(Form::plain, solution), result);
+  return result;
 }
 
 Eigen::MatrixXd Linearisation::solve_transposed(const Eigen::Ref<const Eigen::MatrixXd>& rhs) const {
-  Eigen::MatrixXd solution(rhs.rows(), rhs.cols());
-  const Eigen::MatrixXd active = lu_.solve_transposed(rhs(active_, Eigen::all));
-  Eigen::MatrixXd direct = rhs(direct_, Eigen::all);
-  direct.noalias() -= coupling_.transpose() * active;
-  solution(active_, Eigen::all) = active;
-  solution(direct_, Eigen::all) = direct_diagonal_.cwiseInverse().asDiagonal() * direct;
-  return solution;
+  const Factors& f = *factors_;
+  const JacobianBlocks blocks = kept_blocks(f);
+  const Eigen::MatrixXd all = rhs, on_open = f.separated.part_of(f.separated.open(), all);
+  Eigen::MatrixXd kept = f.separated.part_of(f.separated.kept(), all);
+  if (on_open.rows() > 0) kept -= f.separated.apply_shape(Form::adjoint, on_open);
+  Eigen::MatrixXd solution = Eigen::MatrixXd::Zero(kept.rows(), kept.cols());
+  solution(f.active, Eigen::all) = f.lu.solve_transposed(kept(f.active, Eigen::all));
+  if (!f.direct.empty()) {
+    if (!f.active.empty()) kept -= (1 - f.regularisation) * apply_jacobian_transposed(blocks, solution);
+    solution(f.direct, Eigen::all) =
+        f.direct_diagonal.cwiseInverse().asDiagonal() * Eigen::MatrixXd(kept(f.direct, Eigen::all));
+  }
+  if (on_open.rows() == 0) return solution;
+  Eigen::MatrixXd result(rhs.rows(), rhs.cols());
+  f.separated.put_part(f.separated.kept(), solution, result);
+  const Eigen::MatrixXd complement = solution - apply_derivative(blocks, solution, true);
+  f.separated.put_part(f.separated.open(),
+                       f.separated.solve_open(on_open, true) - f.separated.apply_shape(Form::conjugated, complement),
+                       result);
+  return result;
 }
 
 Eigen::MatrixXd Linearisation::residual_to_wear(const std::vector<Eigen::Index>& nodes) const {

@@ -1,27 +1,31 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "numerics/dense_lu.hpp"
 #include "response/residual.hpp"
+#include "response/separated_nodes.hpp"
 
 namespace dovetail::response {
 
 /// The factorised Jacobian J = Z + D (eps I - Z) of a point and what follows from it. All vectors over the unknowns
 /// are vec(U): index k nc + a is Fourier coefficient k of contact dof a, nc (2H+1) entries.
 ///
-/// Rows where D is a row of the identity (normal directions that never separate, nodes that never slid) read
-/// eps dU = -f: they are eliminated exactly, and the dense factorisation only sees the rest.
+/// The dense factorisation sees only what is nonlinear at this point. Rows where D is a row of the identity (normal
+/// directions that never separate, nodes that never slid) read eps dU = -f and are eliminated; nodes without force at
+/// any time are linear and condensed harmonic by harmonic. Both are exact.
 class Linearisation {
  public:
-  /// Keeps a copy of the state and of the (shared, constant) problem. O(size of the rest ^3).
-  Linearisation(SteadyResidual residual, ResidualState state);
+  /// Keeps a copy of the state and of the (shared, constant) problem. O(size of the rest ^3), unless `previous` is of
+  /// the same problem with the same D, to rounding: then its factors serve again.
+  Linearisation(SteadyResidual residual, ResidualState state, const Linearisation* previous = nullptr);
 
-  [[nodiscard]] Status status() const { return lu_.status(); }
-  [[nodiscard]] Eigen::Index unknowns() const;
-  [[nodiscard]] Eigen::Index factorised_size() const { return lu_.size(); }
-  [[nodiscard]] double reciprocal_condition() const { return lu_.reciprocal_condition(); }
+  [[nodiscard]] Status status() const { return factors_->lu.status(); }
+  [[nodiscard]] Eigen::Index unknowns() const { return residual_.unknowns(); }
+  [[nodiscard]] Eigen::Index factorised_size() const { return factors_->lu.size(); }
+  [[nodiscard]] double reciprocal_condition() const { return factors_->lu.reciprocal_condition(); }
   [[nodiscard]] const SteadyResidual& residual() const { return residual_; }
   [[nodiscard]] const ResidualState& state() const { return state_; }
 
@@ -44,18 +48,27 @@ class Linearisation {
 
   /// True when J was (nearly) singular and its contact was stiffened by 1e-6 to get a search direction: not usable
   /// for derivatives.
-  [[nodiscard]] bool regularised() const { return regularised_; }
+  [[nodiscard]] bool regularised() const { return factors_->regularisation > 0; }
+  /// Whether the factors are those of the previous linearisation.
+  [[nodiscard]] bool shares_factors() const { return shares_factors_; }
 
  private:
-  void factorise(double regularisation);
+  struct Factors {
+    SeparatedNodes separated;
+    std::vector<Eigen::Index> nodes;           // kept ones
+    std::vector<Eigen::Index> active, direct;  // rows of vec(U) of the kept dofs
+    Eigen::VectorXd direct_diagonal;           // eps of the eliminated rows
+    double regularisation = 0;
+    numerics::DenseLu lu;
+  };
+  [[nodiscard]] std::shared_ptr<const Factors> factorise(double regularisation) const;
+  [[nodiscard]] bool same_jacobian(const Linearisation& other) const;
+  [[nodiscard]] JacobianBlocks kept_blocks(const Factors& factors) const;
 
   SteadyResidual residual_;
   ResidualState state_;
-  std::vector<Eigen::Index> active_, direct_;
-  Eigen::VectorXd direct_diagonal_;  // eps of the eliminated rows
-  Eigen::MatrixXd coupling_;         // J(active, direct)
-  numerics::DenseLu lu_;
-  bool regularised_ = false;
+  std::shared_ptr<const Factors> factors_;
+  bool shares_factors_ = false;
 };
 
 }  // namespace dovetail::response

@@ -2,6 +2,7 @@
 
 #include <cassert>
 #include <cmath>
+#include <numeric>
 
 #include "numerics/dense_lu.hpp"
 #include "response/real_block.hpp"
@@ -113,16 +114,33 @@ void SteadyResidual::evaluate(const Eigen::MatrixXd& displacement, bool with_der
   state.residual = state.force - external;
 }
 
+JacobianBlocks SteadyResidual::blocks(const ResidualState& state) const {
+  assert(state.has_derivative);
+  JacobianBlocks blocks;
+  for (const HarmonicStiffness& at : system_->harmonics) blocks.stiffness.push_back(&at.stiffness);
+  for (const contact::MarchResult& node : state.nodes) blocks.derivative.push_back(&node.force_derivative);
+  blocks.penalty = dof_penalty_;
+  return blocks;
+}
+
 Eigen::MatrixXd SteadyResidual::apply_force_derivative(const ResidualState& state,
                                                        const Eigen::MatrixXd& change) const {
-  const Eigen::Index d = model_->directions();
-  Eigen::MatrixXd result(change.rows(), change.cols());
-  for (Eigen::Index i = 0; i < model_->nodes(); ++i) {
-    const Eigen::MatrixXd block = change.middleRows(i * d, d);
-    const Eigen::VectorXd applied = state.nodes[static_cast<std::size_t>(i)].force_derivative * block.reshaped();
-    result.middleRows(i * d, d) = applied.reshaped(d, change.cols());
-  }
+  const Eigen::VectorXd applied = apply_derivative(blocks(state), change.reshaped(), false);
+  return applied.reshaped(change.rows(), change.cols());
+}
+
+Eigen::MatrixXd SteadyResidual::jacobian_rows(const ResidualState& state, const std::vector<Eigen::Index>& rows) const {
+  Eigen::MatrixXd result(static_cast<Eigen::Index>(rows.size()), unknowns());
+  std::vector<double*> columns;
+  for (Eigen::Index j = 0; j < unknowns(); ++j) columns.push_back(result.col(j).data());
+  assemble(blocks(state), rows, columns);
   return result;
+}
+
+Eigen::MatrixXd SteadyResidual::jacobian(const ResidualState& state) const {
+  std::vector<Eigen::Index> rows(static_cast<std::size_t>(unknowns()));
+  std::iota(rows.begin(), rows.end(), Eigen::Index{0});
+  return jacobian_rows(state, rows);
 }
 
 Eigen::MatrixXd SteadyResidual::closed_start() const {

@@ -8,6 +8,7 @@
 #include "contact/pseudo_penalty.hpp"
 #include "numerics/fourier.hpp"
 #include "response/condensed_model.hpp"
+#include "response/jacobian.hpp"
 #include "response/options.hpp"
 
 namespace dovetail::response {
@@ -56,6 +57,7 @@ class SteadyResidual {
 
   [[nodiscard]] const CondensedModel& model() const { return *model_; }
   [[nodiscard]] const HarmonicSystem& system() const { return *system_; }
+  [[nodiscard]] const std::shared_ptr<const HarmonicSystem>& shared_system() const { return system_; }
   [[nodiscard]] const numerics::FourierBasis& basis() const { return basis_; }
   [[nodiscard]] const contact::PseudoPenalty& penalty() const { return penalty_; }
   [[nodiscard]] const ContactCondition& condition() const { return condition_; }  ///< no member empty
@@ -72,10 +74,8 @@ class SteadyResidual {
   [[nodiscard]] Eigen::MatrixXd jacobian(const ResidualState& state) const;
   /// Its rows `rows` only (indices into vec(U), ascending).
   [[nodiscard]] Eigen::MatrixXd jacobian_rows(const ResidualState& state, const std::vector<Eigen::Index>& rows) const;
-  /// Writes rows `rows` of J, with D replaced by D + regularisation (I - D), into columns[c] + position of the row,
-  /// one pointer per column of vec(U). Fastest when the rows of a node stand together.
-  void assemble(const ResidualState& state, const std::vector<Eigen::Index>& rows, const std::vector<double*>& columns,
-                double regularisation) const;
+  /// Z, D and eps of all nodes; views of this problem and of `state`.
+  [[nodiscard]] JacobianBlocks blocks(const ResidualState& state) const;
   /// D applied to a change of lambda_u, [nc, 2H+1] to [nc, 2H+1].
   [[nodiscard]] Eigen::MatrixXd apply_force_derivative(const ResidualState& state, const Eigen::MatrixXd& change) const;
 
