@@ -107,10 +107,13 @@ std::string dynamics(const Scene& scene, CandidateResult& result) {
 }  // namespace
 
 response::SteadyOptions steady_options(const SolverSettings& settings) {
-  return {.harmonics = settings.harmonics,
-          .samples = settings.samples,
-          .tolerance = settings.tolerance,
-          .solver = settings.solver};
+  return {
+      .harmonics = settings.harmonics,
+      .samples = settings.samples,
+      .tolerance = settings.tolerance,
+      .solver = settings.solver,
+      .normal_penalty = settings.pseudo_penalty_normal > 0 ? settings.pseudo_penalty_normal : settings.pseudo_penalty,
+      .tangential_penalty = settings.pseudo_penalty};
 }
 
 CandidateResult SceneEvaluator::evaluate(const Scene& scene) const {

@@ -72,7 +72,7 @@ std::span<const Field<optimizer::Loading>> option_table<optimizer::Loading>() {
 template <>
 std::span<const Field<optimizer::SolverSettings>> option_table<optimizer::SolverSettings>() {
   using S = optimizer::SolverSettings;
-  static const std::array<Field<S>, 5> table{
+  static const std::array<Field<S>, 7> table{
       Field<S>{.key = "harmonics",
                .member = &S::harmonics,
                .range = {.lower = 1, .upper = 200},
@@ -91,8 +91,16 @@ std::span<const Field<optimizer::SolverSettings>> option_table<optimizer::Solver
                .help = "relative residual at which a steady state counts as converged"},
       Field<S>{.key = "solver",
                .member = &S::solver,
-               .help = "algorithm for the nonlinear equations",
-               .choices = {"auto", "newton", "powell"}}};
+               .help = "algorithm for the nonlinear equations; powell_fd: with finite differences, for comparison",
+               .choices = {"auto", "newton", "powell", "powell_fd"}},
+      Field<S>{.key = "pseudo_penalty_n_per_m",
+               .member = &S::pseudo_penalty,
+               .range = kNonNegative,
+               .help = "pseudo-penalty of all contact nodes; 0: from the model, the local contact stiffness"},
+      Field<S>{.key = "pseudo_penalty_normal_n_per_m",
+               .member = &S::pseudo_penalty_normal,
+               .range = kNonNegative,
+               .help = "pseudo-penalty in the normal direction; 0: as pseudo_penalty_n_per_m"}};
   return table;
 }
 

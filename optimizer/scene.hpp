@@ -31,9 +31,11 @@ struct Loading {
 struct SolverSettings {
   int harmonics = 3;
   int samples = 128;
-  int modes = 20;               ///< free-interface modes kept
-  double tolerance = 1e-9;      ///< relative residual of the steady state
-  std::string solver = "auto";  ///< auto | newton | powell
+  int modes = 20;                    ///< free-interface modes kept
+  double tolerance = 1e-9;           ///< relative residual of the steady state
+  std::string solver = "auto";       ///< auto | newton | powell | powell_fd
+  double pseudo_penalty = 0;         ///< eps of all contact nodes, N/m; 0: from the model
+  double pseudo_penalty_normal = 0;  ///< eps in the normal direction, N/m; 0: pseudo_penalty
 };
 
 /// One fully specified candidate: everything the evaluator needs, in SI.

@@ -1,5 +1,6 @@
 #include "studies/program/arguments.hpp"
 
+#include "optimizer/scene.hpp"
 #include "studies/program/engine.hpp"
 #include "studies/program/export.hpp"
 
@@ -24,13 +25,50 @@ void add_json(CLI::App& command, std::string& json) {
       ->type_name("FILE");
 }
 
-void add_solver(CLI::App& command, Arguments& a) {
-  command.add_option("--harmonics", a.solver.harmonics, "Harmonics of the periodic motion")->type_name("H");
-  command.add_option("--samples", a.solver.samples, "Instants per period at which the contact is marched")
-      ->type_name("N");
+/// A whole number, or the word auto.
+void add_automatic(CLI::App& command, const char* name, std::optional<int>& value, bool& automatic, const char* help,
+                   const char* type) {
   command
-      .add_option("--tolerance", a.solver.tolerance, "Relative residual at which a steady state counts as converged")
+      .add_option_function<std::string>(
+          name,
+          [name, &value, &automatic](const std::string& text) {
+            automatic = text == "auto";
+            int number = 0;
+            if (!automatic && !CLI::detail::lexical_cast(text, number))
+              throw CLI::ValidationError(name, "must be a whole number or auto, not " + text);
+            if (!automatic) value = number;
+          },
+          help)
+      ->type_name(type);
+}
+
+void add_solver(CLI::App& command, Arguments& a) {
+  SolverOverrides& solver = a.solver;
+  add_automatic(command, "--harmonics", solver.harmonics, solver.automatic_harmonics,
+                "Harmonics of the periodic motion; auto: as many as the error bars ask for", "H|auto");
+  add_automatic(command, "--samples", solver.samples, solver.automatic_samples,
+                "Instants per period at which the contact is marched; auto: as many as the error bars ask for",
+                "N|auto");
+  command.add_option("--tolerance", solver.tolerance, "Relative residual at which a steady state counts as converged")
       ->type_name("T");
+  command
+      .add_option("--pseudo-penalty", solver.pseudo_penalty,
+                  "Pseudo-penalty of all contact nodes, N/m (default, and 0: from the model, the local contact "
+                  "stiffness)")
+      ->type_name("E");
+  command
+      .add_option("--pseudo-penalty-normal", solver.pseudo_penalty_normal,
+                  "The same for the normal direction alone (default, and 0: that of --pseudo-penalty)")
+      ->type_name("E");
+  std::vector<std::string> solvers;
+  for (const std::string_view choice : optimizer::find_parameter("solver.solver")->choices)
+    solvers.emplace_back(choice);
+  command
+      .add_option("--solver", solver.solver,
+                  "auto: Newton, then other pseudo-penalties and Powell where it fails; newton; powell: hybrid Powell "
+                  "with the exact Jacobian; powell_fd: with finite differences, for comparison")
+      ->type_name("NAME")
+      ->check(CLI::IsMember(solvers));
 }
 
 CLI::Option* add_study(CLI::App& command, std::string& study) {
@@ -94,7 +132,7 @@ void define_study_commands(CLI::App& app, Arguments& a) {
 }
 
 void define_model_commands(CLI::App& app, Arguments& a) {
-  constexpr const char* kInput = "A reduced model (HDF5) or a study file (TOML)";
+  constexpr const char* kInput = "A reduced model (HDF5, or TOML with Matrix Market files) or a study file (TOML)";
   CLI::App* response = app.add_subcommand("response", "Frequency response of a model or a study's design");
   response->footer(
       "The frequencies are gone through in the order given; --from may exceed --to. JSON: {\"frequency_hz\", "
@@ -160,26 +198,47 @@ void define_model_commands(CLI::App& app, Arguments& a) {
 }
 
 void define_file_commands(CLI::App& app, Arguments& a) {
-  CLI::App* geometry =
-      app.add_subcommand("export", "Write the geometry or fields of a finished run's best design or of a study");
-  std::string formats;
-  for (const std::string_view format : export_formats()) formats += (formats.empty() ? "" : ", ") + std::string(format);
-  geometry->add_option("INPUT", a.geometry.input, "Directory of a run, or a study file")->required()->type_name("");
-  geometry->add_option("--format", a.geometry.format, "One of " + formats)->type_name("NAME")->required();
-  geometry->add_option("-o,--output", a.geometry.file, "The file to write")->type_name("FILE")->required();
-  add_set(*geometry, a);
-  geometry->callback([&a] {
-    a.command = [&a](const Streams& s) {
-      a.geometry.overrides = a.overrides();
-      return run_export(a.geometry, s);
-    };
-  });
+  CLI::App* import =
+      app.add_subcommand("import", "Write a reduced model given as Matrix Market files and TOML as HDF5");
+  import->footer(
+      "MODEL.toml says format = \"dovetail-reduced-model\", version = 1, names the files `mass`, `damping` and\n"
+      "`stiffness`, and has a section [contact] (normal, tangential, area, gap, friction, wear_coefficient, one entry\n"
+      "per node), sections [[force]] (dof, harmonic, cosine, sine) and [[output]] (name, dofs, factors); dofs count\n"
+      "from 0. `response` and `wear` read it directly, too.");
+  import->add_option("INPUT", a.import.input, "The model (TOML)")->required()->type_name("");
+  import->add_option("-o,--output", a.import.model, "The model file to write")->type_name("MODEL.h5")->required();
+  import->callback([&a] { a.command = [&a](const Streams& s) { return run_import(a.import, s);
+};
+}  // namespace
+);
 
-  CLI::App* report = app.add_subcommand("report", "Write the report of a run again, from its stored results");
-  report->add_option("DIR", a.report.directory, "Directory of the run")->required()->type_name("");
-  report->add_option("-o,--output", a.report.file, "The page to write")->type_name("FILE.html")->required();
-  report->callback([&a] { a.command = [&a](const Streams& s) { return run_report(a.report, s); }; });
-}
+CLI::App* geometry = app.add_subcommand(
+    "export", "Write geometry or fields of a finished run's best design or of a study, or matrices of a model");
+std::string formats;
+for (const std::string_view format : export_formats()) formats += std::string(format) + ", ";
+geometry->footer(
+    "matrix-market writes a reduced model (of a model file, a study or a run's best design) as FILE.toml and, beside\n"
+    "it, FILE.mass.mtx, FILE.damping.mtx and FILE.stiffness.mtx; `import` turns them into HDF5 again, bit by bit.");
+geometry->add_option("INPUT", a.geometry.input, "Directory of a run, a study file, or a reduced model")
+    ->required()
+    ->type_name("");
+geometry->add_option("--format", a.geometry.format, "One of " + formats + std::string(kMatrixMarket))
+    ->type_name("NAME")
+    ->required();
+geometry->add_option("-o,--output", a.geometry.file, "The file to write")->type_name("FILE")->required();
+add_set(*geometry, a);
+geometry->callback([&a] {
+  a.command = [&a](const Streams& s) {
+    a.geometry.overrides = a.overrides();
+    return run_export(a.geometry, s);
+  };
+});
+
+CLI::App* report = app.add_subcommand("report", "Write the report of a run again, from its stored results");
+report->add_option("DIR", a.report.directory, "Directory of the run")->required()->type_name("");
+report->add_option("-o,--output", a.report.file, "The page to write")->type_name("FILE.html")->required();
+report->callback([&a] { a.command = [&a](const Streams& s) { return run_report(a.report, s); }; });
+}  // namespace dovetail::studies
 
 }  // namespace
 

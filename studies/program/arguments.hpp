@@ -18,6 +18,7 @@ struct Arguments {
   ResponseOptions response;
   WearOptions wear;
   RunOptions run;
+  ImportOptions import;
   ExportOptions geometry;
   ReportOptions report;
   SolverOverrides solver;

@@ -1,12 +1,16 @@
 // Commands on what a run or a study left in files.
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <ostream>
 
 #include "core/replace_file.hpp"
+#include "reduction/model_file.hpp"
 #include "studies/program/commands.hpp"
 #include "studies/program/engine.hpp"
 #include "studies/program/export.hpp"
 #include "studies/program/field_export.hpp"
+#include "studies/program/model_toml.hpp"
 #include "studies/report/report_html.hpp"
 #include "studies/report/results_file.hpp"
 
@@ -43,20 +47,59 @@ report::FieldRecord fields_of(const ExportOptions& options, bool of_run) {
 
 }  // namespace
 
+int run_import(const ImportOptions& options, const Streams& streams) {
+  const std::optional<reduction::ReducedModel> model = read_any_model(options.input);
+  if (!model)
+    throw InputError(Violation{.file = {},
+                               .key = options.input,
+                               .value = {},
+                               .allowed =
+                                   "is not a reduced model: it does not say format = "
+                                   "\"dovetail-reduced-model\"; of a study, `dovetail reduce` writes the model"});
+  reduction::write_model(options.model, *model);
+  streams.out << fmt::format("{}: {} coordinates, {} contact nodes\n", options.model, model->size(),
+                             model->contact.count());
+  return kDone;
+}
+
+namespace {
+
+int export_model(const ExportOptions& options, const std::string& input, const Streams& streams) {
+  const LoadedModel loaded = load_model(input, options.overrides, {});
+  if (!loaded.failure.empty()) {
+    streams.err << "dovetail: " << input << ": not converged: " << loaded.failure << "\n";
+    return kNotConverged;
+  }
+  write_model_document(options.file, loaded.model, options.input);
+  streams.out << options.file << ": written, with three matrices beside it\n";
+  return kDone;
+}
+
+}  // namespace
+
 int run_export(const ExportOptions& options, const Streams& streams) {
-  if (!is_export_format(options.format)) {
+  const bool matrices = options.format == kMatrixMarket;
+  if (!matrices && !is_export_format(options.format)) {
     std::string allowed = "must be one of";
     for (const std::string_view known : export_formats()) (allowed += ' ') += known;
-    throw InputError(Violation{.file = {}, .key = "--format", .value = options.format, .allowed = allowed});
+    throw InputError(Violation{
+        .file = {}, .key = "--format", .value = options.format, .allowed = allowed + " " + std::string(kMatrixMarket)});
   }
   check_replaceable(options.file);
   const bool of_run = fs::is_directory(options.input);
-  if (is_field_format(options.format)) {
+  const auto design = [&] {
+    return of_run ? run_file(options.input, "best.toml", "best design").string() : options.input;
+  };
+  if (matrices) return export_model(options, design(), streams);
+  if (!of_run && (is_hdf5_file(options.input) || is_model_document(load_document(options.input))))
+    throw InputError(Violation{.file = {},
+                               .key = options.input,
+                               .value = {},
+                               .allowed = "is a reduced model: it has matrices (--format matrix-market), no geometry"});
+  if (is_field_format(options.format))
     export_fields(fields_of(options, of_run), options.file);
-  } else {
-    const std::string study = of_run ? run_file(options.input, "best.toml", "best design").string() : options.input;
-    export_section(load_study(study, options.overrides).scene, options.format, options.file);
-  }
+  else
+    export_section(load_study(design(), options.overrides).scene, options.format, options.file);
   streams.out << options.file << ": written\n";
   return kDone;
 }

@@ -3,6 +3,7 @@
 #include <iosfwd>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/options.hpp"
@@ -54,7 +55,12 @@ int run_reduce(const ReduceOptions& options, const Streams& streams);
 /// Settings shared by the commands that take a model or a study; absent ones keep the file's or the default.
 struct SolverOverrides {
   std::optional<int> harmonics, samples;
+  bool automatic_harmonics = false, automatic_samples = false;  ///< "auto": chosen by refinement
   std::optional<double> tolerance;
+  std::optional<double> pseudo_penalty, pseudo_penalty_normal;  ///< N/m
+  std::optional<std::string> solver;
+
+  [[nodiscard]] bool automatic() const { return automatic_harmonics || automatic_samples; }
 };
 
 struct ResponseOptions {
@@ -88,8 +94,17 @@ struct RunOptions {
 };
 int run_study(const RunOptions& options, const Streams& streams, const RunEngineFactory& engine);
 
+/// The format of the command export that writes a reduced model, not a drawing.
+inline constexpr std::string_view kMatrixMarket = "matrix-market";
+
+struct ImportOptions {
+  std::string input;  ///< MODEL.toml
+  std::string model;  ///< MODEL.h5
+};
+int run_import(const ImportOptions& options, const Streams& streams);
+
 struct ExportOptions {
-  std::string input;  ///< results directory or STUDY.toml
+  std::string input;  ///< results directory, STUDY.toml, MODEL.h5 or MODEL.toml
   std::vector<Override> overrides;
   std::string format;
   std::string file;

@@ -1,11 +1,14 @@
 #include "studies/program/engine.hpp"
 
 #include <array>
+#include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <string_view>
 
 #include "reduction/model_file.hpp"
 #include "response/condensed_model.hpp"
+#include "studies/program/model_toml.hpp"
 #include "studies/report/design_record.hpp"
 
 namespace dovetail::studies {
@@ -43,7 +46,7 @@ report::DesignRecord describe_fields(const Study& study) {
                                     {.curve_points = 0, .nodal_diameter_modes = 0, .history_steps = 0});
 }
 
-bool is_model_file(const std::string& file) {
+bool is_hdf5_file(const std::string& file) {
   constexpr std::string_view signature("\x89HDF\r\n\x1a\n", 8);
   std::ifstream stream(file, std::ios::binary);
   std::array<char, 8> first{};
@@ -58,6 +61,10 @@ std::vector<Override> with_solver(std::vector<Override> overrides, const SolverO
   if (solver.harmonics) add("--harmonics", "solver.harmonics", std::to_string(*solver.harmonics));
   if (solver.samples) add("--samples", "solver.samples", std::to_string(*solver.samples));
   if (solver.tolerance) add("--tolerance", "solver.tolerance", shortest(*solver.tolerance));
+  if (solver.solver) add("--solver", "solver.solver", *solver.solver);
+  if (solver.pseudo_penalty) add("--pseudo-penalty", "solver.pseudo_penalty_n_per_m", shortest(*solver.pseudo_penalty));
+  if (solver.pseudo_penalty_normal)
+    add("--pseudo-penalty-normal", "solver.pseudo_penalty_normal_n_per_m", shortest(*solver.pseudo_penalty_normal));
   return overrides;
 }
 
@@ -87,34 +94,51 @@ LoadedModel from_study(const std::string& file, const std::vector<Override>& ove
   return loaded;
 }
 
-/// A model is solved within the ranges that a study file keeps. Throws InputError naming the options.
-void require_ranges(const SolverOverrides& solver) {
+/// The settings of a model, within the ranges that a study file keeps. Throws InputError naming the options.
+optimizer::SolverSettings settings_of(const SolverOverrides& solver) {
+  optimizer::SolverSettings settings;
   std::vector<Violation> found;
-  for (const Override& given : with_solver({}, solver)) {
-    const Range& range = optimizer::find_parameter(given.key)->range;
-    const bool whole = given.key != "solver.tolerance";
-    const double value = !whole                            ? *solver.tolerance
-                         : given.key == "solver.harmonics" ? *solver.harmonics
-                                                           : *solver.samples;
-    if (!range.contains(value))
-      found.push_back({.file = {}, .key = given.origin, .value = {}, .allowed = range.phrase()});
-  }
+  const std::string section = "solver.";
+  for (const Override& given : with_solver({}, solver))
+    for (const Field<optimizer::SolverSettings>& field : option_table<optimizer::SolverSettings>()) {
+      if (given.key != section + std::string(field.key)) continue;
+      if (const auto* text = std::get_if<std::string optimizer::SolverSettings::*>(&field.member)) {
+        settings.*(*text) = given.value;
+        continue;
+      }
+      const double value = std::strtod(given.value.c_str(), nullptr);
+      if (!field.range.contains(value))
+        found.push_back({.file = {}, .key = given.origin, .value = {}, .allowed = field.range.phrase()});
+      else if (const auto* whole = std::get_if<int optimizer::SolverSettings::*>(&field.member))
+        settings.*(*whole) = static_cast<int>(value);
+      else if (const auto* real = std::get_if<double optimizer::SolverSettings::*>(&field.member))
+        settings.*(*real) = value;
+    }
+  if (found.empty() && settings.samples < 2 * settings.harmonics + 2)
+    found.push_back({.file = {},
+                     .key = solver.samples ? "--samples" : "--harmonics",
+                     .value = std::to_string(solver.samples ? settings.samples : settings.harmonics),
+                     .allowed = "samples must be >= 2 * harmonics + 2; there are " + std::to_string(settings.samples) +
+                                " samples and " + std::to_string(settings.harmonics) + " harmonics"});
   if (!found.empty()) throw InputError(std::move(found));
+  return settings;
 }
 
-LoadedModel from_file(const std::string& file, const std::vector<Override>& overrides, const SolverOverrides& solver) {
+/// Before a model is read: options that do not fit are told whatever the file is like.
+response::SteadyOptions model_options(const std::string& file, const std::vector<Override>& overrides,
+                                      const SolverOverrides& solver) {
   if (!overrides.empty())
     throw InputError(Violation{.file = file,
                                .key = overrides.front().origin,
                                .value = {},
                                .allowed = "sets a key of a study file, but the input is a reduced model"});
-  require_ranges(solver);
+  return optimizer::steady_options(settings_of(solver));
+}
+
+LoadedModel from_model(reduction::ReducedModel model, const response::SteadyOptions& steady) {
   LoadedModel loaded;
-  loaded.steady.harmonics = solver.harmonics.value_or(loaded.steady.harmonics);
-  loaded.steady.samples = solver.samples.value_or(loaded.steady.samples);
-  loaded.steady.tolerance = solver.tolerance.value_or(loaded.steady.tolerance);
-  response::validate(loaded.steady);
-  loaded.model = reduction::read_model(file);
+  loaded.steady = steady;
+  loaded.model = std::move(model);
   loaded.condensed = std::make_shared<const response::CondensedModel>(loaded.model);
   const response::CondensedModel& condensed = *loaded.condensed;
   if (condensed.modal() && condensed.glued_frequencies().size() > 0)
@@ -125,9 +149,23 @@ LoadedModel from_file(const std::string& file, const std::vector<Override>& over
 
 }  // namespace
 
+std::optional<reduction::ReducedModel> read_any_model(const std::string& input) {
+  if (is_hdf5_file(input)) return reduction::read_model(input);
+  const Document document = load_document(input);
+  if (!is_model_document(document)) return std::nullopt;
+  return read_model_document(document);
+}
+
 LoadedModel load_model(const std::string& input, const std::vector<Override>& overrides,
                        const SolverOverrides& solver) {
-  return is_model_file(input) ? from_file(input, overrides, solver) : from_study(input, with_solver(overrides, solver));
+  if (is_hdf5_file(input)) {
+    const response::SteadyOptions steady = model_options(input, overrides, solver);
+    return from_model(reduction::read_model(input), steady);
+  }
+  const Document document = load_document(input);
+  if (!is_model_document(document)) return from_study(input, with_solver(overrides, solver));
+  const response::SteadyOptions steady = model_options(input, overrides, solver);
+  return from_model(read_model_document(document), steady);
 }
 
 }  // namespace dovetail::studies

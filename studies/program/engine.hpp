@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "optimizer/evaluator.hpp"
@@ -31,8 +32,12 @@ struct LoadedModel {
   std::string failure;     ///< not empty: the candidate's model did not converge, and why
 };
 
-/// Whether the file is a reduced model rather than a study: by its first bytes, or its ending when it cannot be read.
-[[nodiscard]] bool is_model_file(const std::string& file);
+/// Whether the file is HDF5 rather than a text: by its first bytes, or its ending when it cannot be read.
+[[nodiscard]] bool is_hdf5_file(const std::string& file);
+
+/// The reduced model in an HDF5 or TOML file; nothing when the file is a text but no model (then it should be a study).
+/// Throws InputError when it is a model and wrong, or cannot be read.
+[[nodiscard]] std::optional<reduction::ReducedModel> read_any_model(const std::string& input);
 
 /// Throws InputError for wrong input and for a study whose geometry is infeasible.
 [[nodiscard]] LoadedModel load_model(const std::string& input, const std::vector<Override>& overrides,

@@ -143,15 +143,16 @@ lower = 4e-3
 }  // namespace
 
 std::string unit_of_key(std::string_view key) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 9> endings{{{"_kg_m3", "kg/m^3"},
-                                                                                         {"_per_pa", "1/Pa"},
-                                                                                         {"_gpa", "GPa"},
-                                                                                         {"_rpm", "1/min"},
-                                                                                         {"_deg", "degrees"},
-                                                                                         {"_mm", "mm"},
-                                                                                         {"_um", "um"},
-                                                                                         {"_hz", "Hz"},
-                                                                                         {"_n", "N"}}};
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 10> endings{{{"_kg_m3", "kg/m^3"},
+                                                                                          {"_n_per_m", "N/m"},
+                                                                                          {"_per_pa", "1/Pa"},
+                                                                                          {"_gpa", "GPa"},
+                                                                                          {"_rpm", "1/min"},
+                                                                                          {"_deg", "degrees"},
+                                                                                          {"_mm", "mm"},
+                                                                                          {"_um", "um"},
+                                                                                          {"_hz", "Hz"},
+                                                                                          {"_n", "N"}}};
   for (const auto& [ending, unit] : endings)
     if (key.ends_with(ending)) return std::string(unit);
   return {};

@@ -1,0 +1,299 @@
+// Reading of the reduced model's TOML file.
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "reduction/matrix_market.hpp"
+#include "reduction/validation.hpp"
+#include "studies/program/model_toml.hpp"
+#include "studies/program/section_reader.hpp"
+
+namespace dovetail::studies {
+namespace {
+
+constexpr const char* kFormat = "dovetail-reduced-model";
+constexpr Range kIndices{.lower = 0, .upper = 1e9};
+constexpr Range kHarmonics{.lower = 0, .upper = 1000};
+
+std::string item(const std::string& path, std::size_t index) {
+  return path + "[" + std::to_string(index) + "]";
+}
+
+/// Lists of numbers; what is wrong is reported at its place and read as nothing.
+class Lists {
+ public:
+  explicit Lists(Problems& problems) : problems_(problems) {}
+
+  std::optional<double> number(const Node& node, const std::string& path) {
+    if (node.is_number()) return node.real;
+    problems_.add(node, path, "must be a number");
+    return std::nullopt;
+  }
+  std::optional<int> index(const Node& node, const std::string& path, const char* what = "the index of a dof, from 0") {
+    if (node.kind == Node::Kind::whole && node.whole >= 0 && node.whole <= std::numeric_limits<int>::max())
+      return static_cast<int>(node.whole);
+    problems_.add(node, path, std::string("must be ") + what);
+    return std::nullopt;
+  }
+  bool is_list(const Node& node, const std::string& path, const std::string& of) {
+    if (node.kind == Node::Kind::list) return true;
+    problems_.add(node, path, "must be a list of " + of);
+    return false;
+  }
+  /// The numbers of a list, or one number for all `count`.
+  Eigen::VectorXd numbers(const Node& node, const std::string& path, Eigen::Index count) {
+    if (node.is_number()) return Eigen::VectorXd::Constant(count, node.real);
+    Eigen::VectorXd values = Eigen::VectorXd::Zero(count);
+    if (!is_list(node, path, "numbers, one for each contact node, or one number for all") || !fits(node, path, count))
+      return values;
+    for (std::size_t i = 0; i < node.items.size(); ++i)
+      values[static_cast<Eigen::Index>(i)] = number(node.items[i], item(path, i)).value_or(0);
+    return values;
+  }
+  Eigen::VectorXi indices(const Node& node, const std::string& path, const char* what = "the index of a dof, from 0") {
+    if (!is_list(node, path, "whole numbers")) return {};
+    Eigen::VectorXi values(static_cast<Eigen::Index>(node.items.size()));
+    for (std::size_t i = 0; i < node.items.size(); ++i)
+      values[static_cast<Eigen::Index>(i)] = index(node.items[i], item(path, i), what).value_or(0);
+    return values;
+  }
+  /// A row for each contact node: lists of `columns` entries, or plain entries when that is 1.
+  template <class Read>
+  void rows(const Node& node, const std::string& path, Eigen::Index count, Eigen::Index columns, const Read& read) {
+    if (!is_list(node, path, "one entry for each contact node") || !fits(node, path, count)) return;
+    for (std::size_t i = 0; i < node.items.size(); ++i) {
+      const Node& row = node.items[i];
+      const std::string place = item(path, i);
+      if (columns == 1 && row.kind != Node::Kind::list) {
+        read(row, place, static_cast<Eigen::Index>(i), 0);
+        continue;
+      }
+      if (row.kind != Node::Kind::list || static_cast<Eigen::Index>(row.items.size()) != columns) {
+        problems_.add(row, place, "must be a list of " + std::to_string(columns));
+        continue;
+      }
+      for (std::size_t k = 0; k < row.items.size(); ++k)
+        read(row.items[k], item(place, k), static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
+    }
+  }
+
+ private:
+  bool fits(const Node& node, const std::string& path, Eigen::Index count) {
+    if (static_cast<Eigen::Index>(node.items.size()) == count) return true;
+    problems_.missing(&node, path,
+                      "has " + std::to_string(node.items.size()) + " entries, but contact.normal has " +
+                          std::to_string(count) + ": must be one for each contact node");
+    return false;
+  }
+  Problems& problems_;
+};
+
+/// Reads the file section by section. Matrices come first: they say how many dofs there are.
+class ModelReader {
+ public:
+  explicit ModelReader(const Document& document)
+      : document_(document), problems_(document.file), lists_(problems_), root_(&document.root, "", problems_) {}
+
+  reduction::ReducedModel read() {
+    root_.text("format", {kFormat}, true);
+    version();
+    matrix("mass", model_.mass);
+    matrix("damping", model_.damping);
+    matrix("stiffness", model_.stiffness);
+    contact();
+    // Whatever is wrong with the matrices is told below; forces and outputs need a size only.
+    size_ = std::max({model_.stiffness.rows(), model_.mass.rows(), model_.damping.rows()});
+    forces();
+    outputs();
+    root_.finish();
+    problems_.raise();
+    std::vector<Violation> found = reduction::violations(model_);
+    for (Violation& violation : found) rename(violation);
+    if (!found.empty()) throw InputError(std::move(found));
+    return std::move(model_);
+  }
+
+ private:
+  void version() {
+    const Node* node = root_.take("version");
+    if (!node)
+      problems_.missing(nullptr, "version", "is missing; it must be 1");
+    else if (node->kind == Node::Kind::whole && node->whole > 1)
+      problems_.add(*node, "version", "the file is newer than this program, which reads version 1");
+    else if (node->kind != Node::Kind::whole || node->whole != 1)
+      problems_.add(*node, "version", "must be 1");
+  }
+
+  void matrix(const std::string& key, Eigen::MatrixXd& target) {
+    const Node* node = root_.take(key);
+    if (!node) return problems_.missing(nullptr, key, "is missing; it must name a Matrix Market file beside this one");
+    if (node->kind != Node::Kind::text || node->text.empty())
+      return problems_.add(*node, key, "must be the name of a Matrix Market file in quotes");
+    const std::filesystem::path folder = std::filesystem::path(document_.file).parent_path();
+    target = reduction::read_matrix_market((folder / node->text).string());
+  }
+
+  const Node* required(SectionReader& section, const std::string& key, const char* what) {
+    const Node* node = section.take(key);
+    if (!node) problems_.missing(section.node(), section.path(key), std::string("is missing; it must be ") + what);
+    return node;
+  }
+
+  void contact() {
+    SectionReader section(root_.take("contact"), "contact", problems_);
+    reduction::ContactNodes& contact = model_.contact;
+    const auto path = [](const char* key) { return std::string("contact.") + key; };
+    if (const Node* node = required(section, "normal", "a list with the normal dof of each contact node"))
+      contact.normal = lists_.indices(*node, path("normal"));
+    const Eigen::Index count = contact.normal.size();
+    Eigen::Index tangents = 1;
+    if (const Node* node = required(section, "tangential", "a list with the tangential dofs of each contact node")) {
+      if (node->kind == Node::Kind::list && !node->items.empty() && node->items[0].kind == Node::Kind::list)
+        tangents = std::clamp<Eigen::Index>(static_cast<Eigen::Index>(node->items[0].items.size()), 1, 2);
+      contact.tangential.setZero(count, tangents);
+      lists_.rows(*node, path("tangential"), count, tangents,
+                  [&](const Node& value, const std::string& place, Eigen::Index i, Eigen::Index k) {
+                    contact.tangential(i, k) = lists_.index(value, place).value_or(0);
+                  });
+    }
+    const auto numbers = [&](const char* key, Eigen::VectorXd& target) {
+      if (const Node* node = required(section, key, "a list of numbers, one for each contact node, or one for all"))
+        target = lists_.numbers(*node, path(key), count);
+    };
+    numbers("area", contact.area);
+    numbers("gap", contact.gap);
+    numbers("friction", contact.friction);
+    numbers("wear_coefficient", contact.wear_coefficient);
+    const auto table = [&](const char* key, Eigen::Index columns, auto& target) {
+      if (const Node* node = section.take(key)) {
+        target.setZero(count, columns);
+        lists_.rows(*node, path(key), count, columns,
+                    [&](const Node& value, const std::string& place, Eigen::Index i, Eigen::Index k) {
+                      target(i, k) = lists_.number(value, place).value_or(0);
+                    });
+      }
+    };
+    contact.slip_origin.setZero(count, tangents);
+    table("slip_origin", tangents, contact.slip_origin);
+    table("position", 3, contact.position);
+    if (const Node* node = section.take("group")) {
+      lists_.rows(*node, path("group"), count, 1, [](const Node&, const std::string&, Eigen::Index, Eigen::Index) {});
+      contact.group = lists_.indices(*node, path("group"), "the number of a flank, from 0");
+    }
+    section.finish();
+  }
+
+  /// The dof of a force or output, within the model.
+  std::optional<int> dof(const Node& node, const std::string& path) {
+    const std::optional<int> index = lists_.index(node, path);
+    if (!index || size_ == 0 || *index < size_) return index;
+    problems_.add(node, path, "must be a dof from 0 to " + std::to_string(size_ - 1));
+    return std::nullopt;
+  }
+
+  void forces() {
+    struct Term {
+      int harmonic, dof;
+      double cosine, sine;
+    };
+    std::vector<Term> terms;
+    std::set<std::pair<int, int>> given;
+    int harmonics = root_.whole("force_harmonics", kHarmonics).value_or(0);
+    const Node* list = root_.take("force");
+    if (list && !lists_.is_list(*list, "force", "forces: sections [[force]]")) list = nullptr;
+    for (std::size_t i = 0; list && i < list->items.size(); ++i) {
+      const Node& node = list->items[i];
+      const std::string path = item("force", i);
+      SectionReader section(&node, path, problems_);
+      if (!section.present()) continue;
+      const Node* place = required(section, "dof", "the index of a dof, from 0");
+      const std::optional<int> at = place ? dof(*place, path + ".dof") : std::nullopt;
+      const std::optional<int> harmonic = section.whole("harmonic", kHarmonics, true);
+      const std::optional<double> cosine = section.number("cosine", kAnyNumber);
+      const std::optional<double> sine = section.number("sine", kAnyNumber);
+      section.finish();
+      if (!at || !harmonic) continue;
+      if (*harmonic == 0 && sine)
+        problems_.add(*node.find("sine"), path + ".sine", "a static force (harmonic = 0) has no sine; give cosine");
+      if (!node.find("cosine") && !node.find("sine"))
+        problems_.missing(&node, path, "needs cosine or sine, the force in N");
+      if (!given.emplace(*harmonic, *at).second)
+        problems_.missing(&node, path, "the force of this harmonic on this dof is given twice");
+      harmonics = std::max(harmonics, *harmonic);
+      terms.push_back({*harmonic, *at, cosine.value_or(0), sine.value_or(0)});
+    }
+    model_.static_force.setZero(size_);
+    model_.cosine_force.setZero(harmonics, size_);
+    model_.sine_force.setZero(harmonics, size_);
+    if (size_ == 0) return;
+    for (const Term& term : terms) {
+      if (term.harmonic == 0) {
+        model_.static_force(term.dof) = term.cosine;
+        continue;
+      }
+      model_.cosine_force(term.harmonic - 1, term.dof) = term.cosine;
+      model_.sine_force(term.harmonic - 1, term.dof) = term.sine;
+    }
+  }
+
+  void outputs() {
+    const Node* list = root_.take("output");
+    if (list && !lists_.is_list(*list, "output", "outputs: sections [[output]]")) list = nullptr;
+    const std::size_t count = list ? list->items.size() : 0;
+    model_.output_vectors.setZero(static_cast<Eigen::Index>(count), size_);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::string path = item("output", i);
+      SectionReader section(&list->items[i], path, problems_);
+      if (!section.present()) continue;
+      model_.output_names.push_back(section.text("name", {}, true).value_or("?"));
+      const Node* dofs = required(section, "dofs", "a list of dofs");
+      const Node* factors = section.take("factors");
+      section.finish();
+      if (!dofs || !lists_.is_list(*dofs, path + ".dofs", "dofs")) continue;
+      if (factors && !lists_.is_list(*factors, path + ".factors", "numbers, one for each of dofs")) continue;
+      if (factors && factors->items.size() != dofs->items.size()) {
+        problems_.missing(factors, path + ".factors", "must be as many as dofs, " + std::to_string(dofs->items.size()));
+        continue;
+      }
+      std::set<int> given;
+      for (std::size_t k = 0; k < dofs->items.size(); ++k) {
+        const std::optional<int> at = dof(dofs->items[k], item(path + ".dofs", k));
+        const double factor = factors ? lists_.number(factors->items[k], item(path + ".factors", k)).value_or(0) : 1.0;
+        if (!at) continue;
+        if (!given.insert(*at).second)
+          problems_.add(dofs->items[k], item(path + ".dofs", k), "must not name a dof twice");
+        if (size_ > 0) model_.output_vectors(static_cast<Eigen::Index>(i), *at) = factor;
+      }
+    }
+  }
+
+  /// The names of the model file's data sets as keys of this file.
+  void rename(Violation& violation) const {
+    violation.file = document_.file;
+    std::string key = violation.key.starts_with('/') ? violation.key.substr(1) : violation.key;
+    std::replace(key.begin(), key.end(), '/', '.');
+    violation.key = key;
+  }
+
+  const Document& document_;
+  Problems problems_;
+  Lists lists_;
+  SectionReader root_;
+  reduction::ReducedModel model_;
+  Eigen::Index size_ = 0;
+};
+
+}  // namespace
+
+bool is_model_document(const Document& document) {
+  const Node* format = document.root.find("format");
+  return format && format->kind == Node::Kind::text && format->text == kFormat;
+}
+
+reduction::ReducedModel read_model_document(const Document& document) {
+  return ModelReader(document).read();
+}
+
+}  // namespace dovetail::studies
