@@ -1,0 +1,85 @@
+#include "response/truncation.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "response/refined_state.hpp"
+
+namespace dovetail::response {
+namespace {
+
+constexpr double kHarmonics = 2, kSamples = 3, kPenalty = 0.25;
+
+}  // namespace
+
+SteadyOptions more_harmonics(SteadyOptions options) {
+  options.harmonics = 2 * options.harmonics + 1;
+  // The highest harmonics of a series of N samples alias each other.
+  while (options.samples <= 4 * options.harmonics) options.samples *= 2;
+  return options;
+}
+
+SteadyOptions more_samples(SteadyOptions options) {
+  options.samples *= 2;
+  return options;
+}
+
+Refinements refine(const std::shared_ptr<const CondensedModel>& model, const SteadyState& state,
+                   const ContactCondition& condition, const SteadyOptions& options) {
+  SteadyOptions other = options;
+  other.linearise = false;
+  SteadyOptions softer = other, stiffer = other;
+  softer.penalty_scale *= 0.5;
+  stiffer.penalty_scale *= 2;
+  Refinements result{.harmonics = refined_state(model, state, condition, more_harmonics(other)),
+                     .samples = refined_state(model, state, condition, more_samples(other)),
+                     .softer = refined_state(model, state, condition, softer),
+                     .stiffer = refined_state(model, state, condition, stiffer)};
+  for (const SteadyState* one : {&result.harmonics, &result.samples, &result.softer, &result.stiffer})
+    result.jacobians += one->iterations;
+  return result;
+}
+
+double bar_from(const ScalarChanges& changes) {
+  return kHarmonics * changes.harmonics + kSamples * changes.samples +
+         kPenalty * std::max(changes.softer, changes.stiffer);
+}
+
+ErrorBars bars_from(const Quantities& value, const TruncationChanges& changes, double tolerance, double safety) {
+  const auto times = [safety](double factor) { return [factor, safety](double x) { return safety * factor * x; }; };
+  const auto larger = [](double a, double b) { return std::max(a, b); };
+  const auto sum = [](double a, double b) { return a + b; };
+  ErrorBars bars{.status = Status::converged,
+                 .value = value,
+                 .harmonics = transform(changes.harmonics, times(kHarmonics)),
+                 .samples = transform(changes.samples, times(kSamples)),
+                 .penalty = transform(combine(changes.softer, changes.stiffer, larger), times(kPenalty))};
+  const Quantities rest = transform(value, [=](double x) { return safety * tolerance * std::abs(x); });
+  bars.total = combine(combine(combine(bars.harmonics, bars.samples, sum), bars.penalty, sum), rest, sum);
+  return bars;
+}
+
+ErrorBars bars_from(const CondensedModel& model, const SteadyState& state, const Refinements& refinements,
+                    const SteadyOptions& options, const ErrorBarOptions& bar_options) {
+  const Quantities value = quantities(model, state);
+  const std::array<const SteadyState*, 4> states{&refinements.harmonics, &refinements.samples, &refinements.softer,
+                                                 &refinements.stiffer};
+  std::array<Quantities, 4> changes;
+  Status status = Status::converged;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (states[i]->status == Status::converged) {
+      changes[i] = distance(quantities(model, *states[i]), value);
+    } else {
+      changes[i] = constant_quantities(value.amplitudes.size(), kInfinity);
+      if (status == Status::converged) status = states[i]->status;
+    }
+  }
+  ErrorBars bars =
+      bars_from(value, {.harmonics = changes[0], .samples = changes[1], .softer = changes[2], .stiffer = changes[3]},
+                options.tolerance, bar_options.safety);
+  bars.status = status;
+  bars.jacobians = refinements.jacobians;
+  return bars;
+}
+
+}  // namespace dovetail::response
