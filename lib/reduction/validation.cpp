@@ -78,10 +78,6 @@ class Checks {
 void check_contact(const ContactNodes& contact, Eigen::Index n, Checks& checks) {
   const Eigen::Index nodes = contact.count();
   const Eigen::Index tangents = contact.tangential.cols();
-  if (nodes == 0) {
-    checks.add("/contact/normal", "shape [0]", "must hold at least one contact node");
-    return;
-  }
   if (tangents != 1 && tangents != 2) {
     checks.add("/contact/tangential", "shape " + shape(contact.tangential.rows(), tangents),
                "must have 1 column (plane) or 2 columns (space)");
@@ -168,6 +164,7 @@ std::vector<Violation> violations(const FullModel& model) {
   checks.sized("outputs", model.outputs.rows(), model.outputs.cols(), n,
                static_cast<Eigen::Index>(model.output_names.size()), "[n,n_out]");
   check_contact(model.contact, n, checks);
+  if (model.contact.count() == 0) checks.add("contact.normal", "shape [0]", "must hold at least one contact node");
   if (model.internal_size() <= 0)
     checks.add("stiffness", "shape " + shape(n, n), "must have internal dofs besides the contact dofs");
   if (!checks.found.empty()) return checks.found;

@@ -28,7 +28,7 @@ SteadyResidual steady_problem(const std::shared_ptr<const CondensedModel>& model
 }
 
 SteadyState described(const SteadyResidual& residual, const Eigen::MatrixXd& displacement, Status status,
-                      bool keep_linearisation) {
+                      bool keep_linearisation, const Linearisation* previous) {
   ResidualState state;
   residual.evaluate(displacement, status == Status::converged, state);
   SteadyState steady;
@@ -36,7 +36,7 @@ SteadyState described(const SteadyResidual& residual, const Eigen::MatrixXd& dis
   steady.status = status;
   if (steady.status == Status::converged && state.status != Status::converged) steady.status = state.status;
   if (steady.status != Status::converged) return steady;
-  auto linear = std::make_shared<const Linearisation>(residual, std::move(state));
+  auto linear = std::make_shared<const Linearisation>(residual, std::move(state), previous);
   // A body that nothing holds drifts until the residual is small against rounding: that is no state of it.
   constexpr double kFloats = 1e-13;
   if (linear->status() != Status::converged || linear->regularised() || linear->reciprocal_condition() < kFloats)
@@ -54,6 +54,7 @@ double rounding_floor(const SteadyResidual& residual, const ResidualState& state
 
 bool is_held(const SteadyResidual& residual, const ResidualState& state) {
   Eigen::MatrixXd stiffness = residual.system().harmonics.front().stiffness.real();
+  if (stiffness.size() == 0) return true;
   // Rounding may turn a direction without stiffness into a slightly negative one.
   constexpr double kRounding = 1e-11;
   const double shift = kRounding * stiffness.diagonal().cwiseAbs().maxCoeff();
@@ -62,7 +63,7 @@ bool is_held(const SteadyResidual& residual, const ResidualState& state) {
     const bool carries = !residual.released(i) && !state.nodes[static_cast<std::size_t>(i)].always_separated;
     for (Eigen::Index r = i * d; r < (i + 1) * d; ++r) stiffness(r, r) += carries ? residual.penalty_of(r) : shift;
   }
-  return stiffness.size() == 0 || Eigen::LLT<Eigen::MatrixXd>(stiffness).info() == Eigen::Success;
+  return Eigen::LLT<Eigen::MatrixXd>(stiffness).info() == Eigen::Success;
 }
 
 }  // namespace dovetail::response

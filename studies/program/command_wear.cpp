@@ -160,6 +160,9 @@ int run_wear(const WearOptions& options, const Streams& streams) {
     return static_cast<int>(kNotConverged);
   };
   if (!loaded.failure.empty()) return failed(loaded.failure);
+  if (loaded.model.contact.count() == 0)
+    throw InputError(
+        Violation{.file = {}, .key = options.input, .value = {}, .allowed = "has no contact nodes: nothing can wear"});
   const Start at = start(options, loaded);
   if (at.resonance && at.resonance->status != Status::converged)
     return failed("unworn resonance: " + std::string(to_string(at.resonance->status)) + "; give --frequency HZ");
