@@ -22,7 +22,7 @@ struct Verdict {
   double penetration = 0;    ///< largest u_N - g - W beyond what the truncation of the series leaves, relative
   double tension = 0;        ///< the same for pulling forces
   double cone = 0;           ///< and for tangential forces beyond mu lambda_N
-  double energy = 0;         ///< |input - damping - contact work| relative to their magnitudes
+  double energy = 0;         ///< |input - damping - contact work| relative to the forces times displacements in them
   bool periodic = true;      ///< the march repeats
 };
 
