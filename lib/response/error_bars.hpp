@@ -49,8 +49,8 @@ struct ResonanceBars {
   ErrorBars state;                          ///< of the state at the resonance found, at fixed frequency
 };
 
-/// The peak is moved, by one Newton step on dA/dw, at each of the settings above; the same factors make bars of the
-/// moves. Cost: twice that of the bars of a state.
+/// How far the peak moves at each of the settings above (see PeakShift); the same factors make bars of the moves.
+/// Cost: three to four times that of the bars of a state.
 [[nodiscard]] ResonanceBars error_bars(const std::shared_ptr<const CondensedModel>& model, const Resonance& resonance,
                                        const ContactCondition& condition, const SteadyOptions& options,
                                        const ResonanceOptions& resonance_options,
