@@ -224,30 +224,28 @@ class Follower {
     return true;
   }
 
-  // Between now and `next` the frequency turned: puts a point where it did, by regula falsi on d omega / ds over the
-  // length of the step. Leaves it out when the corrections fail. False when the caller wants to stop.
+  // Between now and `next` the frequency turned: puts a point on its extreme, by regula falsi on d omega / ds over the
+  // length of the step, or bisection where that jumps because a sample changes its contact state. Leaves it out when
+  // the corrections fail. False when the caller wants to stop.
   bool place_turn(const Station& next) {
-    constexpr int kTries = 8;
-    constexpr double kFlat = 1e-5;
+    constexpr int kTries = 10;
+    constexpr double kFlat = 1e-6;  // what omega can still change by, in the units of the metric
     double low = 0, high = now_.metric.inner(difference(next.at, now_.at), now_.tangent);
     double slope_low = slope(now_), slope_high = slope(next);
     std::optional<Station> best;
-    int side = 0;
     for (int i = 0; i < kTries; ++i) {
-      const double step = low + (high - low) * std::clamp(slope_low / (slope_low - slope_high), 0.01, 0.99);
+      const double part = i % 2 == 0 ? slope_low / (slope_low - slope_high) : 0.5;
+      const double step = low + (high - low) * std::clamp(part, 0.02, 0.98);
       std::optional<Station> middle = advance(step);
       if (!middle) break;
       const double here = slope(*middle);
-      if (!best || std::abs(here) < std::abs(slope(*best))) best = std::move(middle);
-      if (std::abs(here) <= kFlat) break;
+      if (!best || std::copysign(1.0, slope(now_)) * (middle->at.omega - best->at.omega) > 0) best = std::move(middle);
       const bool before = here * slope(now_) > 0;
-      // The Illinois rule: an end that stays twice loses half of its weight.
       (before ? low : high) = step;
       (before ? slope_low : slope_high) = here;
-      if (side == (before ? 1 : -1)) (before ? slope_high : slope_low) /= 2;
-      side = before ? 1 : -1;
+      if (std::abs(here) * (high - low) <= kFlat) break;
     }
-    if (!best || std::abs(slope(*best)) > 0.5 * std::min(std::abs(slope(now_)), std::abs(slope(next)))) return true;
+    if (!best) return true;
     const bool go_on = report(*best, true);
     turn_reported_ = true;
     return go_on;
