@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "response/resonance.hpp"
+
+namespace dovetail::response {
+
+/// One member of a family of problems.
+struct BackboneCase {
+  std::shared_ptr<const CondensedModel> model;
+  ContactCondition condition = {};
+};
+/// The problem at a value of the parameter: excitation level, wear, speed, friction, anything. All members must have
+/// the same contact nodes.
+using BackboneFamily = std::function<BackboneCase(double parameter)>;
+
+/// The forces of harmonics >= 1 times the parameter; static load kept.
+[[nodiscard]] BackboneFamily excitation_levels(const std::shared_ptr<const CondensedModel>& model,
+                                               const ContactCondition& condition = {});
+/// Wear depths start + parameter * growth [Nc], m; `condition.wear_depth` is the start.
+[[nodiscard]] BackboneFamily wear_levels(const std::shared_ptr<const CondensedModel>& model,
+                                         const Eigen::VectorXd& growth, const ContactCondition& condition = {});
+
+struct BackboneOptions {
+  ResonanceOptions resonance = {};  ///< of the first point, and of the searches where Newton does not get through
+  int max_iterations = 14;          ///< Jacobians of one Newton on (U, omega), >= 2
+  int halvings = 5;                 ///< times the way to the next parameter is halved when it fails, >= 0
+  bool search = true;               ///< fall back on resonance() when the halvings do not help
+};
+
+struct BackbonePoint {
+  double parameter = 0;
+  Status status = Status::iteration_limit;
+  double omega = 0;       ///< rad/s, where the amplitude is largest
+  double amplitude = 0;   ///< half peak-to-peak of the output
+  double error = 0;       ///< of omega, relative: correction left or width of the bracket
+  bool searched = false;  ///< found by resonance() instead of Newton on (U, omega)
+  int intermediate = 0;   ///< points between the one before and this that were needed and not reported
+  int jacobians = 0;      ///< of this point and its intermediate ones
+  SteadyState state;      ///< at omega, with linearisation when SteadyOptions::linearise
+};
+
+struct Backbone {
+  Status status = Status::iteration_limit;  ///< converged when all points are
+  std::vector<BackbonePoint> points;        ///< one per parameter, in order
+  int jacobians = 0;
+};
+
+/// The resonance of one output tracked over `parameters`, in the order given. The first is searched from `omega_start`
+/// (rad/s) by resonance(); the others are found by Newton on (U, omega), started from the polynomial through the last
+/// (at most three) points, at about four Jacobians each where resonance() needs three or four times as many. eps is
+/// that of the first point. A parameter that fails has its status, and the next one starts from the last that did not.
+/// `progress` may return false to stop: the points left then carry Status::interrupted.
+[[nodiscard]] Backbone backbone(const BackboneFamily& family, std::span<const double> parameters, double omega_start,
+                                const SteadyOptions& options, const BackboneOptions& backbone_options = {},
+                                const std::function<bool(const BackbonePoint&)>& progress = {});
+
+}  // namespace dovetail::response
