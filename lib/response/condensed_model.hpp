@@ -45,6 +45,11 @@ class CondensedModel {
   void set_slip_origin(const Eigen::MatrixXd& slip_origin);
   /// Replaces the friction coefficients mu [Nc], >= 0 (large: a node that is held stuck).
   void set_friction(const Eigen::VectorXd& friction) { contact_.friction = friction; }
+  /// Multiplies the forces of harmonics >= 1 (an excitation level).
+  void scale_excitation(double factor) {
+    force_contact_.rightCols(force_harmonics()) *= factor;
+    force_internal_.rightCols(force_harmonics()) *= factor;
+  }
 
   /// omega in rad/s. `with_slope` adds the derivatives with respect to omega. Loads of harmonic 0 are multiplied
   /// by `static_scale` (a loading path).
