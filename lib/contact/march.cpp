@@ -10,7 +10,9 @@ namespace dovetail::contact {
 namespace {
 
 // Slip that dies out slowly approaches its periodic state geometrically: from here on it is extrapolated.
-constexpr int kPatience = 48, kInterval = 8;
+constexpr int kPatience = 16, kInterval = 8;
+// A change below this is none: no ratio of it says anything.
+constexpr double kRounding = 1e-14;
 
 // Aitken's limit of a geometric sequence of slip states from its last two changes; false when it is not one.
 template <int Directions>
@@ -40,7 +42,7 @@ void march_node(const double* prediction, const NodeLaw& law, int samples, const
       for (int r = 0; r < Directions; ++r) limit = std::max(limit, std::abs(prediction[(1 + Directions) * n + 1 + r]));
   const int periods = options.periodic ? options.max_periods : 1;
   bool moved = false;
-  double change_before[2] = {0, 0};
+  double change_before[2] = {0, 0}, largest_before = 0;
   result.extrapolated = false;
   Memory before, reset_memory;
   long reset = -1;
@@ -66,7 +68,14 @@ void march_node(const double* prediction, const NodeLaw& law, int samples, const
       change[r] = memory.slip_force[r] - before.slip_force[r];
       largest = std::max(largest, std::abs(change[r]));
     }
-    const bool repeats = options.periodic && largest <= options.tolerance * limit;
+    // Slip that dies out geometrically is as far from its orbit as the changes still to come: their sum counts.
+    double rest = largest;
+    if (Directions == 2 && largest > kRounding * limit) {
+      const double ratio = largest_before > 0 ? largest / largest_before : 1;
+      rest = ratio < 1 ? largest * std::max(1.0, ratio / (1 - ratio)) : kInfinity;
+    }
+    largest_before = largest;
+    const bool repeats = options.periodic && rest <= options.tolerance * limit;
     // Extrapolated into a state that sticks for good, the orbit is one of many: only marching knows which.
     if (repeats && result.extrapolated && std::none_of(result.state.begin(), result.state.end(), [](SampleState state) {
           return state == SampleState::slipping;
@@ -78,8 +87,10 @@ void march_node(const double* prediction, const NodeLaw& law, int samples, const
       break;
     }
     if (Directions == 2 && may_extrapolate && result.periods >= kPatience && result.periods % kInterval == 0 &&
-        result.periods < periods)
-      result.extrapolated = extrapolate<Directions>(change, change_before, memory) || result.extrapolated;
+        result.periods < periods && extrapolate<Directions>(change, change_before, memory)) {
+      result.extrapolated = true;
+      largest_before = 0;
+    }
     std::copy(change, change + 2, change_before);
   }
   result.periods = std::min(result.periods, periods);

@@ -19,7 +19,7 @@ struct MarchOptions {
   SlipReturn slip_return = SlipReturn::first_order;
   bool periodic = true;      ///< false: march the samples once and stop (a quasi-static path)
   int max_periods = 2000;    ///< periods marched before giving up, >= 1
-  double tolerance = 1e-10;  ///< change of lambda_x,T over a period relative to the largest limit force, > 0
+  double tolerance = 1e-10;  ///< distance of lambda_x,T from its periodic orbit relative to the largest limit force, > 0
 };
 
 /// What one node is, besides its prediction forces.
@@ -59,7 +59,7 @@ struct MarchResult {
 ///   stick |pre_T| <= mu pre_N: lambda = pre, lambda_x,T unchanged
 ///   slip: lambda_N = pre_N, lambda_T = kappa pre_T, kappa = mu pre_N / |pre_T|, lambda_x,T += (1 - kappa) pre_T.
 /// The derivative is that of the march itself, through all marched periods, exact away from its kinks
-/// [Salles 2009, eq. 23-32]. In space a slip state that still changes after 48 periods is extrapolated every 8 as a
+/// [Salles 2009, eq. 23-32]. In space a slip state that still changes after 16 periods is extrapolated every 8 as a
 /// geometric sequence, and the derivative is then that of the periodic orbit reached. `prediction` is lambda_u [N, d],
 /// d = 2 or 3, N = basis.samples(). Cost: O(N d) per period; with derivatives O(N d m) plus O(m) per slipping sample.
 void march(const Eigen::Ref<const Eigen::MatrixXd>& prediction, const NodeLaw& law, const numerics::FourierBasis& basis,

@@ -12,6 +12,9 @@ struct PseudoPenalty {
   Eigen::VectorXd tangential;  ///< [Nc] > 0
 
   [[nodiscard]] PseudoPenalty scaled(double ratio) const { return {normal * ratio, tangential * ratio}; }
+  [[nodiscard]] bool operator==(const PseudoPenalty& other) const {
+    return normal == other.normal && tangential == other.tangential;
+  }
 };
 
 /// eps from the local contact stiffness, the high-harmonic limit of diag(Z_h) when contact carries no mass:

@@ -45,12 +45,21 @@ Eigen::MatrixXd DenseLu::solve_transposed(Eigen::MatrixXd right_hand_side) const
   return solve_with('T', std::move(right_hand_side));
 }
 
+double DenseLu::pivot_ratio() const {
+  if (status_ != Status::converged) return 0;
+  if (size() == 0) return 1;
+  const Eigen::ArrayXd pivots = factors_.diagonal().array().abs();
+  return pivots.minCoeff() / pivots.maxCoeff();
+}
+
 double DenseLu::reciprocal_condition() const {
   if (status_ != Status::converged) return 0;
   if (size() == 0) return 1;
   double reciprocal = 0;
   const auto n = static_cast<lapack_int>(size());
-  LAPACKE_dgecon(LAPACK_COL_MAJOR, '1', n, factors_.data(), n, one_norm_, &reciprocal);
+  std::vector<double> work(static_cast<std::size_t>(4 * n));
+  std::vector<lapack_int> whole(static_cast<std::size_t>(n));
+  LAPACKE_dgecon_work(LAPACK_COL_MAJOR, '1', n, factors_.data(), n, one_norm_, &reciprocal, work.data(), whole.data());
   return reciprocal;
 }
 

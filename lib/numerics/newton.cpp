@@ -55,9 +55,44 @@ NewtonStats newton(const NewtonSystem& system, Eigen::VectorXd& x, const NewtonP
     x = best_x;
     return stats;
   };
+  const auto move_to = [&](Eigen::VectorXd to, double reached) {
+    stats.reduction = reached / norm;
+    x = std::move(to);
+    norm = reached;
+    recent.push_back(norm);
+    if (static_cast<int>(recent.size()) > params.memory) recent.pop_front();
+    if (norm < best_norm) {
+      best_norm = norm;
+      best_x = x;
+    }
+  };
+  bool moved_away = false;  // the current point of the system is not x
+  const auto chord = [&] {
+    if (!system.chord_step || !system.chord_step(step) || !step.allFinite()) return false;
+    moved_away = true;
+    const Eigen::VectorXd candidate = x + step;
+    const double reached = system.residual(candidate).norm();
+    ++stats.evaluations;
+    if (!(reached <= params.chord_ratio * norm)) return false;
+    moved_away = false;
+    move_to(candidate, reached);
+    ++stats.chords;
+    return true;
+  };
   if (!std::isfinite(norm)) return finish(Status::not_finite);
   while (norm > params.tolerance) {
+    if (!moved_away && chord()) {
+      // Linear convergence stops just below the tolerance, where Newton's lands far below it: one more is cheap.
+      if (norm <= params.tolerance) chord();
+      continue;
+    }
     if (stats.iterations >= params.max_iterations) return finish(Status::iteration_limit);
+    if (moved_away) {
+      // newton_step works on the last point evaluated.
+      residual = system.residual(x);
+      ++stats.evaluations;
+      moved_away = false;
+    }
     if (const Status solved = system.newton_step(step); solved != Status::converged) return finish(solved);
     ++stats.iterations;
     if (!step.allFinite()) return finish(Status::not_finite);
@@ -71,21 +106,9 @@ NewtonStats newton(const NewtonSystem& system, Eigen::VectorXd& x, const NewtonP
       if (++failed > params.max_failed_searches) return finish(Status::stalled);
       recent.clear();
     }
-    stats.reduction = found.norm / norm;
-    x = found.x;
-    norm = found.norm;
-    recent.push_back(norm);
-    if (static_cast<int>(recent.size()) > params.memory) recent.pop_front();
-    if (norm < best_norm) {
-      best_norm = norm;
-      best_x = x;
-    }
+    move_to(std::move(found.x), found.norm);
     if (system.accepted && !system.accepted(stats.iterations, norm)) return finish(Status::interrupted);
-    // newton_step works on the last point evaluated, which after a failed search is not the one accepted.
-    if (norm > params.tolerance && !found.sufficient) {
-      residual = system.residual(x);
-      ++stats.evaluations;
-    }
+    moved_away = !found.sufficient;
   }
   return finish(Status::converged);
 }

@@ -15,11 +15,13 @@ struct NewtonParams {
   double smallest_step = 1e-3;  ///< shortest fraction of the Newton step that is tried, (0, 1)
   int max_failed_searches = 3;  ///< searches without decrease that are accepted at their best step, >= 0
   double max_step = 0;          ///< longest step in any (scaled) unknown, > 0; 0: no limit
+  double chord_ratio = 0.3;     ///< a chord step is accepted when it reduces the norm to this fraction, (0, 1)
 };
 
 struct NewtonStats {
   Status status = Status::iteration_limit;
   int iterations = 0;    ///< Newton steps = Jacobians
+  int chords = 0;        ///< accepted steps with a kept factorisation
   int evaluations = 0;   ///< residuals
   double residual = 0;   ///< norm at the returned point
   double reduction = 1;  ///< last ratio of norms: near 0 means quadratic convergence
@@ -32,6 +34,10 @@ struct NewtonSystem {
   std::function<Eigen::VectorXd(const Eigen::VectorXd& x)> residual;
   /// Writes d with J(x) d = -r(x) at the current point; anything but converged ends the iteration.
   std::function<Status(Eigen::VectorXd& step)> newton_step;
+  /// Writes d with A d = -r(x) at the current point for a factorisation A kept from an earlier point; false when there
+  /// is none worth trying. May be empty. Tried before every Newton step, since it costs a residual and a back
+  /// substitution only, and kept while it contracts well.
+  std::function<bool(Eigen::VectorXd& step)> chord_step = {};
   /// Called after each accepted step; return false to stop with Status::interrupted. May be empty.
   std::function<bool(int iteration, double norm)> accepted = {};
 };

@@ -14,7 +14,7 @@ Eigen::MatrixXd apply_jacobian(const SteadyResidual& residual, const ResidualSta
 
 Eigen::MatrixXd residual_to_frequency(const SteadyResidual& residual, const ResidualState& state) {
   // lambda_u falls by what the linear part gains, and lambda follows it through D.
-  const Eigen::MatrixXd linear = residual_slope_linear(residual.system(), state.displacement);
+  const Eigen::MatrixXd linear = residual_slope_linear(residual.model(), residual.system(), state.displacement);
   return linear - residual.apply_force_derivative(state, linear);
 }
 

@@ -167,7 +167,7 @@ Eigen::MatrixXcd CondensedModel::solve_internal(const Eigen::MatrixXcd& internal
   return lu.solve(rhs);
 }
 
-HarmonicStiffness CondensedModel::harmonic(int h, double omega, bool with_slope, double static_scale) const {
+HarmonicStiffness CondensedModel::harmonic(int h, double omega, double static_scale) const {
   HarmonicStiffness at;
   const Dynamic dynamic(h, omega);
   const Eigen::Index nc = contact_size();
@@ -194,22 +194,21 @@ HarmonicStiffness CondensedModel::harmonic(int h, double omega, bool with_slope,
       at.stiffness -= numerics::product(ci, at.internal_shape);
   }
   at.force -= ci * at.internal_force;
-  if (!with_slope) return at;
-  at.stiffness_slope = dynamic.slope(damping_.cc, mass_.cc);
-  at.force_slope = Eigen::VectorXcd::Zero(nc);
-  if (h == 0 || ci.cols() == 0) return at;
-  const Eigen::MatrixXcd ci_slope = dynamic.slope(damping_.ci, mass_.ci);
-  const Eigen::MatrixXcd ii_slope = dynamic.slope(damping_.ii, mass_.ii);
-  const Eigen::MatrixXcd weighted = modal_ ? Eigen::MatrixXcd(ii_slope.col(0).asDiagonal() * at.internal_shape)
-                                           : Eigen::MatrixXcd(ii_slope * at.internal_shape);
-  at.stiffness_slope += numerics::transposed_product(at.internal_shape, weighted);
-  at.force_slope = weighted.transpose() * at.internal_force;
-  if (!ci_slope.isZero(0)) {
-    const Eigen::MatrixXcd cross = numerics::product(ci_slope, at.internal_shape);
-    at.stiffness_slope -= cross + cross.transpose();
-    at.force_slope -= ci_slope * at.internal_force;
-  }
   return at;
+}
+
+Eigen::VectorXcd CondensedModel::slope(int h, double omega, const HarmonicStiffness& at,
+                                       const Eigen::VectorXcd& contact) const {
+  if (h == 0) return Eigen::VectorXcd::Zero(contact.size());
+  const Dynamic dynamic(h, omega);
+  const Eigen::VectorXcd internal = at.internal_force - at.internal_shape * contact;
+  Eigen::VectorXcd result = dynamic.slope(damping_.cc, mass_.cc) * contact;
+  if (internal.size() == 0) return result;
+  const Eigen::MatrixXcd ci = dynamic.slope(damping_.ci, mass_.ci), ii = dynamic.slope(damping_.ii, mass_.ii);
+  Eigen::VectorXcd on_internal = ci.transpose() * contact;
+  on_internal += modal_ ? Eigen::VectorXcd(ii.col(0).cwiseProduct(internal)) : Eigen::VectorXcd(ii * internal);
+  result += ci * internal - at.internal_shape.transpose() * on_internal;
+  return result;
 }
 
 Eigen::VectorXcd CondensedModel::recover(const HarmonicStiffness& at, const Eigen::VectorXcd& contact) const {

@@ -14,10 +14,8 @@ namespace dovetail::response {
 /// Z_h = S_cc - S_ci S_ii^-1 S_ic with S = K + i h w C - (h w)^2 M [Salles 2009, eq. 10-11], its load and their
 /// derivatives with respect to w. Complex amplitudes stand for c - i s: q = Re(Q e^(i h tau)).
 struct HarmonicStiffness {
-  Eigen::MatrixXcd stiffness;        ///< Z_h [nc, nc] N/m, complex symmetric; real for h = 0
-  Eigen::VectorXcd force;            ///< F_h [nc] N
-  Eigen::MatrixXcd stiffness_slope;  ///< dZ_h/dw [nc, nc] N s/m
-  Eigen::VectorXcd force_slope;      ///< dF_h/dw [nc]
+  Eigen::MatrixXcd stiffness;  ///< Z_h [nc, nc] N/m, complex symmetric; real for h = 0
+  Eigen::VectorXcd force;      ///< F_h [nc] N
   // Internal coordinates are q_i = internal_force - internal_shape U_c.
   Eigen::MatrixXcd internal_shape;    ///< S_ii^-1 S_ic [ni, nc]
   Eigen::VectorXcd internal_force;    ///< S_ii^-1 F_i [ni]
@@ -51,9 +49,12 @@ class CondensedModel {
     force_internal_.rightCols(force_harmonics()) *= factor;
   }
 
-  /// omega in rad/s. `with_slope` adds the derivatives with respect to omega. Loads of harmonic 0 are multiplied
-  /// by `static_scale` (a loading path).
-  [[nodiscard]] HarmonicStiffness harmonic(int h, double omega, bool with_slope = true, double static_scale = 1) const;
+  /// omega in rad/s. Loads of harmonic 0 are multiplied by `static_scale` (a loading path).
+  [[nodiscard]] HarmonicStiffness harmonic(int h, double omega, double static_scale = 1) const;
+  /// dZ_h/dw U_c - dF_h/dw [nc] at constant U_c, without forming dZ_h/dw: with q = (U_c, q_i) and T = (I, -S_ii^-1
+  /// S_ic) it is T^T dS/dw q. O(nc ni).
+  [[nodiscard]] Eigen::VectorXcd slope(int h, double omega, const HarmonicStiffness& at,
+                                       const Eigen::VectorXcd& contact) const;
 
   /// Local contact stiffness [nc]: the limit of diag(Z_h) for high harmonics with massless contact.
   [[nodiscard]] const Eigen::VectorXd& local_stiffness() const { return local_stiffness_; }

@@ -25,16 +25,20 @@ Linearisation::Linearisation(SteadyResidual residual, ResidualState state, const
   factors_ = factorise(0);
   // A body that floats in a trial state has no Jacobian to solve with: lean it slightly on its contact.
   if (factors_->separated.status() != Status::converged || factors_->lu.status() == Status::singular ||
-      factors_->lu.reciprocal_condition() < 1e-15)
+      nearly_singular(1e-15))
     factors_ = factorise(1e-6);
+}
+
+bool Linearisation::nearly_singular(double limit) const {
+  constexpr double kSafe = 1e-7;
+  if (factors_->separated.reciprocal_condition() < limit) return true;
+  return factors_->lu.pivot_ratio() < kSafe && factors_->lu.reciprocal_condition() < limit;
 }
 
 bool Linearisation::same_jacobian(const Linearisation& other) const {
   if (other.status() != Status::converged || other.regularised()) return false;
   if (residual_.shared_system() != other.residual_.shared_system()) return false;
-  if (residual_.penalty().normal != other.residual_.penalty().normal ||
-      residual_.penalty().tangential != other.residual_.penalty().tangential)
-    return false;
+  if (!(residual_.penalty() == other.residual_.penalty())) return false;
   constexpr double kRounding = 1e-13;
   for (std::size_t i = 0; i < state_.nodes.size(); ++i) {
     const Eigen::MatrixXd &here = state_.nodes[i].force_derivative, &there = other.state_.nodes[i].force_derivative;
@@ -174,7 +178,7 @@ Eigen::MatrixXd Linearisation::response_to_wear(const Eigen::VectorXd& wear_chan
 Eigen::MatrixXd Linearisation::response_to_frequency() const {
   const Eigen::Index nc = residual_.model().contact_size();
   // lambda_u falls by what the linear part gains, and lambda follows it through D.
-  const Eigen::MatrixXd linear = residual_slope_linear(residual_.system(), state_.displacement);
+  const Eigen::MatrixXd linear = residual_slope_linear(residual_.model(), residual_.system(), state_.displacement);
   const Eigen::MatrixXd slope = linear - residual_.apply_force_derivative(state_, linear);
   const Eigen::VectorXd solved = solve(-slope.reshaped());
   return solved.reshaped(nc, residual_.basis().coefficients());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -25,7 +26,12 @@ class Linearisation {
   [[nodiscard]] Status status() const { return factors_->lu.status(); }
   [[nodiscard]] Eigen::Index unknowns() const { return residual_.unknowns(); }
   [[nodiscard]] Eigen::Index factorised_size() const { return factors_->lu.size(); }
-  [[nodiscard]] double reciprocal_condition() const { return factors_->lu.reciprocal_condition(); }
+  /// Smallest one of the matrices factorised.
+  [[nodiscard]] double reciprocal_condition() const {
+    return std::min(factors_->lu.reciprocal_condition(), factors_->separated.reciprocal_condition());
+  }
+  /// reciprocal_condition() < limit (<= 1e-10), at the cost of looking at the pivots where these are far from it.
+  [[nodiscard]] bool nearly_singular(double limit) const;
   [[nodiscard]] const SteadyResidual& residual() const { return residual_; }
   [[nodiscard]] const ResidualState& state() const { return state_; }
 

@@ -106,7 +106,7 @@ Preload quasi_static(const std::shared_ptr<const CondensedModel>& model, const P
     preload.pressure(i) = normal / contact.area(i);
     if (limit > 0) preload.friction_use(i) = preload.force.segment(i * d + 1, d - 1).norm() / limit;
   }
-  const HarmonicStiffness at = model->harmonic(0, 0, false);
+  const HarmonicStiffness at = model->harmonic(0, 0);
   preload.full_displacement = model->recover(at, preload.displacement.cast<std::complex<double>>()).real();
   return preload;
 }

@@ -35,11 +35,14 @@ SteadyState described(const SteadyResidual& residual, const Eigen::MatrixXd& dis
   summarise(residual, state, steady);
   steady.status = status;
   if (steady.status == Status::converged && state.status != Status::converged) steady.status = state.status;
+  // Displacements so large that the balance of the forces drowns in rounding: nothing holds the body there.
+  if (steady.status == Status::converged && rounding_floor(residual, state) > kLargestFloor)
+    steady.status = Status::singular;
   if (steady.status != Status::converged) return steady;
   auto linear = std::make_shared<const Linearisation>(residual, std::move(state), previous);
   // A body that nothing holds drifts until the residual is small against rounding: that is no state of it.
   constexpr double kFloats = 1e-13;
-  if (linear->status() != Status::converged || linear->regularised() || linear->reciprocal_condition() < kFloats)
+  if (linear->status() != Status::converged || linear->regularised() || linear->nearly_singular(kFloats))
     steady.status = Status::singular;
   else if (keep_linearisation)
     steady.linearisation = std::move(linear);
@@ -47,9 +50,8 @@ SteadyState described(const SteadyResidual& residual, const Eigen::MatrixXd& dis
 }
 
 double rounding_floor(const SteadyResidual& residual, const ResidualState& state) {
-  constexpr double kLargest = 1e-6;
   const double forces = residual.system().force.norm() + state.prediction.norm();
-  return std::min(4e-15 * forces / residual.system().force_scale, kLargest);
+  return 4e-15 * forces / residual.system().force_scale;
 }
 
 bool is_held(const SteadyResidual& residual, const ResidualState& state) {

@@ -16,13 +16,16 @@ namespace dovetail::response {
 
 /// What there is to say of U [nc, 2H+1], found with `status`: everything of a SteadyState but counts and the penalty
 /// ratio. A converged U whose Jacobian is singular becomes Status::singular; otherwise the linearisation is kept when
-/// `keep_linearisation`.
+/// `keep_linearisation`. `previous`, met on the way, lends its factors where the Jacobian is the same.
 [[nodiscard]] SteadyState described(const SteadyResidual& residual, const Eigen::MatrixXd& displacement, Status status,
-                                    bool keep_linearisation);
+                                    bool keep_linearisation, const Linearisation* previous = nullptr);
 
 /// What is left of forces after cancellation, relative to the excitation: no smaller residual can be asked for at this
-/// point. At most 1e-6: a start at which rounding swamps the excitation is no measure of the solution.
+/// point.
 [[nodiscard]] double rounding_floor(const SteadyResidual& residual, const ResidualState& state);
+/// The residual asked for is raised to the floor of the start up to this: a start at which rounding swamps the
+/// excitation is no measure of the solution. A solution with a floor above it is none.
+inline constexpr double kLargestFloor = 1e-6;
 
 /// Whether the contact that carries load holds the body: the static stiffness with those nodes closed and stuck must
 /// not have a negative direction. Spin softening gives a floating blade a root of the equations far away from its slot

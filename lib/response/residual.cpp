@@ -14,7 +14,7 @@ HarmonicSystem harmonic_system(const CondensedModel& model, int harmonics, doubl
   system.omega = omega;
   system.force.resize(model.contact_size(), 2 * harmonics + 1);
   for (int h = 0; h <= harmonics; ++h) {
-    system.harmonics.push_back(model.harmonic(h, omega, true, static_scale));
+    system.harmonics.push_back(model.harmonic(h, omega, static_scale));
     const HarmonicStiffness& at = system.harmonics.back();
     if (at.status != Status::converged) system.status = at.status;
     if (!at.stiffness.allFinite() || !at.force.allFinite()) system.status = Status::not_finite;
@@ -35,12 +35,13 @@ Eigen::MatrixXd apply_stiffness(const HarmonicSystem& system, const Eigen::Matri
   return result;
 }
 
-Eigen::MatrixXd residual_slope_linear(const HarmonicSystem& system, const Eigen::MatrixXd& displacement) {
+Eigen::MatrixXd residual_slope_linear(const CondensedModel& model, const HarmonicSystem& system,
+                                      const Eigen::MatrixXd& displacement) {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(displacement.rows(), displacement.cols());
   for (std::size_t h = 1; h < system.harmonics.size(); ++h) {
     const HarmonicStiffness& at = system.harmonics[h];
     const auto j = static_cast<Eigen::Index>(h);
-    put_harmonic(at.stiffness_slope * harmonic_of(displacement, j) - at.force_slope, j, result);
+    put_harmonic(model.slope(static_cast<int>(h), system.omega, at, harmonic_of(displacement, j)), j, result);
   }
   return result;
 }
@@ -129,18 +130,33 @@ Eigen::MatrixXd SteadyResidual::apply_force_derivative(const ResidualState& stat
   return applied.reshaped(change.rows(), change.cols());
 }
 
-Eigen::MatrixXd SteadyResidual::jacobian_rows(const ResidualState& state, const std::vector<Eigen::Index>& rows) const {
-  Eigen::MatrixXd result(static_cast<Eigen::Index>(rows.size()), unknowns());
+namespace {
+
+void assemble_rows(const JacobianBlocks& blocks, const std::vector<Eigen::Index>& rows, Eigen::MatrixXd& into) {
+  into.resize(static_cast<Eigen::Index>(rows.size()), blocks.size() * blocks.coefficients());
   std::vector<double*> columns;
-  for (Eigen::Index j = 0; j < unknowns(); ++j) columns.push_back(result.col(j).data());
-  assemble(blocks(state), rows, columns);
+  for (Eigen::Index j = 0; j < into.cols(); ++j) columns.push_back(into.col(j).data());
+  assemble(blocks, rows, columns);
+}
+
+}  // namespace
+
+Eigen::MatrixXd SteadyResidual::jacobian_rows(const ResidualState& state, const std::vector<Eigen::Index>& rows) const {
+  Eigen::MatrixXd result;
+  assemble_rows(blocks(state), rows, result);
   return result;
 }
 
-Eigen::MatrixXd SteadyResidual::jacobian(const ResidualState& state) const {
+void SteadyResidual::jacobian(const ResidualState& state, Eigen::MatrixXd& into) const {
   std::vector<Eigen::Index> rows(static_cast<std::size_t>(unknowns()));
   std::iota(rows.begin(), rows.end(), Eigen::Index{0});
-  return jacobian_rows(state, rows);
+  assemble_rows(blocks(state), rows, into);
+}
+
+Eigen::MatrixXd SteadyResidual::jacobian(const ResidualState& state) const {
+  Eigen::MatrixXd result;
+  jacobian(state, result);
+  return result;
 }
 
 Eigen::MatrixXd SteadyResidual::closed_start() const {

@@ -34,7 +34,8 @@ struct HarmonicSystem {
                                              double static_scale = 1);
 /// Z U for U [nc, 2H+1], harmonic by harmonic; and dZ/dw U - dF/dw.
 [[nodiscard]] Eigen::MatrixXd apply_stiffness(const HarmonicSystem& system, const Eigen::MatrixXd& displacement);
-[[nodiscard]] Eigen::MatrixXd residual_slope_linear(const HarmonicSystem& system, const Eigen::MatrixXd& displacement);
+[[nodiscard]] Eigen::MatrixXd residual_slope_linear(const CondensedModel& model, const HarmonicSystem& system,
+                                                    const Eigen::MatrixXd& displacement);
 
 /// A point of the residual: everything the march said about it.
 struct ResidualState {
@@ -72,6 +73,8 @@ class SteadyResidual {
 
   /// The full Jacobian J = Z + D (eps I - Z) [nc (2H+1)]^2 over vec(U). O(n^2 d), n = nc (2H+1).
   [[nodiscard]] Eigen::MatrixXd jacobian(const ResidualState& state) const;
+  /// The same into storage that is kept: a fresh large matrix costs more in page faults than in operations.
+  void jacobian(const ResidualState& state, Eigen::MatrixXd& into) const;
   /// Its rows `rows` only (indices into vec(U), ascending).
   [[nodiscard]] Eigen::MatrixXd jacobian_rows(const ResidualState& state, const std::vector<Eigen::Index>& rows) const;
   /// Z, D and eps of all nodes; views of this problem and of `state`.

@@ -1,5 +1,7 @@
 #include "response/separated_nodes.hpp"
 
+#include <algorithm>
+
 #include "numerics/dense_product.hpp"
 
 namespace dovetail::response {
@@ -13,7 +15,8 @@ SeparatedNodes::SeparatedNodes(std::shared_ptr<const HarmonicSystem> system, std
     factors_.emplace_back(z(open_, open_));
     // Below this a floating part is told from a soft one by rounding alone.
     constexpr double kSingular = 1e-15;
-    if (!(factors_.back().rcond() > kSingular)) {
+    reciprocal_condition_ = std::min(reciprocal_condition_, factors_.back().rcond());
+    if (!(reciprocal_condition_ > kSingular)) {
       status_ = Status::singular;
       return;
     }

@@ -24,6 +24,8 @@ class SeparatedNodes {
 
   /// `singular`: nothing holds the open part.
   [[nodiscard]] Status status() const { return status_; }
+  /// Smallest estimate of 1 / (|Z_oo| |Z_oo^-1|) over the harmonics; 1 when nothing is open.
+  [[nodiscard]] double reciprocal_condition() const { return reciprocal_condition_; }
   [[nodiscard]] const std::vector<Eigen::Index>& open() const { return open_; }
   [[nodiscard]] const std::vector<Eigen::Index>& kept() const { return kept_; }
   /// Z~_h [kept, kept]; views of this object.
@@ -46,6 +48,7 @@ class SeparatedNodes {
   std::vector<Eigen::MatrixXcd> shape_;      // S
   std::vector<Eigen::PartialPivLU<Eigen::MatrixXcd>> factors_;
   Status status_ = Status::converged;
+  double reciprocal_condition_ = 1;
 };
 
 }  // namespace dovetail::response

@@ -17,6 +17,7 @@ struct Scaled {
   Eigen::VectorXd unit;  // displacement per unit unknown, vec(U)
   double force = 1;
   ResidualState state;
+  std::shared_ptr<const Linearisation> last;  // factorised
 
   explicit Scaled(const SteadyResidual& residual)
       : problem(residual), unit(residual.unknowns()), force(residual.system().force_scale) {
@@ -34,10 +35,24 @@ struct Scaled {
   Status newton_step(Eigen::VectorXd& step) {
     const Eigen::MatrixXd at = state.displacement;
     problem.evaluate(at, true, state);
-    const Linearisation linear(problem, state);
-    if (linear.status() != Status::converged) return linear.status();
-    step = linear.solve(-state.residual.reshaped()).cwiseQuotient(unit);
+    auto linear = std::make_shared<const Linearisation>(problem, state, last.get());
+    if (linear->status() != Status::converged) return linear->status();
+    last = std::move(linear);
+    step = last->solve(-state.residual.reshaped()).cwiseQuotient(unit);
     return Status::converged;
+  }
+  // A factorisation of n unknowns costs n^3 operations, the residual a number of them per node, sample and direction.
+  // Kept factors are worth a try where the former dominates.
+  [[nodiscard]] bool pays() const {
+    constexpr double kOperations = 2e3;
+    const auto size = static_cast<double>(last->factorised_size());
+    const auto marched = static_cast<double>(problem.model().contact_size() * problem.basis().samples());
+    return size * size * size > kOperations * marched;
+  }
+  bool chord_step(Eigen::VectorXd& step) const {
+    if (!last || last->regularised() || !pays()) return false;
+    step = last->solve(-state.residual.reshaped()).cwiseQuotient(unit);
+    return true;
   }
   Eigen::MatrixXd jacobian(const Eigen::VectorXd& x) {
     problem.evaluate(displacement(x), true, state);
@@ -48,15 +63,18 @@ struct Scaled {
 }  // namespace
 
 Attempt solve(const SteadyResidual& residual, const Eigen::MatrixXd& start, Method method, double tolerance,
-              int max_iterations) {
+              int max_iterations, const std::shared_ptr<const Linearisation>& reuse) {
   Scaled scaled(residual);
+  if (reuse && residual.penalty() == reuse->residual().penalty() && reuse->unknowns() == residual.unknowns())
+    scaled.last = reuse;
   Eigen::VectorXd x = Eigen::VectorXd(start.reshaped()).cwiseQuotient(scaled.unit);
   scaled.residual(x);
-  const double goal = std::max(tolerance, rounding_floor(residual, scaled.state));
+  const double goal = std::max(tolerance, std::min(rounding_floor(residual, scaled.state), kLargestFloor));
   Attempt attempt;
   if (method == Method::newton) {
     const numerics::NewtonSystem system{.residual = [&](const Eigen::VectorXd& at) { return scaled.residual(at); },
-                                        .newton_step = [&](Eigen::VectorXd& step) { return scaled.newton_step(step); }};
+                                        .newton_step = [&](Eigen::VectorXd& step) { return scaled.newton_step(step); },
+                                        .chord_step = [&](Eigen::VectorXd& step) { return scaled.chord_step(step); }};
     const numerics::NewtonStats stats =
         numerics::newton(system, x, {.tolerance = goal, .max_iterations = max_iterations});
     attempt = {.status = stats.status,
@@ -77,6 +95,7 @@ Attempt solve(const SteadyResidual& residual, const Eigen::MatrixXd& start, Meth
                .displacement = {}};
   }
   attempt.displacement = scaled.displacement(x);
+  attempt.linearisation = scaled.last;
   if (attempt.status == Status::converged) {
     residual.evaluate(attempt.displacement, false, scaled.state);
     if (!is_held(residual, scaled.state)) {

@@ -2,6 +2,9 @@
 
 #include <Eigen/Core>
 
+#include <memory>
+
+#include "response/linearisation.hpp"
 #include "response/residual.hpp"
 
 namespace dovetail::response {
@@ -13,12 +16,16 @@ struct Attempt {
   int evaluations = 0;  ///< residuals
   double residual = 0;  ///< |f| / force scale
   Eigen::MatrixXd displacement;
+  std::shared_ptr<const Linearisation> linearisation = {};  ///< the last one factorised on the way, or null
 };
 
 enum class Method { newton, powell, powell_fd };
 
 /// `tolerance` is relative to the excitation; it is raised to what rounding of the forces leaves when that is more.
+/// `reuse`, of a nearby point with the same pseudo-penalty, may spare the first factorisations; it changes the way to
+/// the solution and not the solution.
 [[nodiscard]] Attempt solve(const SteadyResidual& residual, const Eigen::MatrixXd& start, Method method,
-                            double tolerance, int max_iterations);
+                            double tolerance, int max_iterations,
+                            const std::shared_ptr<const Linearisation>& reuse = {});
 
 }  // namespace dovetail::response

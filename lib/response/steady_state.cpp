@@ -24,10 +24,11 @@ class Search {
   }
 
   // Tries one start; true when it converged. Keeps the attempt if it is the best so far.
-  bool attempt(double ratio, const Eigen::MatrixXd& start, Method method) {
+  bool attempt(double ratio, const Eigen::MatrixXd& start, Method method,
+               const std::shared_ptr<const Linearisation>& reuse = {}) {
     const SteadyResidual residual = problem(ratio);
     Attempt found = solve(residual, start.size() > 0 ? start : residual.closed_start(), method, options_.tolerance,
-                          options_.max_iterations);
+                          options_.max_iterations, reuse);
     iterations_ += found.iterations;
     evaluations_ += found.evaluations;
     if (found.status == Status::converged || best_.displacement.size() == 0 || found.residual < best_.residual) {
@@ -38,11 +39,11 @@ class Search {
     return false;
   }
 
-  void run(const Eigen::MatrixXd& guess) {
+  void run(const Eigen::MatrixXd& guess, const std::shared_ptr<const Linearisation>& reuse) {
     const Method first = options_.solver == "powell"      ? Method::powell
                          : options_.solver == "powell_fd" ? Method::powell_fd
                                                           : Method::newton;
-    if (guess.size() > 0 && attempt(1, guess, first)) return;
+    if (guess.size() > 0 && attempt(1, guess, first, reuse)) return;
     if (attempt(1, {}, first)) return;
     if (!options_.penalty_cascade) return;
     for (const double ratio : contact::kPenaltyCascade) {
@@ -59,7 +60,8 @@ class Search {
   }
 
   [[nodiscard]] SteadyState result() const {
-    SteadyState steady = described(problem(ratio_), best_.displacement, best_.status, options_.linearise);
+    SteadyState steady =
+        described(problem(ratio_), best_.displacement, best_.status, options_.linearise, best_.linearisation.get());
     steady.iterations = iterations_;
     steady.evaluations = evaluations_;
     steady.penalty_ratio = ratio_;
@@ -80,8 +82,8 @@ class Search {
 }  // namespace
 
 SteadyState steady_state(const std::shared_ptr<const CondensedModel>& model, double omega,
-                         const ContactCondition& condition, const SteadyOptions& options,
-                         const Eigen::MatrixXd& guess) {
+                         const ContactCondition& condition, const SteadyOptions& options, const Eigen::MatrixXd& guess,
+                         const std::shared_ptr<const Linearisation>& reuse) {
   validate(options);
   if (!kPositive.contains(omega))
     throw InputError({.file = {}, .key = "omega", .value = shortest(omega), .allowed = kPositive.phrase()});
@@ -99,7 +101,7 @@ SteadyState steady_state(const std::shared_ptr<const CondensedModel>& model, dou
     return steady;
   }
   Search search(model, std::move(system), condition, options);
-  search.run(guess);
+  search.run(guess, reuse);
   return search.result();
 }
 

@@ -56,9 +56,11 @@ struct SteadyState {
 
 /// The periodic response to the model's excitation at `omega` (rad/s, > 0). `guess` is U [nc, 2H+1] of a nearby
 /// state or empty (start closed). Throws InputError on bad options or sizes; everything else is a status: singular when
-/// the forces balance but the Jacobian is singular there, as for a body that nothing holds.
+/// the forces balance but the Jacobian is singular there, as for a body that nothing holds. `reuse`, the linearisation
+/// of a nearby state (another frequency, wear or contact condition), may spare factorisations on the way from `guess`.
 [[nodiscard]] SteadyState steady_state(const std::shared_ptr<const CondensedModel>& model, double omega,
                                        const ContactCondition& condition, const SteadyOptions& options,
-                                       const Eigen::MatrixXd& guess = {});
+                                       const Eigen::MatrixXd& guess = {},
+                                       const std::shared_ptr<const Linearisation>& reuse = {});
 
 }  // namespace dovetail::response

@@ -57,7 +57,7 @@ struct Band {
 };
 
 double glued_amplitude(const response::CondensedModel& model, double omega, Status& status) {
-  const response::HarmonicStiffness at = model.harmonic(1, omega, false);
+  const response::HarmonicStiffness at = model.harmonic(1, omega);
   status = at.status;
   return std::abs(model.outputs(at, Eigen::VectorXcd::Zero(model.contact_size()))(0));
 }
