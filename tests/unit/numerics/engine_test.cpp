@@ -106,6 +106,48 @@ TEST(Newton, ConvergesWhereFullStepsDiverge) {
   EXPECT_LT(stats.iterations, 30);
 }
 
+TEST(Newton, KeepsFactorsWhileTheyContract) {
+  // x + 0.1 sin x = 1: the slope stays within 10 % of that at the start, so one Jacobian serves to the end.
+  int jacobians = 0;
+  double slope = 0;
+  const auto run = [&](double kept) {
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(1);
+    Eigen::VectorXd at = x, residual;
+    slope = kept;
+    jacobians = 0;
+    const NewtonStats stats = newton({.residual =
+                                          [&](const Eigen::VectorXd& p) {
+                                            at = p;
+                                            residual = Eigen::VectorXd::Constant(1, p(0) + 0.1 * std::sin(p(0)) - 1);
+                                            return residual;
+                                          },
+                                      .newton_step =
+                                          [&](Eigen::VectorXd& step) {
+                                            ++jacobians;
+                                            slope = 1 + 0.1 * std::cos(at(0));
+                                            step = -residual / slope;
+                                            return Status::converged;
+                                          },
+                                      .chord_step =
+                                          [&](Eigen::VectorXd& step) {
+                                            if (slope == 0) return false;
+                                            step = -residual / slope;
+                                            return true;
+                                          }},
+                                     x, {.tolerance = 1e-12});
+    EXPECT_EQ(stats.status, Status::converged);
+    EXPECT_LT(std::abs(x(0) + 0.1 * std::sin(x(0)) - 1), 1e-12);
+    EXPECT_EQ(stats.iterations, jacobians);
+    return stats;
+  };
+  EXPECT_EQ(run(0).iterations, 1);
+  EXPECT_GT(run(0).chords, 3);
+  // A kept slope of the wrong sign is refused, and the step taken from the point before it.
+  EXPECT_EQ(run(-1).iterations, 1);
+  // A good one from elsewhere leaves nothing to factorise.
+  EXPECT_EQ(run(1.1).iterations, 0);
+}
+
 TEST(Newton, CrossesAKink) {
   // x + 0.9 |x| = 1 from the flat side: the slope changes by a factor of 19 on the way.
   const Case kink{
