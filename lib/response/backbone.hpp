@@ -28,8 +28,8 @@ using BackboneFamily = std::function<BackboneCase(double parameter)>;
 
 struct BackboneOptions {
   ResonanceOptions resonance = {};  ///< of the first point, and of the searches where Newton does not get through
-  int max_iterations = 14;          ///< Jacobians of one Newton on (U, omega), >= 2
-  int halvings = 5;                 ///< times the way to the next parameter is halved when it fails, >= 0
+  int max_iterations = 60;          ///< Jacobians of one Newton on (U, omega), >= 2
+  int halvings = 3;                 ///< times the way to the next parameter is halved when it fails, >= 0
   bool search = true;               ///< fall back on resonance() when the halvings do not help
 };
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "response/amplitude.hpp"
+#include "response/peak_sweep.hpp"
 #include "response/real_block.hpp"
 
 namespace dovetail::response {
@@ -194,7 +195,17 @@ Resonance resonance(const std::shared_ptr<const CondensedModel>& model, double o
                      .value = std::to_string(resonance_options.output),
                      .allowed = "must be < " + std::to_string(outputs)});
   if (!found.empty()) throw InputError(std::move(found));
-  return PeakSearch(model, condition, options, resonance_options).run(omega_start, guess);
+  Resonance near = PeakSearch(model, condition, options, resonance_options).run(omega_start, guess);
+  if (near.status == Status::converged || resonance_options.sweep_range == 0) return near;
+  Resonance far = peak_sweep(model, omega_start * (1 + resonance_options.search_range),
+                             omega_start * (1 - resonance_options.sweep_range), condition, options, resonance_options);
+  far.swept = true;
+  far.solves += near.solves;
+  far.jacobians += near.jacobians;
+  if (far.status == Status::converged) return far;
+  near.solves = far.solves;
+  near.jacobians = far.jacobians;
+  return near;
 }
 
 }  // namespace dovetail::response

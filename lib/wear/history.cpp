@@ -32,6 +32,7 @@ class Run {
       const response::SteadyOptions& steady, const HistoryOptions& options, const response::ResonanceOptions& resonance)
       : model_(std::move(model)), condition_(start), steady_(steady), options_(options), resonance_(resonance) {
     if (condition_.wear_depth.size() == 0) condition_.wear_depth = VectorXd::Zero(model_->nodes());
+    resonance_.sweep_range = 0;  // the peak is followed: one found elsewhere would not be the same
   }
 
   [[nodiscard]] const VectorXd& depth() const { return condition_.wear_depth; }

@@ -1,0 +1,223 @@
+#include "response/backbone.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "response/peak.hpp"
+
+namespace dovetail::response {
+namespace {
+
+// A resonance that was found, as a support of the predictor.
+struct Support {
+  double parameter = 0;
+  BranchVector point;
+};
+
+class Tracker {
+ public:
+  Tracker(const BackboneFamily& family, const SteadyOptions& options, const BackboneOptions& backbone)
+      : family_(family), options_(options), backbone_(backbone) {}
+
+  BackbonePoint first(double parameter, double omega_start) {
+    return searched(parameter, omega_start, {}, backbone_.resonance);
+  }
+
+  // Newton from the predictor, over intermediate parameters when the way is too far, then resonance() as a last resort.
+  BackbonePoint next(double parameter) {
+    BackbonePoint result{.parameter = parameter, .state = {}};
+    double target = parameter;
+    int halvings = 0, jacobians = 0;
+    while (true) {
+      BackbonePoint found = newton(target);
+      jacobians += found.jacobians;
+      if (found.status == Status::converged && target == parameter) {
+        found.intermediate = result.intermediate;
+        found.jacobians = jacobians;
+        return found;
+      }
+      if (found.status == Status::converged) {
+        ++result.intermediate;
+        target = parameter;
+        continue;
+      }
+      if (halvings++ >= backbone_.halvings) {
+        result.status = found.status;
+        break;
+      }
+      target = (target + supports_.back().parameter) / 2;
+    }
+    result.jacobians = jacobians;
+    if (!backbone_.search) return result;
+    // Followed, not searched anew: elsewhere there may be the peak of another mode.
+    ResonanceOptions near = backbone_.resonance;
+    near.sweep_range = 0;
+    const Support& last = supports_.back();
+    BackbonePoint found = searched(parameter, last.point.omega, last.point.displacement, near);
+    found.intermediate = result.intermediate;
+    found.jacobians += jacobians;
+    return found;
+  }
+
+  [[nodiscard]] bool started() const { return !supports_.empty(); }
+
+ private:
+  BackbonePoint searched(double parameter, double omega_start, const Eigen::MatrixXd& guess,
+                         const ResonanceOptions& search) {
+    const BackboneCase problem = family_(parameter);
+    Resonance found = resonance(problem.model, omega_start, problem.condition, options_, search, guess);
+    BackbonePoint point{.parameter = parameter,
+                        .status = found.status,
+                        .omega = found.omega,
+                        .amplitude = found.amplitude,
+                        .error = search.frequency_tolerance,
+                        .searched = true,
+                        .jacobians = found.jacobians,
+                        .state = std::move(found.state)};
+    if (point.status != Status::converged) return point;
+    if (!started()) penalty_ratio_ = point.state.penalty_ratio;
+    keep({.parameter = parameter, .point = {.displacement = point.state.displacement, .omega = point.omega}});
+    last_state_ = point.state;
+    last_state_.linearisation.reset();
+    curvature_ = kLinear;
+    width_ = peak_width(point.state, search.output);
+    if (!options_.linearise) point.state.linearisation.reset();
+    return point;
+  }
+
+  BackbonePoint newton(double parameter) {
+    const BackboneCase problem = family_(parameter);
+    const BranchEquations branch(problem.model, problem.condition, options_, penalty_ratio_);
+    const ArcMetric metric = peak_metric(last_state_, width_);
+    const PeakOptions peak{.output = backbone_.resonance.output,
+                           .frequency_tolerance = backbone_.resonance.frequency_tolerance,
+                           .max_iterations = backbone_.max_iterations};
+    const BranchVector start = predicted(parameter);
+    const Peak found = find_peak(branch, start, metric, peak, curvature_);
+    BackbonePoint point{.parameter = parameter,
+                        .status = found.status,
+                        .omega = found.point.omega,
+                        .amplitude = found.amplitude,
+                        .error = found.error,
+                        .jacobians = found.iterations,
+                        .state = {}};
+    if (point.status != Status::converged) return point;
+    // A peak this far from where it was expected is another one.
+    constexpr double kElsewhere = 0.5;
+    if (std::abs(found.point.omega / supports_.back().point.omega - 1) > kElsewhere) {
+      point.status = Status::stalled;
+      return point;
+    }
+    const BranchEquations::Correction corrected{.status = Status::converged,
+                                                .point = found.point,
+                                                .residual = found.residual,
+                                                .iterations = found.iterations,
+                                                .evaluations = found.evaluations};
+    const BranchVector forward{
+        .displacement = Eigen::MatrixXd::Zero(start.displacement.rows(), start.displacement.cols()),
+        .omega = 1 / metric.omega_weight};
+    point.state = branch.describe(corrected, forward, metric).state;
+    point.status = point.state.status;
+    if (point.status != Status::converged) return point;
+    keep({.parameter = parameter, .point = found.point});
+    last_state_ = point.state;
+    last_state_.linearisation.reset();
+    // The next metric has the width found here as its unit, in which the curvature of a peak hardly varies.
+    curvature_ = found.curvature;
+    constexpr double kNarrower = 0.1, kWider = 10;
+    width_ = std::clamp(found.width, kNarrower * width_, kWider * width_);
+    return point;
+  }
+
+  [[nodiscard]] BranchVector predicted(double parameter) const {
+    // Lagrange's polynomial through the last points, of which none may coincide.
+    BranchVector result{.displacement = 0 * supports_.back().point.displacement, .omega = 0};
+    for (std::size_t i = 0; i < supports_.size(); ++i) {
+      double weight = 1;
+      for (std::size_t j = 0; j < supports_.size(); ++j)
+        if (j != i) weight *= (parameter - supports_[j].parameter) / (supports_[i].parameter - supports_[j].parameter);
+      result.displacement += weight * supports_[i].point.displacement;
+      result.omega += weight * supports_[i].point.omega;
+    }
+    return result;
+  }
+
+  void keep(Support support) {
+    constexpr std::size_t kSupports = 3;
+    std::erase_if(supports_, [&](const Support& old) { return old.parameter == support.parameter; });
+    supports_.push_back(std::move(support));
+    if (supports_.size() > kSupports) supports_.erase(supports_.begin());
+  }
+
+  static constexpr double kLinear = -0.5;  // the curvature of a linear peak in its metric
+
+  const BackboneFamily& family_;
+  const SteadyOptions& options_;
+  const BackboneOptions& backbone_;
+  std::vector<Support> supports_;
+  SteadyState last_state_;
+  double penalty_ratio_ = 1, curvature_ = kLinear, width_ = 0;
+};
+
+}  // namespace
+
+BackboneFamily excitation_levels(const std::shared_ptr<const CondensedModel>& model,
+                                 const ContactCondition& condition) {
+  return [model, condition](double level) {
+    auto scaled = std::make_shared<CondensedModel>(*model);
+    scaled->scale_excitation(level);
+    return BackboneCase{.model = std::move(scaled), .condition = condition};
+  };
+}
+
+BackboneFamily wear_levels(const std::shared_ptr<const CondensedModel>& model, const Eigen::VectorXd& growth,
+                           const ContactCondition& condition) {
+  if (growth.size() != model->nodes())
+    throw InputError({.file = {},
+                      .key = "growth",
+                      .value = "size " + std::to_string(growth.size()),
+                      .allowed = "must have size " + std::to_string(model->nodes())});
+  return [model, growth, condition](double level) {
+    BackboneCase worn{.model = model, .condition = condition};
+    if (worn.condition.wear_depth.size() == 0) worn.condition.wear_depth = Eigen::VectorXd::Zero(growth.size());
+    worn.condition.wear_depth += level * growth;
+    return worn;
+  };
+}
+
+Backbone backbone(const BackboneFamily& family, std::span<const double> parameters, double omega_start,
+                  const SteadyOptions& options, const BackboneOptions& backbone_options,
+                  const std::function<bool(const BackbonePoint&)>& progress) {
+  std::vector<Violation> found = violations(backbone_options.resonance, "resonance");
+  if (backbone_options.max_iterations < 2)
+    found.push_back({.file = {},
+                     .key = "max_iterations",
+                     .value = std::to_string(backbone_options.max_iterations),
+                     .allowed = "must be >= 2"});
+  if (backbone_options.halvings < 0)
+    found.push_back({.file = {},
+                     .key = "halvings",
+                     .value = std::to_string(backbone_options.halvings),
+                     .allowed = kNonNegative.phrase()});
+  if (!found.empty()) throw InputError(std::move(found));
+  validate(options);
+  Tracker tracker(family, options, backbone_options);
+  Backbone result{.status = Status::converged, .points = {}};
+  bool stopped = false;
+  for (const double parameter : parameters) {
+    if (stopped) {
+      result.points.push_back({.parameter = parameter, .status = Status::interrupted, .state = {}});
+      continue;
+    }
+    result.points.push_back(tracker.started() ? tracker.next(parameter) : tracker.first(parameter, omega_start));
+    const BackbonePoint& point = result.points.back();
+    result.jacobians += point.jacobians;
+    if (point.status != Status::converged) result.status = point.status;
+    stopped = progress && !progress(point);
+  }
+  if (stopped && result.points.back().status == Status::interrupted) result.status = Status::interrupted;
+  return result;
+}
+
+}  // namespace dovetail::response

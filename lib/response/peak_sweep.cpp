@@ -1,0 +1,87 @@
+#include "response/peak_sweep.hpp"
+
+#include <algorithm>
+
+#include "response/peak.hpp"
+
+namespace dovetail::response {
+namespace {
+
+// Points of the branch that are higher than both neighbours, highest first.
+std::vector<std::size_t> summits(const Branch& branch, Eigen::Index output) {
+  std::vector<std::size_t> found;
+  const auto height = [&](std::size_t i) { return branch.points[i].state.amplitudes(output); };
+  for (std::size_t i = 1; i + 1 < branch.points.size(); ++i)
+    if (height(i) > height(i - 1) && height(i) >= height(i + 1)) found.push_back(i);
+  std::sort(found.begin(), found.end(), [&](std::size_t a, std::size_t b) { return height(a) > height(b); });
+  return found;
+}
+
+// The frequency range in which the output changes by its own size, from the neighbours of a summit.
+double width_at(const Branch& branch, std::size_t i, Eigen::Index output) {
+  const SteadyState &before = branch.points[i - 1].state, &after = branch.points[i + 1].state;
+  const double change = (after.outputs.row(output) - before.outputs.row(output)).norm();
+  const double range = std::abs(after.omega - before.omega);
+  const double omega = branch.points[i].state.omega, size = branch.points[i].state.amplitudes(output);
+  constexpr double kSharpest = 1e-6, kWidest = 0.5;
+  return omega * std::clamp(change > 0 ? range * size / (change * omega) : kWidest, kSharpest, kWidest);
+}
+
+}  // namespace
+
+Resonance peak_sweep(const std::shared_ptr<const CondensedModel>& model, double omega_from, double omega_to,
+                     const ContactCondition& condition, const SteadyOptions& options,
+                     const ResonanceOptions& resonance_options) {
+  // Coarse steps: what counts is that no peak is stepped over, and the change of the outputs sees to that.
+  const ContinuationOptions coarse{.largest_frequency_step = 0.04,
+                                   .largest_change = 0.5,
+                                   .largest_turn = 0.8,
+                                   .max_points = 1000,
+                                   .locate_turns = false};
+  SteadyOptions without = options;
+  without.linearise = false;
+  Branch branch = continuation(model, omega_from, omega_to, condition, without, coarse);
+  Resonance result{.status = branch.status, .state = {}};
+  result.solves = static_cast<int>(branch.points.size()) + branch.rejected;
+  result.jacobians = branch.jacobians;
+  const std::vector<std::size_t> candidates = summits(branch, resonance_options.output);
+  if (branch.status == Status::converged) result.status = Status::no_bracket;
+  SteadyOptions with = options;
+  with.linearise = true;
+  const BranchEquations equations(model, condition, with, branch.penalty_ratio);
+  constexpr std::size_t kTried = 3;
+  for (std::size_t c = 0; c < std::min(candidates.size(), kTried); ++c) {
+    const SteadyState& summit = branch.points[candidates[c]].state;
+    const ArcMetric metric = peak_metric(summit, width_at(branch, candidates[c], resonance_options.output));
+    const BranchVector start{.displacement = summit.displacement, .omega = summit.omega};
+    const Peak peak =
+        find_peak(equations, start, metric,
+                  {.output = resonance_options.output, .frequency_tolerance = resonance_options.frequency_tolerance});
+    ++result.solves;
+    result.jacobians += peak.iterations;
+    // Newton may have run off to a lower maximum.
+    constexpr double kHeight = 0.99;
+    if (peak.status != Status::converged || peak.amplitude < kHeight * summit.amplitudes(resonance_options.output))
+      continue;
+    const BranchEquations::Correction found{.status = Status::converged,
+                                            .point = peak.point,
+                                            .residual = peak.residual,
+                                            .iterations = peak.iterations,
+                                            .evaluations = peak.evaluations};
+    const BranchVector forward{
+        .displacement = Eigen::MatrixXd::Zero(start.displacement.rows(), start.displacement.cols()),
+        .omega = 1 / metric.omega_weight};
+    SteadyState state = equations.describe(found, forward, metric).state;
+    if (state.status != Status::converged || !state.linearisation) continue;
+    result.status = Status::converged;
+    result.omega = state.omega;
+    const AmplitudeSlope at = amplitude_slope(state, resonance_options.output);
+    result.amplitude = at.amplitude;
+    result.slope = at.slope;
+    result.state = std::move(state);
+    return result;
+  }
+  return result;
+}
+
+}  // namespace dovetail::response
