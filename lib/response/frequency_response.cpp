@@ -1,6 +1,76 @@
 #include "response/frequency_response.hpp"
 
 namespace dovetail::response {
+namespace {
+
+// Goes from frequency to frequency, each state started from the last one that converged.
+class Sweep {
+ public:
+  Sweep(const std::shared_ptr<const CondensedModel>& model, const ContactCondition& condition,
+        const SteadyOptions& options)
+      : model_(model), condition_(condition), options_(options) {
+    options_.linearise = true;
+  }
+
+  SteadyState at(double omega) {
+    SteadyState state;
+    // Smaller steps stay on the branch and keep its eps, another eps of the cascade need not.
+    if (last_.linearisation && last_.penalty_ratio == 1) {
+      state = approached(omega);
+      if (state.status == Status::converged) return state;
+    }
+    const int iterations = state.iterations, evaluations = state.evaluations, intermediate = state.intermediate;
+    state = from_last(omega, options_);
+    state.iterations += iterations;
+    state.evaluations += evaluations;
+    state.intermediate = intermediate;
+    if (state.linearisation) last_ = state;
+    return state;
+  }
+
+ private:
+  [[nodiscard]] SteadyState from_last(double omega, const SteadyOptions& options) const {
+    if (!last_.linearisation) return steady_state(model_, omega, condition_, options);
+    const Eigen::MatrixXd guess =
+        last_.displacement + (omega - last_.omega) * last_.linearisation->response_to_frequency();
+    return steady_state(model_, omega, condition_, options, guess, last_.linearisation);
+  }
+
+  // Halves the way to omega while that fails, and carries on from where it got.
+  SteadyState approached(double omega) {
+    constexpr int kHalvings = 6;
+    SteadyOptions plain = options_;
+    plain.penalty_cascade = false;
+    if (plain.solver == "auto") plain.solver = "newton";
+    int iterations = 0, evaluations = 0, intermediate = 0, halvings = 0;
+    double target = omega;
+    while (true) {
+      SteadyState state = from_last(target, plain);
+      iterations += state.iterations;
+      evaluations += state.evaluations;
+      state.iterations = iterations;
+      state.evaluations = evaluations;
+      state.intermediate = intermediate;
+      if (state.status == Status::converged) last_ = state;
+      if (target == omega && state.status == Status::converged) return state;
+      if (state.status == Status::converged) {
+        ++intermediate;
+        target = omega;
+      } else if (halvings++ < kHalvings) {
+        target = (target + last_.omega) / 2;
+      } else {
+        return state;
+      }
+    }
+  }
+
+  const std::shared_ptr<const CondensedModel>& model_;
+  const ContactCondition& condition_;
+  SteadyOptions options_;
+  SteadyState last_;  // the last converged one, with linearisation
+};
+
+}  // namespace
 
 std::vector<SteadyState> frequency_response(const std::shared_ptr<const CondensedModel>& model,
                                             std::span<const double> omega, const ContactCondition& condition,
@@ -8,9 +78,7 @@ std::vector<SteadyState> frequency_response(const std::shared_ptr<const Condense
                                             const std::function<bool(std::size_t point, const SteadyState&)>& progress,
                                             bool keep_linearisations) {
   std::vector<SteadyState> states;
-  SteadyOptions with_predictor = options;
-  with_predictor.linearise = true;
-  Eigen::MatrixXd slope;
+  Sweep sweep(model, condition, options);
   bool stopped = false;
   for (std::size_t point = 0; point < omega.size(); ++point) {
     if (stopped) {
@@ -19,15 +87,8 @@ std::vector<SteadyState> frequency_response(const std::shared_ptr<const Condense
       states.back().omega = omega[point];
       continue;
     }
-    Eigen::MatrixXd guess;
-    if (!states.empty() && states.back().status == Status::converged) {
-      guess = states.back().displacement;
-      if (slope.size() > 0) guess += (omega[point] - states.back().omega) * slope;
-    }
-    states.push_back(steady_state(model, omega[point], condition, with_predictor, guess));
+    states.push_back(sweep.at(omega[point]));
     SteadyState& state = states.back();
-    slope.resize(0, 0);
-    if (state.linearisation) slope = state.linearisation->response_to_frequency();
     if (progress && !progress(point, state)) stopped = true;
     if (!keep_linearisations) state.linearisation.reset();
   }

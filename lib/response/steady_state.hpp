@@ -33,6 +33,7 @@ struct SteadyState {
   Status status = Status::iteration_limit;
   int iterations = 0;        ///< Jacobians, all penalties tried together
   int evaluations = 0;       ///< residuals
+  int intermediate = 0;      ///< states on the way to this one that are not reported (frequency_response)
   double omega = 0;          ///< rad/s
   double residual = 0;       ///< |f| relative to the excitation
   double penalty_ratio = 1;  ///< of the cascade; the eps used is in `penalty`
