@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "contact/sample_step.hpp"
+
 namespace dovetail::response {
 namespace {
 
@@ -37,6 +39,15 @@ ContactTimeline::ContactTimeline(Eigen::MatrixXd prediction, const contact::Node
   contact::march(basis.synthesise(prediction_), law, basis, options, false, march_);
   if (march_.status != Status::converged) return;
   const int samples = basis.samples();
+  if (!march_.always_closed && !march_.always_separated) locate_touches();
+  // Shaken down to the limit: what still slips is what the march leaves of an adaptation that has ended.
+  constexpr double kSettled = 1e-6;
+  const double largest_limit = law.friction * march_.force.col(0).maxCoeff();
+  if (march_.always_closed && law.friction > 0 &&
+      march_.slip_distance * law.tangential_penalty <= kSettled * largest_limit) {
+    start_ = ContactMode::stuck;
+    return;
+  }
   // Begin where nothing happens, so that no event is moved across the ends of the walk.
   int first = 0;
   for (int n = 0; n < samples; ++n)
@@ -136,6 +147,36 @@ SlipFrame ContactTimeline::frame(double tau) const {
   return frame;
 }
 
+// A node that closes between two samples starts from its slip at the touch, not at the last open sample: the march
+// would slip a little at every touch otherwise. An open sample forgets all history, so one period from there is the
+// orbit.
+void ContactTimeline::locate_touches() {
+  const int samples = basis_.samples();
+  const Eigen::Index d = prediction_.rows();
+  int first = 0;
+  while (mode_at(first) != ContactMode::open) ++first;
+  const Eigen::MatrixXd table = prediction_ * basis_.synthesis_table().transpose();
+  contact::Memory memory;
+  for (int k = 0; k < samples; ++k) {
+    const int n = wrapped(first + k);
+    if (k > 0 && mode_at(n - 1) == ContactMode::open && table(0, n) > 0) {
+      const Eigen::Vector3d at = value(touch(first + k - 1));
+      for (Eigen::Index r = 0; r + 1 < d; ++r) memory.slip_force[r] = at(1 + r);
+    }
+    const contact::Step step =
+        d == 2 ? contact::sample_step<1>(table.col(n).data(), law_.friction, contact::SlipReturn::second_order, memory)
+               : contact::sample_step<2>(table.col(n).data(), law_.friction, contact::SlipReturn::second_order, memory);
+    march_.state[static_cast<std::size_t>(n)] = step.state;
+    for (Eigen::Index r = 0; r < d; ++r) march_.force(n, r) = step.force[r];
+    for (Eigen::Index r = 1; r < d; ++r) march_.slip_force(n, r) = memory.slip_force[r - 1];
+  }
+}
+
+// Between a sample and the next, where lambda_u,N changes its sign.
+double ContactTimeline::touch(int sample) const {
+  return zero([&](double tau) { return value(tau)(0); }, instant(sample), instant(sample + 1));
+}
+
 // Slip frozen at lambda_x = slip_force: |pre_T| reaches the limit.
 double ContactTimeline::slip_start(double from, double to, const Eigen::Vector2d& slip_force) const {
   const auto excess = [&](double tau) {
@@ -163,7 +204,6 @@ void ContactTimeline::add(ContactEvent event) {
 void ContactTimeline::walk(int sample) {
   const ContactMode from = mode_at(sample), to = mode_at(sample + 1);
   const double a = instant(sample), b = instant(sample + 1);
-  const auto normal = [&](double tau) { return value(tau)(0); };
   const double sign = to == ContactMode::slipping ? direction_at(sample + 1)(0) : 1;
   if (from == to) {
     // Slip that reverses within one sample rests at an instant.
@@ -176,9 +216,9 @@ void ContactTimeline::walk(int sample) {
          .mode = ContactMode::slipping,
          .sign = sign});
   } else if (to == ContactMode::open) {
-    add({.tau = zero(normal, a, b), .mode = to});
+    add({.tau = touch(sample), .mode = to});
   } else if (from == ContactMode::open) {
-    ContactEvent event{.tau = zero(normal, a, b), .mode = to, .closing = true, .sign = sign};
+    ContactEvent event{.tau = touch(sample), .mode = to, .closing = true, .sign = sign};
     const Eigen::Vector3d rate = slope(event.tau);
     event.ratio = rate.tail<2>() / std::max(rate(0), 1e-300);
     const double length = event.ratio.norm();

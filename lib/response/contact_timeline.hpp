@@ -59,6 +59,8 @@ class ContactTimeline {
   [[nodiscard]] SlipFrame frame_along(const Eigen::Vector2d& along, double tau) const;
   [[nodiscard]] double slip_start(double from, double to, const Eigen::Vector2d& slip_force) const;
   [[nodiscard]] double slip_end(int sample) const;
+  [[nodiscard]] double touch(int sample) const;
+  void locate_touches();
   void walk(int sample);
   void add(ContactEvent event);
 

@@ -60,6 +60,7 @@ class Propagator {
     std::stable_sort(entries.begin(), entries.end(),
                      [](const Entry& a, const Entry& b) { return a.event.tau < b.event.tau; });
     map_ = Eigen::MatrixXd::Identity(size_, size_);
+    for (std::size_t i = 0; i < s_.nodes.size(); ++i) forget(i);
     double now = 0;
     for (const Entry& entry : entries) {
       advance(now, entry.event.tau);
@@ -72,6 +73,14 @@ class Propagator {
   }
 
  private:
+  // Memory a node has no use for at tau = 0 must not survive as a multiplier.
+  void forget(std::size_t i) {
+    const SwitchingNode& node = s_.nodes[i];
+    if (node.memory < 0 || states_[i].now == Now::stuck) return;
+    const Eigen::Index kept = turning(i) ? 1 : 0, directions = static_cast<Eigen::Index>(node.tangential.size());
+    map_.middleRows(2 * dynamic_ + node.memory + kept, directions - kept).setZero();
+  }
+
   static Now after(ContactMode mode) {
     return mode == ContactMode::open ? Now::open : mode == ContactMode::stuck ? Now::stuck : Now::slipping;
   }
