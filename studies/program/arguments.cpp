@@ -49,6 +49,10 @@ void add_solver(CLI::App& command, Arguments& a) {
   add_automatic(command, "--samples", solver.samples, solver.automatic_samples,
                 "Instants per period at which the contact is marched; auto: as many as the error bars ask for",
                 "N|auto");
+  command
+      .add_option("--accuracy", solver.accuracy,
+                  "Relative error bar of amplitudes that auto has to reach, of energies ten times that (default: 1e-3)")
+      ->type_name("A");
   command.add_option("--tolerance", solver.tolerance, "Relative residual at which a steady state counts as converged")
       ->type_name("T");
   command
@@ -139,15 +143,29 @@ void define_model_commands(CLI::App& app, Arguments& a) {
       "\"status\",\n"
       "\"iterations\", \"outputs\":{NAME:{\"amplitude\", \"cosine\", \"sine\"}}, \"dissipated_energy_j\", "
       "\"error_force\",\n"
-      "\"error_energy\", \"wear_rate_m_per_cycle\"}; cosine[.][0] is the mean. At a frequency that did not converge "
-      "all\n"
-      "numbers but the frequency and the iterations are null.");
+      "\"error_energy\", \"wear_rate_m_per_cycle\", \"residual\", \"penalty_ratio\", \"settings\"}; "
+      "cosine[.][0] is the\n"
+      "mean. At a frequency that did not converge all numbers but the frequency, iterations and residual are null.\n"
+      "\"settings\" holds the harmonics and samples used and the pseudo-penalties; a penalty ratio other than 1 "
+      "multiplies\n"
+      "these where a solve needed it. --arclength adds \"arclength\", and each analysis an object of its name, with\n"
+      "one entry per frequency in each list.");
   response->add_option("INPUT", a.response.input, kInput)->required()->type_name("");
   response->add_option("--from", a.response.from_hz, "First frequency")->type_name("HZ")->required();
   response->add_option("--to", a.response.to_hz, "Last frequency")->type_name("HZ")->required();
   response->add_option("--points", a.response.points, "Number of frequencies, evenly spaced")
       ->type_name("N")
       ->required();
+  response->add_flag("--arclength", a.response.arclength,
+                     "Follow the response from --from through its turning points until it leaves the interval; the "
+                     "frequencies are then those of the points computed, at most 1/(N-1) of the interval apart");
+  AnalysisChoice& choice = a.response.choice;
+  response->add_flag("--error-bars", choice.error_bars,
+                     "How far harmonics, samples and pseudo-penalty may have moved each result");
+  response->add_flag("--penalty-sensitivity", choice.penalty_sensitivity,
+                     "Each result for 0.5, 1, 2 and 10 times the pseudo-penalty, and its logarithmic slope");
+  response->add_flag("--stability", choice.stability,
+                     "Local stability of each periodic solution, with its multipliers; says where it has no meaning");
   add_set(*response, a);
   add_solver(*response, a);
   add_json(*response, a.response.json);

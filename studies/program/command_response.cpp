@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <ostream>
 
@@ -8,8 +10,9 @@
 #include "studies/program/commands.hpp"
 #include "studies/program/engine.hpp"
 #include "studies/program/interrupt.hpp"
-#include "studies/program/json.hpp"
 #include "studies/program/progress.hpp"
+#include "studies/program/response_curve.hpp"
+#include "studies/program/truncation_choice.hpp"
 
 namespace dovetail::studies {
 namespace {
@@ -29,6 +32,11 @@ std::vector<double> frequencies(const ResponseOptions& options) {
                      .key = "--points",
                      .value = std::to_string(options.points),
                      .allowed = "must be >= 1 and <= 1000000"});
+  if (options.arclength && options.from_hz == options.to_hz)
+    found.push_back({.file = {},
+                     .key = "--arclength",
+                     .value = {},
+                     .allowed = "needs an interval to follow the response through: --to must differ from --from"});
   if (!found.empty()) throw InputError(std::move(found));
   std::vector<double> hz;
   for (int i = 0; i < options.points; ++i) {
@@ -40,16 +48,101 @@ std::vector<double> frequencies(const ResponseOptions& options) {
   return hz;
 }
 
-std::string table(const std::vector<double>& hz, const std::vector<response::SteadyState>& states,
-                  const std::vector<std::string>& outputs) {
-  std::string text = fmt::format("{:>16} {:>16}", "frequency_hz", "status");
-  for (const std::string& name : outputs) text += fmt::format(" {:>16}", name);
-  text += "\n";
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    text += fmt::format("{:>16.9g} {:>16}", hz[i], to_string(states[i].status));
-    if (states[i].status == Status::converged)
-      for (const double amplitude : states[i].amplitudes) text += fmt::format(" {:>16.8g}", amplitude);
-    text += "\n";
+/// Computes the curve point by point, with what is asked for at each; shows progress and stops when asked to.
+class CurveRun {
+ public:
+  CurveRun(const LoadedModel& loaded, const ResponseOptions& options, const Streams& streams)
+      : loaded_(loaded), options_(options), streams_(streams), terminal_(error_is_terminal()) {
+    curve_.output_names = loaded.model.output_names;
+    curve_.settings = loaded.steady;
+    curve_.choice = options.choice;
+    curve_.penalty = contact::pseudo_penalty(loaded.condensed->local_stiffness(), loaded.condensed->directions(),
+                                             loaded.steady.normal_penalty, loaded.steady.tangential_penalty);
+  }
+  ~CurveRun() {
+    if (terminal_) streams_.err << "\r\033[K" << std::flush;
+  }
+  CurveRun(const CurveRun&) = delete;
+  CurveRun& operator=(const CurveRun&) = delete;
+
+  ResponseCurve at(const std::vector<double>& hz, const OrderlyInterrupt& interrupt) {
+    std::vector<double> omega;
+    for (const double f : hz) omega.push_back(kTurn * f);
+    curve_.frequency_hz = hz;
+    curve_.states = response::frequency_response(
+        loaded_.condensed, omega, {}, loaded_.steady,
+        [&](std::size_t, const response::SteadyState& state) { return take(state, interrupt, hz.size()); });
+    curve_.analyses.resize(curve_.states.size());
+    return std::move(curve_);
+  }
+
+  ResponseCurve along(const OrderlyInterrupt& interrupt) {
+    response::SteadyOptions steady = loaded_.steady;
+    steady.linearise = false;
+    response::ContinuationOptions follow;
+    if (options_.points > 1)
+      follow.largest_frequency_step = std::min(follow.largest_frequency_step, 1.0 / (options_.points - 1));
+    follow.max_points = std::max(follow.max_points, 20 * options_.points);
+    curve_.branch = response::continuation(
+        loaded_.condensed, kTurn * options_.from_hz, kTurn * options_.to_hz, {}, steady, follow,
+        [&](const response::ContinuationPoint& point) { return take(point.state, interrupt, 0); });
+    require_end();
+    for (response::ContinuationPoint& point : curve_.branch->points) {
+      curve_.frequency_hz.push_back(hertz(point.state.omega));
+      curve_.states.push_back(std::move(point.state));
+    }
+    curve_.analyses.resize(curve_.states.size());
+    return std::move(curve_);
+  }
+
+ private:
+  bool take(const response::SteadyState& state, const OrderlyInterrupt& interrupt, std::size_t all) {
+    ++done_;
+    if (terminal_)
+      streams_.err << (all > 0 ? fmt::format("\r\033[Kfrequency {}/{}", done_, all)
+                               : fmt::format("\r\033[Kpoint {}, {:.6g} Hz", done_, hertz(state.omega)))
+                   << std::flush;
+    if (options_.choice.any()) curve_.analyses.push_back(analyse(loaded_, state, options_.choice));
+    return !interrupt.requested();
+  }
+
+  /// A branch that claims to have left the interval has its last point on an end of it.
+  void require_end() {
+    response::Branch& branch = *curve_.branch;
+    const double last = branch.points.back().state.omega;
+    if (branch.status == Status::converged && last != kTurn * options_.from_hz && last != kTurn * options_.to_hz)
+      branch.status = Status::stalled;
+  }
+
+  /// Exactly as asked for at the ends of the interval.
+  [[nodiscard]] double hertz(double omega) const {
+    for (const double hz : {options_.from_hz, options_.to_hz})
+      if (omega == kTurn * hz) return hz;
+    return omega / kTurn;
+  }
+
+  const LoadedModel& loaded_;
+  const ResponseOptions& options_;
+  const Streams& streams_;
+  bool terminal_;
+  std::size_t done_ = 0;
+  ResponseCurve curve_;
+};
+
+/// "3 of 8 frequencies did not converge: 2 stalled, 1 singular", or nothing.
+std::string failures(const ResponseCurve& curve) {
+  std::map<std::string_view, int> counts;
+  std::size_t failed = 0;
+  for (const response::SteadyState& state : curve.states)
+    if (state.status != Status::converged) {
+      ++counts[to_string(state.status)];
+      ++failed;
+    }
+  if (failed == 0) return {};
+  std::string text = fmt::format("{} of {} frequencies did not converge: ", failed, curve.states.size());
+  for (bool first = true; const auto& [status, count] : counts) {
+    text += fmt::format("{}{} {}", first ? "" : ", ", count, status);
+    first = false;
   }
   return text;
 }
@@ -58,33 +151,32 @@ std::string table(const std::vector<double>& hz, const std::vector<response::Ste
 
 int run_response(const ResponseOptions& options, const Streams& streams) {
   const std::vector<double> hz = frequencies(options);
-  const LoadedModel loaded = load_model(options.input, options.overrides, options.solver);
-  if (!loaded.failure.empty()) {
-    streams.err << "dovetail: " << options.input << ": not converged: " << loaded.failure << "\n";
-    return kNotConverged;
-  }
-  std::vector<double> omega;
-  for (const double f : hz) omega.push_back(kTurn * f);
+  check_accuracy(options.solver);
+  LoadedModel loaded = load_model(options.input, options.overrides, options.solver);
+  const auto complain = [&](const std::string& what) {
+    streams.err << "dovetail: " << options.input << ": " << what << "\n";
+    return static_cast<int>(kNotConverged);
+  };
+  if (!loaded.failure.empty()) return complain("not converged: " + loaded.failure);
 
   const OrderlyInterrupt interrupt;
-  const bool terminal = error_is_terminal();
-  const auto watch = [&](std::size_t point, const response::SteadyState&) {
-    if (terminal) streams.err << fmt::format("\r\033[Kfrequency {}/{}", point + 1, hz.size()) << std::flush;
-    return !interrupt.requested();
-  };
-  const std::vector<response::SteadyState> states =
-      response::frequency_response(loaded.condensed, omega, {}, loaded.steady, watch);
-  if (terminal) streams.err << "\r\033[K" << std::flush;
-
-  deliver_json(options.json, response_json(hz, states, loaded.model.output_names), streams);
-  if (options.json.empty()) streams.out << table(hz, states, loaded.model.output_names);
-  std::size_t failed = 0;
-  for (const response::SteadyState& state : states)
-    if (state.status != Status::converged) ++failed;
+  const std::optional<Status> automatic = choose_truncation(loaded, hz, options.solver);
+  ResponseCurve curve = options.arclength ? CurveRun(loaded, options, streams).along(interrupt)
+                                          : CurveRun(loaded, options, streams).at(hz, interrupt);
+  curve.automatic = automatic;
+  curve.accuracy = accuracy(options.solver);
+  deliver_json(options.json, response_json(curve), streams);
+  if (options.json.empty()) streams.out << response_table(curve);
   if (interrupt.requested()) return kInterrupted;
-  if (failed == 0) return kDone;
-  streams.err << fmt::format("dovetail: {}: {} of {} frequencies did not converge\n", options.input, failed, hz.size());
-  return kNotConverged;
+
+  int status = kDone;
+  if (const std::string failed = failures(curve); !failed.empty()) status = complain(failed);
+  if (curve.branch && curve.branch->status != Status::converged && status == kDone)
+    status = complain(fmt::format("the response was followed to {:.9g} Hz and not to its end: {}",
+                                  curve.frequency_hz.back(), to_string(curve.branch->status)));
+  if (automatic && *automatic != Status::converged && status == kDone)
+    status = complain(truncation_complaint(*automatic, loaded.steady, options.solver));
+  return status;
 }
 
 }  // namespace dovetail::studies

@@ -60,7 +60,16 @@ struct SolverOverrides {
   std::optional<double> pseudo_penalty, pseudo_penalty_normal;  ///< N/m
   std::optional<std::string> solver;
 
+  std::optional<double> accuracy;  ///< of what is chosen automatically
+
   [[nodiscard]] bool automatic() const { return automatic_harmonics || automatic_samples; }
+};
+
+/// What is computed of each point of a response besides itself.
+struct AnalysisChoice {
+  bool error_bars = false, penalty_sensitivity = false, stability = false, traction_bounds = false;
+
+  [[nodiscard]] bool any() const { return error_bars || penalty_sensitivity || stability || traction_bounds; }
 };
 
 struct ResponseOptions {
@@ -69,6 +78,8 @@ struct ResponseOptions {
   SolverOverrides solver;
   double from_hz = 0, to_hz = 0;
   int points = 1;
+  bool arclength = false;
+  AnalysisChoice choice;
   std::string json;
 };
 int run_response(const ResponseOptions& options, const Streams& streams);

@@ -1,5 +1,6 @@
 #include "studies/program/engine.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -114,12 +115,6 @@ optimizer::SolverSettings settings_of(const SolverOverrides& solver) {
       else if (const auto* real = std::get_if<double optimizer::SolverSettings::*>(&field.member))
         settings.*(*real) = value;
     }
-  if (found.empty() && settings.samples < 2 * settings.harmonics + 2)
-    found.push_back({.file = {},
-                     .key = solver.samples ? "--samples" : "--harmonics",
-                     .value = std::to_string(solver.samples ? settings.samples : settings.harmonics),
-                     .allowed = "samples must be >= 2 * harmonics + 2; there are " + std::to_string(settings.samples) +
-                                " samples and " + std::to_string(settings.harmonics) + " harmonics"});
   if (!found.empty()) throw InputError(std::move(found));
   return settings;
 }
@@ -135,7 +130,38 @@ response::SteadyOptions model_options(const std::string& file, const std::vector
   return optimizer::steady_options(settings_of(solver));
 }
 
-LoadedModel from_model(reduction::ReducedModel model, const response::SteadyOptions& steady) {
+/// The largest harmonic in which the model is forced.
+int largest_harmonic(const reduction::ReducedModel& model) {
+  for (Eigen::Index h = model.cosine_force.rows(); h > 0; --h)
+    if (!model.cosine_force.row(h - 1).isZero(0) || !model.sine_force.row(h - 1).isZero(0)) return static_cast<int>(h);
+  return 0;
+}
+
+/// No harmonic of the force may be left out: the default rises to it, and fewer are refused. The default samples
+/// rise with the harmonics. Throws InputError.
+void fit_to_force(const std::string& file, const SolverOverrides& solver, const reduction::ReducedModel& model,
+                  response::SteadyOptions& steady) {
+  const int forced = largest_harmonic(model);
+  const auto refuse = [&](const std::string& key, int value, const std::string& allowed) {
+    throw InputError(Violation{.file = file, .key = key, .value = std::to_string(value), .allowed = allowed});
+  };
+  if (!solver.harmonics) steady.harmonics = std::max(steady.harmonics, forced);
+  if (steady.harmonics < forced)
+    refuse("--harmonics", steady.harmonics, "must be >= " + std::to_string(forced) + ", the largest of the force");
+  const Range& harmonics = optimizer::find_parameter("solver.harmonics")->range;
+  if (!harmonics.contains(steady.harmonics))
+    refuse("/force/cosine, harmonics", forced, "of the force with harmonics " + harmonics.phrase());
+  if (!solver.samples)
+    while (steady.samples < 4 * steady.harmonics + 4) steady.samples *= 2;
+  if (steady.samples < 2 * steady.harmonics + 2)
+    refuse("--samples", steady.samples,
+           "must be >= 2 * harmonics + 2 = " + std::to_string(2 * steady.harmonics + 2) + " for " +
+               std::to_string(steady.harmonics) + " harmonics");
+}
+
+LoadedModel from_model(const std::string& file, reduction::ReducedModel model, response::SteadyOptions steady,
+                       const SolverOverrides& solver) {
+  fit_to_force(file, solver, model, steady);
   LoadedModel loaded;
   loaded.steady = steady;
   loaded.model = std::move(model);
@@ -160,12 +186,12 @@ LoadedModel load_model(const std::string& input, const std::vector<Override>& ov
                        const SolverOverrides& solver) {
   if (is_hdf5_file(input)) {
     const response::SteadyOptions steady = model_options(input, overrides, solver);
-    return from_model(reduction::read_model(input), steady);
+    return from_model(input, reduction::read_model(input), steady, solver);
   }
   const Document document = load_document(input);
   if (!is_model_document(document)) return from_study(input, with_solver(overrides, solver));
   const response::SteadyOptions steady = model_options(input, overrides, solver);
-  return from_model(read_model_document(document), steady);
+  return from_model(input, read_model_document(document), steady, solver);
 }
 
 }  // namespace dovetail::studies

@@ -4,8 +4,6 @@
 #include <vector>
 
 #include "optimizer/evaluation.hpp"
-#include "reduction/reduced_model.hpp"
-#include "response/steady_state.hpp"
 #include "wear/asymptote.hpp"
 #include "wear/history.hpp"
 
@@ -13,19 +11,11 @@ namespace dovetail::studies {
 
 /// JSON texts of the commands, ending with a newline; SI but for `parameters`, which are in the units their keys name.
 /// Doubles are written with the shortest text that reads back to the same value. A number that does not exist is null:
-/// of an evaluation, a response that is not finite; of a response curve, everything but frequency, status and
-/// iterations at a point that did not converge; of a wear computation, the number of cycles of an asymptote.
+/// of an evaluation, a response that is not finite; of a wear computation, the number of cycles of an asymptote.
 
 /// {"status", "feasible", "parameters", "responses", "constraints", "error_estimates", "model", "timings_s",
 /// "messages"[, "derivatives"]}
 [[nodiscard]] std::string evaluation_json(const optimizer::Evaluation& evaluation);
-
-/// {"frequency_hz":[F], "status":[F], "iterations":[F], "outputs":{NAME:{"amplitude":[F], "cosine":[F][H+1],
-/// "sine":[F][H+1]}}, "dissipated_energy_j":[F], "error_force":[F], "error_energy":[F],
-/// "wear_rate_m_per_cycle":[F][Nc]}
-[[nodiscard]] std::string response_json(const std::vector<double>& frequency_hz,
-                                        const std::vector<response::SteadyState>& states,
-                                        const std::vector<std::string>& output_names);
 
 /// How a wear computation was asked for.
 struct WearQuestion {

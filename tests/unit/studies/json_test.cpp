@@ -29,42 +29,6 @@ TEST(EvaluationJson, HasEveryKeyAndReadsBackBitByBit) {
   EXPECT_EQ(text.back(), '\n');
 }
 
-/// A state with one output, H = 2, two contact nodes.
-response::SteadyState state(Status status) {
-  response::SteadyState s;
-  s.status = status;
-  s.iterations = 4;
-  s.outputs.resize(1, 5);
-  s.outputs << 10, 11, 12, 13, 14;
-  s.amplitudes = Eigen::VectorXd::Constant(1, 20);
-  s.wear_rate = Eigen::Vector2d(1e-12, 2e-12);
-  s.friction_energy = 0.5;
-  return s;
-}
-
-TEST(ResponseJson, CosinesStartWithTheMeanAndSinesWithZero) {
-  const Json json = Json::parse(response_json({480}, {state(Status::converged)}, {"tip_x"}));
-  EXPECT_EQ(json["frequency_hz"], Json({480.0}));
-  EXPECT_EQ(json["status"], Json({"converged"}));
-  EXPECT_EQ(json["iterations"], Json({4}));
-  EXPECT_EQ(json["outputs"]["tip_x"]["amplitude"], Json({20.0}));
-  EXPECT_EQ(json["outputs"]["tip_x"]["cosine"][0], Json({10.0, 11.0, 13.0}));
-  EXPECT_EQ(json["outputs"]["tip_x"]["sine"][0], Json({0.0, 12.0, 14.0}));
-  EXPECT_EQ(json["wear_rate_m_per_cycle"][0], Json({1e-12, 2e-12}));
-  EXPECT_EQ(json["dissipated_energy_j"], Json({0.5}));
-}
-
-TEST(ResponseJson, PointsThatDidNotConvergeAreNullInTheSameShape) {
-  const Json json =
-      Json::parse(response_json({480, 481}, {state(Status::converged), state(Status::stalled)}, {"tip_x"}));
-  EXPECT_EQ(json["status"][1], "stalled");
-  EXPECT_EQ(json["frequency_hz"][1], 481);
-  EXPECT_TRUE(json["outputs"]["tip_x"]["amplitude"][1].is_null());
-  EXPECT_EQ(json["outputs"]["tip_x"]["cosine"][1], Json({nullptr, nullptr, nullptr}));
-  EXPECT_EQ(json["wear_rate_m_per_cycle"][1], Json({nullptr, nullptr}));
-  EXPECT_TRUE(json["dissipated_energy_j"][1].is_null());
-}
-
 wear::History history(wear::HistoryEnd end) {
   wear::History h;
   h.end = end;

@@ -1,0 +1,54 @@
+#include "studies/program/truncation_choice.hpp"
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "response/automatic.hpp"
+
+namespace dovetail::studies {
+namespace {
+
+constexpr Range kAccuracies{.lower = 1e-8, .upper = 1};
+
+}  // namespace
+
+double accuracy(const SolverOverrides& solver) {
+  return solver.accuracy.value_or(response::AutomaticOptions{}.amplitude_tolerance);
+}
+
+void check_accuracy(const SolverOverrides& solver) {
+  if (!solver.accuracy) return;
+  const auto refuse = [&](const std::string& allowed) {
+    throw InputError(
+        Violation{.file = {}, .key = "--accuracy", .value = shortest(*solver.accuracy), .allowed = allowed});
+  };
+  if (!kAccuracies.contains(*solver.accuracy)) refuse(kAccuracies.phrase());
+  if (!solver.automatic()) refuse("only has a meaning with --harmonics auto or --samples auto");
+}
+
+std::optional<Status> choose_truncation(LoadedModel& loaded, const std::vector<double>& hz,
+                                        const SolverOverrides& solver) {
+  if (!solver.automatic()) return std::nullopt;
+  std::vector<double> omega;
+  for (const double f : hz) omega.push_back(2 * std::numbers::pi * f);
+  response::AutomaticOptions options;
+  options.harmonics = solver.automatic_harmonics;
+  options.samples = solver.automatic_samples;
+  options.amplitude_tolerance = accuracy(solver);
+  options.energy_tolerance = 10 * accuracy(solver);
+  const response::AutomaticSettings chosen =
+      response::automatic_settings(loaded.condensed, omega, {}, loaded.steady, options);
+  loaded.steady = chosen.options;
+  return chosen.status;
+}
+
+std::string truncation_complaint(Status status, const response::SteadyOptions& reached, const SolverOverrides& solver) {
+  if (status == Status::iteration_limit)
+    return fmt::format("the accuracy {:g} is not reached with {} harmonics and {} samples", accuracy(solver),
+                       reached.harmonics, reached.samples);
+  return fmt::format("harmonics and samples could not be chosen: a state needed for it did not converge: {}",
+                     to_string(status));
+}
+
+}  // namespace dovetail::studies

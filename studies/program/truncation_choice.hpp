@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "studies/program/engine.hpp"
+
+namespace dovetail::studies {
+
+/// The relative accuracy of amplitudes that `auto` has to reach; that of energies and wear is ten times as large.
+[[nodiscard]] double accuracy(const SolverOverrides& solver);
+
+/// Throws InputError when an accuracy is given that is out of range, or without anything automatic.
+void check_accuracy(const SolverOverrides& solver);
+
+/// Chooses what `solver` leaves to be automatic for a response at these frequencies and writes it to loaded.steady.
+/// Returns how the choice ended (see response::AutomaticSettings), or nothing when nothing was to be chosen.
+std::optional<Status> choose_truncation(LoadedModel& loaded, const std::vector<double>& hz,
+                                        const SolverOverrides& solver);
+
+/// One sentence about a choice that did not reach the accuracy.
+[[nodiscard]] std::string truncation_complaint(Status status, const response::SteadyOptions& reached,
+                                               const SolverOverrides& solver);
+
+}  // namespace dovetail::studies
