@@ -52,6 +52,9 @@ CondensedModel::CondensedModel(const reduction::ReducedModel& model) {
   mass_ = split(model.mass);
   damping_ = split(model.damping);
   stiffness_ = split(model.stiffness);
+  const double rounding = 1e-13 * model.mass.cwiseAbs().maxCoeff();
+  massless_contact_ = mass_.cc.cwiseAbs().maxCoeff() <= rounding &&
+                      (mass_.ci.size() == 0 || mass_.ci.cwiseAbs().maxCoeff() <= rounding);
   diagonalise();
 
   const Eigen::Index harmonics = std::max(model.cosine_force.rows(), model.sine_force.rows());
@@ -111,12 +114,28 @@ void CondensedModel::diagonalise() {
     else
       part->ii = internal;
   }
-  if (!modal_) return;
-  // Coordinates without mass follow statically however high the harmonic.
-  const double mass_limit = 1e-13 * mass_.ii.maxCoeff();
-  for (Eigen::Index j = 0; j < ni; ++j)
-    if (mass_.ii(j, 0) <= mass_limit && stiffness_.ii(j, 0) > 0)
-      local_stiffness_ -= stiffness_.ci.col(j).cwiseAbs2() / stiffness_.ii(j, 0);
+  subtract_massless_coordinates();
+}
+
+// Coordinates without mass follow statically however high the harmonic (unless they are damped).
+void CondensedModel::subtract_massless_coordinates() {
+  if (modal_) {
+    const double limit = 1e-13 * mass_.ii.maxCoeff();
+    for (Eigen::Index j = 0; j < mass_.ii.rows(); ++j)
+      if (mass_.ii(j, 0) <= limit && stiffness_.ii(j, 0) > 0)
+        local_stiffness_ -= stiffness_.ci.col(j).cwiseAbs2() / stiffness_.ii(j, 0);
+    return;
+  }
+  const Eigen::LLT<Eigen::MatrixXd> definite(mass_.ii);
+  if (definite.info() == Eigen::Success && definite.rcond() > 1e-12) return;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> mass(mass_.ii);
+  const Eigen::VectorXd& values = mass.eigenvalues();
+  const Eigen::Index count = (values.array() <= 1e-13 * values.cwiseAbs().maxCoeff()).count();
+  const Eigen::MatrixXd massless = mass.eigenvectors().leftCols(count);  // ascending eigenvalues
+  const Eigen::LLT<Eigen::MatrixXd> stiffness(massless.transpose() * stiffness_.ii * massless);
+  if (count == 0 || stiffness.info() != Eigen::Success) return;
+  const Eigen::MatrixXd coupling = massless.transpose() * stiffness_.ci.transpose();
+  local_stiffness_ -= coupling.cwiseProduct(stiffness.solve(coupling)).colwise().sum().transpose();
 }
 
 void CondensedModel::set_glued_frequencies(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& stiffness) {

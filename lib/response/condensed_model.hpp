@@ -58,6 +58,8 @@ class CondensedModel {
 
   /// Local contact stiffness [nc]: the limit of diag(Z_h) for high harmonics with massless contact.
   [[nodiscard]] const Eigen::VectorXd& local_stiffness() const { return local_stiffness_; }
+  /// True when contact dofs carry no mass: then Z has a limit for high harmonics.
+  [[nodiscard]] bool massless_contact() const { return massless_contact_; }
 
   /// Complex amplitude of all n dofs of the reduced model for contact amplitude U_c [nc] of this harmonic.
   [[nodiscard]] Eigen::VectorXcd recover(const HarmonicStiffness& at, const Eigen::VectorXcd& contact) const;
@@ -81,6 +83,7 @@ class CondensedModel {
   [[nodiscard]] Eigen::MatrixXcd solve_internal(const Eigen::MatrixXcd& internal, const Eigen::MatrixXcd& rhs,
                                                 Status* status) const;
   void diagonalise();
+  void subtract_massless_coordinates();
   void set_glued_frequencies(const Eigen::MatrixXd& mass,
                              const Eigen::MatrixXd& stiffness);  // of decoupled coordinates
 
@@ -89,7 +92,7 @@ class CondensedModel {
   std::vector<std::string> output_names_;
   std::vector<Eigen::Index> contact_dofs_, internal_dofs_;
   Eigen::MatrixXd basis_;  // internal dofs = basis_ * internal coordinates
-  bool modal_ = false;
+  bool modal_ = false, massless_contact_ = true;
   // Partitions in internal coordinates: [cc, ci, ii], ii as a column of diagonals when modal.
   struct Partition {
     Eigen::MatrixXd cc, ci, ii;

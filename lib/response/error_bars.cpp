@@ -69,7 +69,8 @@ ResonanceBars error_bars(const std::shared_ptr<const CondensedModel>& model, con
     return bar_options.safety * bar_from({.harmonics = shifts[0].*entry,
                                           .samples = shifts[1].*entry,
                                           .softer = shifts[2].*entry,
-                                          .stiffer = shifts[3].*entry});
+                                          .stiffer = shifts[3].*entry},
+                                         model->massless_contact());
   };
   bars.omega = bar(&PeakShift::omega) + resonance_options.frequency_tolerance * resonance.omega;
   bars.amplitude = bar(&PeakShift::amplitude) + options.tolerance * resonance.amplitude;

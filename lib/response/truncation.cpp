@@ -8,7 +8,11 @@
 namespace dovetail::response {
 namespace {
 
-constexpr double kHarmonics = 2, kSamples = 3, kPenalty = 0.25;
+constexpr double kHarmonics = 2, kHarmonicsWithMass = 4, kSamples = 3, kPenalty = 0.25;
+
+double harmonics_factor(bool massless) {
+  return massless ? kHarmonics : kHarmonicsWithMass;
+}
 
 }  // namespace
 
@@ -40,18 +44,19 @@ Refinements refine(const std::shared_ptr<const CondensedModel>& model, const Ste
   return result;
 }
 
-double bar_from(const ScalarChanges& changes) {
-  return kHarmonics * changes.harmonics + kSamples * changes.samples +
+double bar_from(const ScalarChanges& changes, bool massless) {
+  return harmonics_factor(massless) * changes.harmonics + kSamples * changes.samples +
          kPenalty * std::max(changes.softer, changes.stiffer);
 }
 
-ErrorBars bars_from(const Quantities& value, const TruncationChanges& changes, double tolerance, double safety) {
+ErrorBars bars_from(const Quantities& value, const TruncationChanges& changes, double tolerance, double safety,
+                    bool massless) {
   const auto times = [safety](double factor) { return [factor, safety](double x) { return safety * factor * x; }; };
   const auto larger = [](double a, double b) { return std::max(a, b); };
   const auto sum = [](double a, double b) { return a + b; };
   ErrorBars bars{.status = Status::converged,
                  .value = value,
-                 .harmonics = transform(changes.harmonics, times(kHarmonics)),
+                 .harmonics = transform(changes.harmonics, times(harmonics_factor(massless))),
                  .samples = transform(changes.samples, times(kSamples)),
                  .penalty = transform(combine(changes.softer, changes.stiffer, larger), times(kPenalty))};
   const Quantities rest = transform(value, [=](double x) { return safety * tolerance * std::abs(x); });
@@ -76,7 +81,7 @@ ErrorBars bars_from(const CondensedModel& model, const SteadyState& state, const
   }
   ErrorBars bars =
       bars_from(value, {.harmonics = changes[0], .samples = changes[1], .softer = changes[2], .stiffer = changes[3]},
-                options.tolerance, bar_options.safety);
+                options.tolerance, bar_options.safety, model.massless_contact());
   bars.status = status;
   bars.jacobians = refinements.jacobians;
   return bars;

@@ -23,12 +23,13 @@ struct Refinements {
 [[nodiscard]] Refinements refine(const std::shared_ptr<const CondensedModel>& model, const SteadyState& state,
                                  const ContactCondition& condition, const SteadyOptions& options);
 
-/// Bars of quantities from their changes (absolute) under the four refinements: 2, 3 and 1/4 of them, see error_bars.
+/// Bars of quantities from their changes (absolute) under the four refinements with the factors of error_bars, which
+/// differ when contact carries mass.
 struct TruncationChanges {
   Quantities harmonics, samples, softer, stiffer;
 };
 [[nodiscard]] ErrorBars bars_from(const Quantities& value, const TruncationChanges& changes, double tolerance,
-                                  double safety);
+                                  double safety, bool massless);
 
 /// The same from the refined states.
 [[nodiscard]] ErrorBars bars_from(const CondensedModel& model, const SteadyState& state, const Refinements& refinements,
@@ -38,6 +39,6 @@ struct TruncationChanges {
 struct ScalarChanges {
   double harmonics = 0, samples = 0, softer = 0, stiffer = 0;
 };
-[[nodiscard]] double bar_from(const ScalarChanges& changes);
+[[nodiscard]] double bar_from(const ScalarChanges& changes, bool massless);
 
 }  // namespace dovetail::response
