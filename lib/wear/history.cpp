@@ -37,7 +37,8 @@ class Run {
 
   [[nodiscard]] const VectorXd& depth() const { return condition_.wear_depth; }
 
-  [[nodiscard]] Solved solve(double omega, const VectorXd& depth, const MatrixXd& guess) const {
+  [[nodiscard]] Solved solve(double omega, const VectorXd& depth, const MatrixXd& guess,
+                             const std::shared_ptr<const response::Linearisation>& reuse = {}) const {
     response::ContactCondition condition = condition_;
     condition.wear_depth = depth;
     Solved solved;
@@ -48,7 +49,7 @@ class Run {
       solved.jacobians = found.jacobians;
       solved.state = std::move(found.state);
     } else {
-      solved.state = response::steady_state(model_, omega, condition, steady_, guess);
+      solved.state = response::steady_state(model_, omega, condition, steady_, guess, reuse);
       solved.status = solved.state.status;
       solved.solves = 1;
       solved.jacobians = solved.state.iterations;
@@ -160,7 +161,7 @@ History history(const std::shared_ptr<const response::CondensedModel>& model, do
       MatrixXd guess = result.steady.displacement;
       if (options.predictor && result.steady.linearisation)
         guess += result.steady.linearisation->response_to_wear(change);
-      next = run.solve(result.steady.omega, run.depth() + change, guess);
+      next = run.solve(result.steady.omega, run.depth() + change, guess, result.steady.linearisation);
       count(next);
       if (next.status == Status::converged) {
         run.accept(run.depth() + change, next.state);

@@ -59,8 +59,9 @@ response::SteadyState Release::solve_on(const std::shared_ptr<const response::Co
     state.status = Status::interrupted;
     return state;
   }
-  state = response::steady_state(model, omega_, condition, options, guess);
+  state = response::steady_state(model, omega_, condition, options, guess, last_);
   count(1, state.iterations);
+  if (state.linearisation) last_ = state.linearisation;
   return state;
 }
 

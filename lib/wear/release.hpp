@@ -58,6 +58,7 @@ class Release {
   response::ContactCondition start_;
   response::SteadyOptions steady_;
   const Control* control_;
+  std::shared_ptr<const response::Linearisation> last_;  // of the last state found
   int solves_ = 0;
   int jacobians_ = 0;
 };
