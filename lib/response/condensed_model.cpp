@@ -53,7 +53,7 @@ CondensedModel::CondensedModel(const reduction::ReducedModel& model) {
   damping_ = split(model.damping);
   stiffness_ = split(model.stiffness);
   const double rounding = 1e-13 * model.mass.cwiseAbs().maxCoeff();
-  massless_contact_ = mass_.cc.cwiseAbs().maxCoeff() <= rounding &&
+  massless_contact_ = (mass_.cc.size() == 0 || mass_.cc.cwiseAbs().maxCoeff() <= rounding) &&
                       (mass_.ci.size() == 0 || mass_.ci.cwiseAbs().maxCoeff() <= rounding);
   diagonalise();
 
