@@ -1,0 +1,153 @@
+// The pieces error bars are made of, and the pseudo-penalty.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "contact/pseudo_penalty.hpp"
+#include "response/automatic.hpp"
+#include "response/penalty_sensitivity.hpp"
+#include "response/refined_state.hpp"
+#include "response/truncation.hpp"
+#include "tests/verification/response/random_contact.hpp"
+
+namespace dovetail::response {
+namespace {
+
+// diag(Z_h) of a massless contact differs from its limit by terms of 1/(h w)^2 and damping of 1/(h w).
+void expect_local_stiffness_is_the_limit(const reduction::ReducedModel& model) {
+  const CondensedModel condensed(model);
+  const HarmonicStiffness high = condensed.harmonic(1'000'000, 1.0, false);
+  const double largest = condensed.local_stiffness().maxCoeff();
+  for (Eigen::Index i = 0; i < condensed.contact_size(); ++i)
+    EXPECT_NEAR(high.stiffness(i, i).real(), condensed.local_stiffness()(i), 1e-5 * largest) << i;
+}
+
+TEST(LocalStiffness, IsTheHighHarmonicLimitForMasslessContact) {
+  for (unsigned seed = 0; seed < 10; ++seed)
+    expect_local_stiffness_is_the_limit(verification::random_contact(seed).model);
+  expect_local_stiffness_is_the_limit(verification::rod(5));
+  expect_local_stiffness_is_the_limit(verification::single_node());
+}
+
+TEST(LocalStiffness, FollowsInternalDofsWithoutMass) {
+  // A second spring of 5 in series with a massless dof on a foundation of 0.5 behind T1: 2 + 5 * 0.5 / 5.5.
+  const reduction::ReducedModel node = verification::single_node();
+  reduction::ReducedModel model = verification::empty_model(7, 1, 2);
+  model.mass.topLeftCorner<6, 6>() = node.mass;
+  model.damping.topLeftCorner<6, 6>() = node.damping;
+  model.stiffness.topLeftCorner<6, 6>() = node.stiffness;
+  model.contact.tangential << 3, 4;
+  model.contact.normal << 5;
+  model.stiffness(3, 3) += 5;
+  model.stiffness(6, 6) = 5.5;
+  model.stiffness(3, 6) = model.stiffness(6, 3) = -5;
+  ASSERT_FALSE(CondensedModel(model).modal());
+  EXPECT_NEAR(CondensedModel(model).local_stiffness()(1), 2 + 5 * 0.5 / 5.5, 1e-12);
+  expect_local_stiffness_is_the_limit(model);
+  model.damping.setZero();
+  ASSERT_TRUE(CondensedModel(model).modal());
+  expect_local_stiffness_is_the_limit(model);
+}
+
+TEST(LocalStiffness, IsStaticWhereContactHasMass) {
+  // Z_h = 1 - (h w)^2 has no limit; the stiffness alone is used.
+  const CondensedModel model(verification::den_hartog(0.4));
+  EXPECT_FALSE(model.massless_contact());
+  EXPECT_EQ(model.local_stiffness()(1), 1);
+  EXPECT_TRUE(CondensedModel(verification::rod(3)).massless_contact());
+}
+
+TEST(PseudoPenalty, HasOneTangentialValuePerNode) {
+  Eigen::VectorXd local(6);
+  local << 5, 2, 4, 7, 0, -1;
+  const contact::PseudoPenalty automatic = contact::pseudo_penalty(local, 3);
+  EXPECT_EQ(automatic.normal(0), 5);
+  EXPECT_EQ(automatic.tangential(0), 3);
+  EXPECT_EQ(automatic.normal(1), 7);
+  EXPECT_DOUBLE_EQ(automatic.tangential(1), 7e-3);  // nothing positive: a thousandth of the largest
+  const contact::PseudoPenalty given = contact::pseudo_penalty(local, 3, 10, 20);
+  EXPECT_EQ(given.normal(1), 10);
+  EXPECT_EQ(given.tangential(0), 20);
+}
+
+TEST(Padding, KeepsOrCutsHarmonics) {
+  const Eigen::MatrixXd coefficients = Eigen::MatrixXd::Random(4, 7);
+  const Eigen::MatrixXd more = padded(coefficients, 5);
+  EXPECT_EQ(more.leftCols(7), coefficients);
+  EXPECT_TRUE(more.rightCols(4).isZero(0));
+  EXPECT_EQ(padded(coefficients, 1), coefficients.leftCols(3));
+}
+
+TEST(Refinement, AddsSamplesBeforeHarmonicsAlias) {
+  const SteadyOptions plenty = more_harmonics({.harmonics = 3, .samples = 128});
+  EXPECT_EQ(plenty.harmonics, 7);
+  EXPECT_EQ(plenty.samples, 128);
+  const SteadyOptions scarce = more_harmonics({.harmonics = 31, .samples = 64});
+  EXPECT_EQ(scarce.harmonics, 63);
+  EXPECT_EQ(scarce.samples, 256);
+}
+
+TEST(Refinement, StartsFromTheStateAndKeepsItsPenalty) {
+  const auto model = verification::condensed(verification::rod(4));
+  SteadyState state = steady_state(model, 2.5, {}, {});
+  ASSERT_EQ(state.status, Status::converged);
+  const SteadyState same = refined_state(model, state, {}, {});
+  EXPECT_LE(same.iterations, 1);
+  state.penalty_ratio = 0.5;
+  const SteadyState softer = refined_state(model, state, {}, {});
+  EXPECT_EQ(softer.penalty_ratio, 0.5);
+  EXPECT_DOUBLE_EQ(softer.penalty.tangential(0), 0.5 * same.penalty.tangential(0));
+}
+
+TEST(ErrorBars, AddUpTheirParts) {
+  const Quantities value = constant_quantities(1, 100);
+  const TruncationChanges changes{.harmonics = constant_quantities(1, 1),
+                                  .samples = constant_quantities(1, 0.1),
+                                  .softer = constant_quantities(1, 0.4),
+                                  .stiffer = constant_quantities(1, 0.8)};
+  const ErrorBars bars = bars_from(value, changes, 1e-6, 1, true);
+  EXPECT_DOUBLE_EQ(bars.total.friction_energy, 2 * 1 + 3 * 0.1 + 0.25 * 0.8 + 1e-4);
+  EXPECT_DOUBLE_EQ(bars.total.amplitudes(0), bars.total.wear_volume_rate);
+  EXPECT_DOUBLE_EQ(bars_from(value, changes, 1e-6, 3, true).total.friction_energy, 3 * bars.total.friction_energy);
+  EXPECT_DOUBLE_EQ(bars_from(value, changes, 1e-6, 1, false).harmonics.friction_energy, 4);
+}
+
+TEST(ErrorBars, AreWithinTolerancesOfWhatMatters) {
+  ErrorBars bars{.status = Status::converged,
+                 .value = constant_quantities(2, 1),
+                 .harmonics = constant_quantities(2, 0),
+                 .samples = constant_quantities(2, 0),
+                 .penalty = constant_quantities(2, 0),
+                 .total = constant_quantities(2, 0)};
+  SteadyState state;
+  state.input_energy = 1;
+  EXPECT_TRUE(within(bars, state, {}));
+  bars.total.amplitudes << 0.9e-3, 1.1e-3;
+  EXPECT_FALSE(within(bars, state, {}));
+  EXPECT_TRUE(within(bars, state, {.amplitude_tolerance = 2e-3}));
+  // An output that hardly moves, and friction that hardly dissipates.
+  bars.value.amplitudes << 1, 1e-12;
+  bars.total.amplitudes << 0, 0.9e-9;
+  EXPECT_TRUE(within(bars, state, {}));
+  bars.value.friction_energy = 1e-9;
+  bars.total.friction_energy = 0.9e-5;
+  EXPECT_TRUE(within(bars, state, {}));
+  bars.total.friction_energy = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(within(bars, state, {}));
+  bars.total.friction_energy = 0;
+  bars.status = Status::stalled;
+  EXPECT_FALSE(within(bars, state, {}));
+}
+
+TEST(Truncation, RefusesOptionsOutOfRange) {
+  const auto model = verification::condensed(verification::rod(2));
+  const SteadyState state = steady_state(model, 2.5, {}, {});
+  EXPECT_THROW(static_cast<void>(automatic_state(model, 2.5, {}, {}, {.amplitude_tolerance = 0})), InputError);
+  EXPECT_THROW(static_cast<void>(automatic_state(model, 2.5, {}, {}, {.max_harmonics = 0})), InputError);
+  EXPECT_THROW(static_cast<void>(penalty_sensitivity(model, state, {}, {}, {.ratios = {1, -1}})), InputError);
+  EXPECT_THROW(static_cast<void>(penalty_sensitivity(model, state, {}, {}, {.step = 0})), InputError);
+}
+
+}  // namespace
+}  // namespace dovetail::response

@@ -1,0 +1,140 @@
+// Error bars against refined references.
+#include "response/error_bars.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "tests/verification/response/fine_reference.hpp"
+#include "tests/verification/response/random_contact.hpp"
+
+namespace dovetail::verification {
+namespace {
+
+using response::Quantities;
+using response::SteadyOptions;
+using response::SteadyState;
+
+/// True errors beside their bars.
+struct Comparison {
+  std::string name;
+  std::vector<double> ratio = {};  ///< bar / true error
+  int inside = 0, cases = 0;
+
+  void add(double error, double bar, double scale) {
+    ++cases;
+    // Rounding of both solutions.
+    const double rounding = 1e-8 * std::abs(scale);
+    if (error <= bar + rounding) ++inside;
+    if (error > rounding) ratio.push_back(bar / error);
+  }
+  [[nodiscard]] double fraction() const { return static_cast<double>(inside) / cases; }
+  [[nodiscard]] double median() {
+    std::ranges::nth_element(ratio, ratio.begin() + static_cast<std::ptrdiff_t>(ratio.size() / 2));
+    return ratio[ratio.size() / 2];
+  }
+  void report() {
+    std::printf("%-18s %3d cases, %5.1f %% inside, median bar / error %.2f\n", name.c_str(), cases, 100 * fraction(),
+                median());
+  }
+};
+
+// References of 31 harmonics have about (3/31)^1.5 = 3 % of the error of the 3 harmonics judged, those of 2048 samples
+// with second-order slip less than that of 128.
+TEST(ErrorBars, HoldTheTrueErrorsOfRandomStructures) {
+  Comparison amplitude{"amplitude"}, energy{"friction energy"}, rate{"largest wear rate"}, volume{"wear volume rate"};
+  for (unsigned seed = 1; seed <= 60; ++seed) {
+    const RandomContact contact = random_contact(seed);
+    const auto model = condensed(contact.model);
+    const SteadyState state = steady_state(model, contact.omega, {}, {});
+    ASSERT_EQ(state.status, Status::converged) << seed;
+    const response::ErrorBars bars = error_bars(model, state, {}, {});
+    ASSERT_EQ(bars.status, Status::converged) << seed;
+    const SteadyState fine = fine_reference(model, state, 31, 2048);
+    ASSERT_EQ(fine.status, Status::converged) << seed;
+    const Quantities exact = quantities(*model, fine), error = distance(bars.value, exact);
+    amplitude.add(error.amplitudes(0), bars.total.amplitudes(0), exact.amplitudes(0));
+    // Stuck everywhere: no energy and no bar.
+    if (exact.friction_energy == 0 && bars.value.friction_energy == 0) continue;
+    energy.add(error.friction_energy, bars.total.friction_energy, exact.friction_energy);
+    rate.add(error.largest_wear_rate, bars.total.largest_wear_rate, exact.largest_wear_rate);
+    volume.add(error.wear_volume_rate, bars.total.wear_volume_rate, exact.wear_volume_rate);
+  }
+  for (Comparison* one : {&amplitude, &energy, &rate, &volume}) {
+    one->report();
+    EXPECT_GE(one->cases, 45) << one->name;
+    EXPECT_GE(one->fraction(), 0.95) << one->name;
+    EXPECT_LE(one->median(), 10) << one->name;
+  }
+}
+
+// References of 15 harmonics: about (3/15)^1.5 = 9 % of the error judged.
+TEST(ErrorBars, HoldTheTrueErrorsOfResonances) {
+  Comparison frequency{"resonance"}, amplitude{"peak amplitude"};
+  const response::ResonanceOptions search;
+  for (unsigned seed = 101; seed <= 130; ++seed) {
+    const RandomContact contact = random_contact(seed);
+    if (contact.model.contact.count() > 4) continue;  // for the time the references take
+    const auto model = condensed(contact.model);
+    const SteadyOptions options;
+    const response::Resonance peak = resonance(model, contact.omega, {}, options, search);
+    if (peak.status != Status::converged) continue;  // no peak near this frequency
+    const response::ResonanceBars bars = error_bars(model, peak, {}, options, search);
+    const SteadyOptions fine{.harmonics = 15, .samples = 1024, .slip_return = "second_order"};
+    const response::Resonance exact =
+        resonance(model, peak.omega, {}, fine, search, response::padded(peak.state.displacement, 15));
+    if (exact.status != Status::converged) continue;
+    // Both searches end within their tolerance.
+    frequency.add(std::abs(peak.omega - exact.omega), bars.omega, exact.omega * 10);
+    amplitude.add(std::abs(peak.amplitude - exact.amplitude), bars.amplitude, exact.amplitude);
+    EXPECT_EQ(bars.status == Status::converged, std::isfinite(bars.omega)) << seed;
+  }
+  for (Comparison* one : {&frequency, &amplitude}) {
+    one->report();
+    EXPECT_GE(one->cases, 18) << one->name;
+    EXPECT_GE(one->fraction(), 0.9) << one->name;
+    EXPECT_LE(one->median(), 20) << one->name;
+  }
+}
+
+// Rigid friction with mass on the contact: errors fall like H^-0.5 to H^-1 against Den Hartog's closed form.
+TEST(ErrorBars, HoldWhereContactHasMass) {
+  for (const double omega : {0.8, 2.0}) {
+    const auto model = condensed(den_hartog(0.4));
+    ASSERT_FALSE(model->massless_contact());
+    const double v = 1 / (1 - omega * omega), u = std::tan(std::numbers::pi / (2 * omega)) / omega;
+    const double exact = std::sqrt(v * v - 0.16 * u * u);
+    for (const int harmonics : {3, 7}) {
+      const SteadyOptions options{.harmonics = harmonics, .samples = 512};
+      const SteadyState state = steady_state(model, omega, {}, options);
+      ASSERT_EQ(state.status, Status::converged);
+      const double error = std::abs(state.amplitudes(0) - exact);
+      const double bar = error_bars(model, state, {}, options).total.amplitudes(0);
+      EXPECT_LE(error, bar) << omega << " " << harmonics;
+      EXPECT_LE(bar, 4 * error) << omega << " " << harmonics;
+    }
+  }
+}
+
+TEST(ErrorBars, AreUnknownWhereARefinementFails) {
+  const auto model = condensed(single_node());
+  SteadyState state = steady_state(model, 1.1, {}, {});
+  ASSERT_EQ(state.status, Status::converged);
+  const response::ErrorBars starved = error_bars(model, state, {}, {.max_iterations = 1, .penalty_cascade = false});
+  EXPECT_NE(starved.status, Status::converged);
+  EXPECT_EQ(starved.total.amplitudes(0), kInfinity);
+  EXPECT_EQ(starved.total.friction_energy, kInfinity);
+  state.status = Status::stalled;
+  const response::ErrorBars failed = error_bars(model, state, {}, {});
+  EXPECT_EQ(failed.status, Status::stalled);
+  EXPECT_EQ(failed.total.wear_volume_rate, kInfinity);
+  EXPECT_THROW(static_cast<void>(error_bars(model, state, {}, {}, {.safety = 0})), InputError);
+}
+
+}  // namespace
+}  // namespace dovetail::verification
