@@ -166,6 +166,8 @@ void define_model_commands(CLI::App& app, Arguments& a) {
                      "Each result for 0.5, 1, 2 and 10 times the pseudo-penalty, and its logarithmic slope");
   response->add_flag("--stability", choice.stability,
                      "Local stability of each periodic solution, with its multipliers; says where it has no meaning");
+  response->add_flag("--traction-bounds", choice.traction_bounds,
+                     "Least and largest result found over the admissible residual tractions of stuck nodes");
   add_set(*response, a);
   add_solver(*response, a);
   add_json(*response, a.response.json);

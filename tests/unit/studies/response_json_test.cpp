@@ -107,7 +107,8 @@ TEST(ResponseJson, ABranchSaysWhereItTurns) {
   c.branch.emplace();
   c.branch->status = Status::converged;
   c.branch->points.resize(2);
-  c.branch->points[1] = {.arc_length = 0.5, .direction = 0, .turns = 1, .is_turn = true};
+  c.branch->points[1].turns = 1;
+  c.branch->points[1].is_turn = true;
   const Json json = Json::parse(response_json(c));
   EXPECT_EQ(json["arclength"]["status"], "converged");
   EXPECT_EQ(json["arclength"]["turns"], 1);
