@@ -63,4 +63,14 @@ double DenseLu::reciprocal_condition() const {
   return reciprocal;
 }
 
+int DenseLu::determinant_sign() const {
+  if (status_ != Status::converged) return 0;
+  int sign = 1;
+  for (Eigen::Index i = 0; i < size(); ++i) {
+    if (factors_(i, i) < 0) sign = -sign;
+    if (pivots_[static_cast<std::size_t>(i)] != static_cast<int>(i) + 1) sign = -sign;
+  }
+  return sign;
+}
+
 }  // namespace dovetail::numerics

@@ -26,8 +26,11 @@ class DenseLu {
   [[nodiscard]] Eigen::MatrixXd solve(Eigen::MatrixXd right_hand_side) const;
   /// A^T X = B.
   [[nodiscard]] Eigen::MatrixXd solve_transposed(Eigen::MatrixXd right_hand_side) const;
-  /// Smallest over largest pivot, O(n): far above rounding, the matrix is not singular to working precision. 1 when empty.
+  /// Smallest over largest pivot, O(n): far above rounding, the matrix is not singular to working precision. 1 when
+  /// empty.
   [[nodiscard]] double pivot_ratio() const;
+  /// Sign of det A: -1, 1, or 0 when singular. O(n).
+  [[nodiscard]] int determinant_sign() const;
   /// Estimate of 1 / (|A|_1 |A^-1|_1), O(n^2). 0 when singular, 1 for an empty matrix.
   [[nodiscard]] double reciprocal_condition() const;
 

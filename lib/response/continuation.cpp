@@ -33,6 +33,8 @@ struct Station {
   double turn_angle = 0;     // between its tangent and the one before, rad
   double output_change = 0;  // from the station before, relative
   int iterations = 0;
+  int orientation = 0;    // sign of det J times that of d omega / ds along the way; 0: not known
+  bool doubtful = false;  // det J and the way come disagree on where onwards is
 };
 
 class Follower {
@@ -51,12 +53,11 @@ class Follower {
   Branch run(const Eigen::MatrixXd& guess) {
     if (!start(guess)) return std::move(branch_);
     double step = std::min(follow_.initial_step, follow_.largest_change);
-    int rejected_for_shape = 0;
     while (static_cast<int>(branch_.points.size()) < follow_.max_points) {
       std::optional<Station> next = advance(step);
-      // A kink turns the tangent by the same angle however short the step: after some halvings it is taken as it is.
-      constexpr int kHalvingsForShape = 4;
-      const bool coarse = next && !fine(*next) && rejected_for_shape < kHalvingsForShape;
+      // A kink turns the tangent by the same angle however short the step: a short one is taken as it is.
+      constexpr double kShort = 0.03;
+      const bool coarse = next && (next->doubtful || !fine(*next)) && step > kShort * follow_.largest_change;
       if (next && !coarse) {
         if (const std::optional<double> end = end_passed(next->at.omega)) {
           if (finish_at(*end, *next)) return std::move(branch_);
@@ -65,12 +66,10 @@ class Follower {
       }
       if (!next || coarse) {
         ++branch_.rejected;
-        rejected_for_shape = coarse ? rejected_for_shape + 1 : rejected_for_shape;
-        step *= coarse ? std::clamp(0.8 * shape_factor(*next), 0.2, 0.7) : 0.4;
-        if (step < follow_.smallest_step) return finish(failure_);
+        step *= coarse && !next->doubtful ? std::clamp(0.8 * shape_factor(*next), 0.2, 0.7) : 0.4;
+        if (step < follow_.smallest_step) return finish(failure_ == Status::converged ? Status::stalled : failure_);
         continue;
       }
-      rejected_for_shape = 0;
       if (follow_.locate_turns && next->tangent.omega * now_.tangent.omega < 0 && !place_turn(*next))
         return finish(Status::interrupted);
       step = next_step(*next, step);
@@ -106,6 +105,7 @@ class Follower {
       return false;
     }
     now_.tangent = unit(first.tangent, now_.metric);
+    now_.orientation = now_.state.linearisation->determinant_sign() * (now_.tangent.omega > 0 ? 1 : -1);
     if (!options_.linearise) now_.state.linearisation.reset();
     if (!report(now_, false)) {
       branch_.status = Status::interrupted;
@@ -152,12 +152,13 @@ class Follower {
     branch_.evaluations += found.evaluations;
     failure_ = found.status;
     if (found.status != Status::converged) return {};
-    // Further away than twice the step it is another branch, or the other side of a loop.
+    // Further away than twice the step it is another branch, or the other side of a loop; very near, it is the way on
+    // behind a sharp kink, where contact that was stuck begins to slide.
     const BranchVector way = difference(found.point, now_.at);
     const double reached = now_.metric.length(way);
     failure_ = Status::stalled;
-    constexpr double kSidestep = 2;
-    if (reached > kSidestep * step + follow_.smallest_step) return {};
+    constexpr double kSidestep = 2, kKink = 0.1;
+    if (reached > std::max(kSidestep * step, kKink * follow_.largest_change)) return {};
     BranchEquations::Described point = equations_->describe(found, now_.tangent, now_.metric);
     failure_ = point.state.status;
     if (point.state.status != Status::converged || !point.linear) return {};
@@ -173,7 +174,26 @@ class Follower {
     result.iterations = found.iterations;
     result.metric = metric_at(result);
     result.tangent = unit(next.tangent, result.metric);
+    orient(way, point.linear->determinant_sign(), std::cos(result.turn_angle), result);
     return result;
+  }
+
+  // Onwards is away from where the branch came from, and sign(d omega / ds) = constant sign(det J) on a branch:
+  // together they tell a fold, at which both change, from a chord over one or a kink sharper than a right angle, where
+  // the way come misleads, and from a crossing with another branch, where det J does.
+  void orient(const BranchVector& way, int determinant, double cosine, Station& next) const {
+    const auto flip = [&] {
+      next.tangent.displacement *= -1;
+      next.tangent.omega *= -1;
+    };
+    if (next.metric.inner(way, next.tangent) < 0) flip();
+    const int here = determinant * (next.tangent.omega > 0 ? 1 : -1);
+    next.orientation = here != 0 ? here : now_.orientation;
+    next.doubtful = here != 0 && now_.orientation != 0 && here != now_.orientation;
+    constexpr double kStraight = 0.9;
+    if (!next.doubtful || cosine > kStraight) return;
+    flip();
+    next.orientation = now_.orientation;
   }
 
   [[nodiscard]] double output_change(const SteadyState& before, const SteadyState& after) const {

@@ -32,6 +32,10 @@ class Linearisation {
   }
   /// reciprocal_condition() < limit (<= 1e-10), at the cost of looking at the pivots where these are far from it.
   [[nodiscard]] bool nearly_singular(double limit) const;
+  /// Sign of det J, 0 when J is (nearly) singular. It changes where a branch turns back in frequency.
+  [[nodiscard]] int determinant_sign() const {
+    return regularised() ? 0 : factors_->separated.determinant_sign() * factors_->lu.determinant_sign();
+  }
   [[nodiscard]] const SteadyResidual& residual() const { return residual_; }
   [[nodiscard]] const ResidualState& state() const { return state_; }
 

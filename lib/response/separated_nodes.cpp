@@ -26,6 +26,16 @@ SeparatedNodes::SeparatedNodes(std::shared_ptr<const HarmonicSystem> system, std
   }
 }
 
+int SeparatedNodes::determinant_sign() const {
+  if (status_ != Status::converged) return 0;
+  if (factors_.empty()) return 1;
+  int sign = factors_.front().permutationP().determinant() > 0 ? 1 : -1;
+  const Eigen::VectorXd pivots = factors_.front().matrixLU().diagonal().real();
+  for (Eigen::Index i = 0; i < pivots.size(); ++i)
+    if (pivots(i) < 0) sign = -sign;
+  return sign;
+}
+
 std::vector<const Eigen::MatrixXcd*> SeparatedNodes::stiffness() const {
   std::vector<const Eigen::MatrixXcd*> result;
   for (std::size_t h = 0; h < system_->harmonics.size(); ++h)

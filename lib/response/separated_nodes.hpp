@@ -26,6 +26,8 @@ class SeparatedNodes {
   [[nodiscard]] Status status() const { return status_; }
   /// Smallest estimate of 1 / (|Z_oo| |Z_oo^-1|) over the harmonics; 1 when nothing is open.
   [[nodiscard]] double reciprocal_condition() const { return reciprocal_condition_; }
+  /// Sign of det Z_oo over all harmonics: that of harmonic 0, the others are squares.
+  [[nodiscard]] int determinant_sign() const;
   [[nodiscard]] const std::vector<Eigen::Index>& open() const { return open_; }
   [[nodiscard]] const std::vector<Eigen::Index>& kept() const { return kept_; }
   /// Z~_h [kept, kept]; views of this object.
