@@ -1,0 +1,149 @@
+#include "studies/work_precision/figures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace dovetail::work_precision {
+namespace {
+
+using report::Plot;
+using report::PlotLine;
+using report::PlotPoints;
+using report::Role;
+using report::Stroke;
+
+constexpr int kWidth = 372, kHeight = 300;
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+struct Extent {
+  double lower = std::numeric_limits<double>::infinity(), upper = 0;
+  void add(double value) {
+    if (!(value > 0) || !std::isfinite(value)) return;
+    lower = std::min(lower, value);
+    upper = std::max(upper, value);
+  }
+};
+
+std::string described(const Line& line, const Point& point, const Sweep& sweep, std::size_t quantity) {
+  return fmt::format("{}{}{}: {:.3g} s, {}", line.name, line.name.empty() ? "" : ", ", point.label,
+                     sweep.seconds(point),
+                     point.run.converged() ? fmt::format("error {:.2g}", point.error[quantity]) : point.run.status);
+}
+
+// Errors below this are rounding and the tolerance of the search for the resonance.
+constexpr double kLowest = 1e-9;
+
+double drawn(double error) {
+  return error > 0 ? std::max(error, kLowest) : kNan;
+}
+
+// The error that the mesh of the default setting makes, NaN without one.
+double mesh_error(const Diagram& diagram, std::size_t quantity) {
+  for (const Sweep& sweep : diagram.sweeps)
+    if (sweep.key == "mesh")
+      for (const Line& line : sweep.lines)
+        for (const Point& point : line.points)
+          if (point.is_default) return point.error[quantity];
+  return kNan;
+}
+
+}  // namespace
+
+Plot error_plot(const Diagram& diagram, const Sweep& sweep, std::size_t quantity) {
+  Plot plot{
+      .title = kQuantities[quantity],
+      .x = {.label = sweep.with_model_time ? "model and resonance" : "resonance", .unit = "s", .logarithmic = true},
+      .y = {.label = "relative error", .logarithmic = true},
+      .width = kWidth,
+      .height = kHeight};
+  plot.title[0] = static_cast<char>(std::toupper(plot.title[0]));
+  constexpr std::array<std::pair<Role, Stroke>, 3> kLook{
+      {{Role::after, Stroke::solid}, {Role::before, Stroke::solid}, {Role::before, Stroke::dashed}}};
+  Extent x, y;
+  PlotPoints star{.name = "default", .role = Role::after, .shape = report::Shape::star};
+  PlotPoints failed{.name = "failed", .role = Role::bad, .shape = report::Shape::cross};
+  std::vector<PlotLine> own;
+  for (std::size_t l = 0; l < sweep.lines.size(); ++l) {
+    const Line& line = sweep.lines[l];
+    const auto& [role, stroke] = kLook[std::min(l, kLook.size() - 1)];
+    PlotLine total{.name = line.name.empty() ? "error" : line.name, .role = role, .stroke = stroke, .dots = true};
+    PlotLine part{.name = l == 0 ? "of it by this setting alone" : "", .role = Role::muted, .stroke = Stroke::dotted};
+    for (const Point& point : line.points) {
+      const double seconds = sweep.seconds(point), error = drawn(point.error[quantity]);
+      x.add(seconds);
+      if (!point.run.converged()) {
+        failed.x.push_back(seconds);
+        failed.titles.push_back(described(line, point, sweep, quantity));
+        continue;
+      }
+      y.add(error);
+      total.x.push_back(seconds);
+      total.y.push_back(error);
+      total.labels.push_back(l == 0 || sweep.key == "solver" ? point.label : "");
+      part.x.push_back(seconds);
+      part.y.push_back(drawn(point.own_error[quantity]));
+      y.add(part.y.back());
+      if (!point.is_default || !star.x.empty()) continue;
+      star.x.push_back(seconds);
+      star.y.push_back(error);
+      star.titles.push_back(described(line, point, sweep, quantity));
+    }
+    plot.lines.push_back(std::move(total));
+    if (sweep.refines) own.push_back(std::move(part));
+  }
+  for (PlotLine& part : own) plot.lines.push_back(std::move(part));
+  const auto level = [&](const std::string& name, double value, Role role, Stroke stroke) {
+    if (!(value > 0)) return;
+    y.add(std::max(value, kLowest));
+    plot.lines.push_back({.name = name,
+                          .x = {x.lower, x.upper},
+                          .y = {std::max(value, kLowest), std::max(value, kLowest)},
+                          .role = role,
+                          .stroke = stroke});
+  };
+  if (sweep.key != "mesh") level("error of the default mesh", mesh_error(diagram, quantity), Role::bad, Stroke::dashed);
+  level("references agree to", diagram.reference_of(sweep).agreement[quantity], Role::muted, Stroke::solid);
+  // Failed runs stand above all errors.
+  failed.y.assign(failed.x.size(), y.upper > 0 ? 2 * y.upper : 1);
+  plot.points.push_back(std::move(star));
+  plot.points.push_back(std::move(failed));
+  return plot;
+}
+
+Plot growth_plot(const Growth& growth) {
+  Plot plot{.title = "Over " + growth.title,
+            .description = growth.fixed + ", half of the nodes stuck",
+            .x = {.label = growth.title, .logarithmic = true},
+            .y = {.label = "time", .unit = "s", .logarithmic = true},
+            .width = kWidth,
+            .height = 360};
+  struct Part {
+    const char* name;
+    double StepTimes::*seconds;
+    Role role;
+    Stroke stroke;
+  };
+  constexpr std::array<Part, 7> kParts{
+      {{"whole Newton step", &StepTimes::step, Role::after, Stroke::solid},
+       {"condensed Jacobian and its LU", &StepTimes::linearise, Role::after, Stroke::dashed},
+       {"solve", &StepTimes::solve, Role::after, Stroke::dotted},
+       {"residual with derivative D", &StepTimes::derivative, Role::before, Stroke::solid},
+       {"residual", &StepTimes::residual, Role::before, Stroke::dotted},
+       {"dense Jacobian, all unknowns", &StepTimes::jacobian, Role::bad, Stroke::dashed},
+       {"dense LU, all unknowns", &StepTimes::lu, Role::bad, Stroke::solid}}};
+  for (const Part& part : kParts) {
+    PlotLine line{.name = part.name, .role = part.role, .stroke = part.stroke, .dots = true};
+    for (std::size_t i = 0; i < growth.size.size(); ++i) {
+      line.x.push_back(growth.size[i]);
+      line.y.push_back(growth.times[i].status == Status::converged ? growth.times[i].*part.seconds : kNan);
+    }
+    plot.lines.push_back(std::move(line));
+  }
+  return plot;
+}
+
+}  // namespace dovetail::work_precision

@@ -1,0 +1,51 @@
+#include "studies/work_precision/setting.hpp"
+
+#include <cmath>
+
+#include "studies/work_precision/processor_time.hpp"
+
+namespace dovetail::work_precision {
+
+Run timed_resonance(const std::shared_ptr<const response::CondensedModel>& model, double omega_start,
+                    const Setting& setting, double tolerance, double seconds) {
+  const response::SteadyOptions steady{.harmonics = setting.harmonics,
+                                       .samples = setting.samples,
+                                       .tolerance = tolerance,
+                                       .solver = setting.solver,
+                                       .penalty_scale = setting.penalty,
+                                       .penalty_cascade = setting.cascade,
+                                       .slip_return = setting.slip_return};
+  response::Resonance found;
+  std::vector<double> times;
+  double spent = 0;
+  while (times.size() < 5 && (times.empty() || spent < seconds)) {
+    const double before = processor_seconds();
+    found = response::resonance(model, omega_start, {}, steady);
+    times.push_back(processor_seconds() - before);
+    spent += times.back();
+  }
+  Run run;
+  run.setting = setting;
+  run.seconds = median(times);
+  run.solves = found.solves;
+  run.jacobians = found.jacobians;
+  run.contact_nodes = static_cast<int>(found.state.nodes.size());
+  for (const response::NodeSummary& node : found.state.nodes) {
+    run.stuck += node.stuck;
+    run.slipping += node.slips;
+    run.separating += node.separates;
+  }
+  if (found.status == Status::converged)
+    run.value = {found.omega, found.state.friction_energy, found.amplitude};
+  else
+    run.status = std::string("resonance: ") + std::string(to_string(found.status));
+  return run;
+}
+
+std::array<double, 3> relative_difference(const Run& a, const Run& b) {
+  std::array<double, 3> result{};
+  for (std::size_t q = 0; q < result.size(); ++q) result[q] = std::abs(a.value[q] / b.value[q] - 1);
+  return result;
+}
+
+}  // namespace dovetail::work_precision
