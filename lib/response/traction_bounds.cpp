@@ -18,10 +18,10 @@ std::span<const Field<TractionBoundsOptions>> option_table<TractionBoundsOptions
   using Options = TractionBoundsOptions;
   static const std::array fields{
       Field<Options>{.key = "output", .member = &Options::output, .range = {.lower = 0}, .help = "monitored output"},
-      Field<Options>{.key = "corners",
-                     .member = &Options::corners,
+      Field<Options>{.key = "starts",
+                     .member = &Options::starts,
                      .range = {.lower = 0},
-                     .help = "corners of the admissible tractions tried as starts"},
+                     .help = "admissible tractions tried as starts besides those given"},
       Field<Options>{.key = "max_solves",
                      .member = &Options::max_solves,
                      .range = {.lower = 2},
@@ -59,7 +59,8 @@ class Search {
         condition_(std::move(condition)),
         options_(std::move(options)),
         quantity_(quantity),
-        bounds_(bounds) {
+        bounds_(bounds),
+        limit_(bounds.max_solves) {
     options_.linearise = true;
   }
 
@@ -74,6 +75,9 @@ class Search {
     }
     nominal.value = value(nominal.state);
     omega_ = nominal.state.omega;
+    // Slip that is rounding next to the energy the excitation puts in is none.
+    if (quantity_ == BoundedQuantity::friction_energy) scale_ = std::abs(nominal.state.input_energy);
+    if (quantity_ == BoundedQuantity::wear_rate) scale_ = wear_scale(nominal.state);
     family_.emplace(nominal.state);
     nominal.traction = family_->nominal();
     result.nominal = result.minimum = result.maximum = attained(nominal);
@@ -83,26 +87,33 @@ class Search {
       return result;
     }
     std::vector<Member> members = starts(nominal);
+    bool cut_short = exhausted();
     for (const double sense : {-1.0, 1.0}) {
       std::stable_sort(members.begin(), members.end(),
                        [&](const Member& a, const Member& b) { return sense * a.value > sense * b.value; });
+      family_.emplace(nominal.state);
+      // Each side may use what is left in equal parts.
+      limit_ = sense < 0 ? (solves_ + bounds_.max_solves) / 2 : bounds_.max_solves;
       // The most promising starts and the given state; others lead to the same ends more slowly.
       constexpr std::size_t kClimbs = 3;
       Member best = members.front();
       for (std::size_t i = 0; i < std::min(kClimbs, members.size()); ++i) climb(members[i], sense, best);
       climb(nominal, sense, best);
+      poll(sense, best);
+      recentre(sense, best);
+      cut_short = cut_short || exhausted();
       (sense < 0 ? result.minimum : result.maximum) = attained(best);
     }
     result.solves = solves_;
     result.failed = failed_;
-    result.status = exhausted() ? Status::iteration_limit : Status::converged;
-    result.reason = exhausted() ? "attained values; the search was ended by max_solves"
-                                : "attained values: the true range contains them and may be larger";
+    result.status = cut_short ? Status::iteration_limit : Status::converged;
+    result.reason = cut_short ? "attained values; the search was ended by max_solves"
+                              : "attained values: the true range contains them and may be larger";
     return result;
   }
 
  private:
-  [[nodiscard]] bool exhausted() const { return solves_ >= bounds_.max_solves; }
+  [[nodiscard]] bool exhausted() const { return solves_ >= limit_; }
 
   SteadyState solve(const Eigen::MatrixXd& origin, const Eigen::MatrixXd& guess) {
     ++solves_;
@@ -124,6 +135,15 @@ class Search {
     return quantity_ == BoundedQuantity::wear_rate ? contact.wear_coefficient : contact.friction;
   }
 
+  // The wear of all that energy at the largest ratio of wear to friction.
+  [[nodiscard]] double wear_scale(const SteadyState& state) const {
+    double ratio = 0;
+    for (Eigen::Index i = 0; i < model_->nodes(); ++i)
+      if (model_->contact().friction(i) > 0)
+        ratio = std::max(ratio, model_->contact().wear_coefficient(i) / model_->contact().friction(i));
+    return ratio * std::abs(state.input_energy);
+  }
+
   [[nodiscard]] double value(const SteadyState& state) const {
     switch (quantity_) {
       case BoundedQuantity::friction_energy:
@@ -139,19 +159,19 @@ class Search {
     return state.amplitudes(bounds_.output);
   }
 
-  // dq/dm. The amplitude at a resonance is stationary in frequency, so its gradient is that at constant frequency.
+  // dq/dX_T. The amplitude at a resonance is stationary in frequency, so its gradient is that at constant frequency.
   Eigen::MatrixXd gradient(const Member& member) {
     switch (quantity_) {
       case BoundedQuantity::friction_energy:
       case BoundedQuantity::wear_rate:
-        return family_->gradient(slip_load_to_slip_origin(member.state, weights()));
+        return slip_load_to_slip_origin(member.state, weights());
       case BoundedQuantity::resonance_frequency:
-        return family_->gradient(frequency_gradient(member));
+        return frequency_gradient(member);
       case BoundedQuantity::amplitude:
       case BoundedQuantity::resonance_amplitude:
         break;
     }
-    return family_->gradient(amplitude_to_slip_origin(member.state, bounds_.output));
+    return amplitude_to_slip_origin(member.state, bounds_.output);
   }
 
   // dw/dX = -(d2A/dw dX) / (d2A/dw2), both by central differences of exact first derivatives.
@@ -174,15 +194,27 @@ class Search {
 
   // The member with these tractions, or as near to them as the march lets it come.
   std::optional<Member> evaluate(const Eigen::MatrixXd& traction, const Member& from) {
+    return evaluate_origin(family_->slip_origin(TractionFamily::admissible(traction)), from);
+  }
+
+  [[nodiscard]] static const Eigen::MatrixXd& origin_of(const Member& member) {
+    return member.state.linearisation->residual().condition().slip_origin;
+  }
+
+  // The same by slip origins, however far: a node is stopped by its friction limit.
+  std::optional<Member> evaluate_origin(const Eigen::MatrixXd& origin, const Member& from) {
     if (exhausted()) return {};
-    const Eigen::MatrixXd origin = family_->slip_origin(traction);
-    const Eigen::MatrixXd before = from.state.linearisation->residual().condition().slip_origin;
+    const Eigen::MatrixXd& before = origin_of(from);
     Member member;
     member.state = solve(origin, from.state.displacement + response_to_slip_origin(from.state, origin - before));
     if (member.state.status == Status::converged && slid(member.state) && !exhausted()) {
       // Started from where it ended, the same state has derivatives with respect to all its tractions.
+      // A hair inside, lest rounding slips a node that stands at its limit.
+      constexpr double kInside = 1e-7;
+      const Eigen::MatrixXd relaxed = family_->slip_origin(0 * family_->nominal());
       Eigen::MatrixXd settled = origin;
-      for (const Eigen::Index i : family_->nodes()) settled.row(i) = member.state.slip_end.row(i);
+      for (const Eigen::Index i : family_->nodes())
+        settled.row(i) = member.state.slip_end.row(i) + kInside * (relaxed.row(i) - member.state.slip_end.row(i));
       SteadyState again = solve(settled, member.state.displacement);
       if (again.status == Status::converged) member.state = std::move(again);
     }
@@ -203,7 +235,8 @@ class Search {
     });
   }
 
-  // Few tractions are tried on a grid; many at corners: all to one side, and random ones.
+  // Few tractions are tried on a grid; many with all to one side, then in turn at random corners and inside them:
+  // where nothing slips a response has no gradient to follow.
   std::vector<Member> starts(const Member& nominal) {
     std::vector<Member> members{nominal};
     const Eigen::Index rows = nominal.traction.rows(), columns = nominal.traction.cols(), size = rows * columns;
@@ -217,44 +250,100 @@ class Search {
       }
     } else {
       std::mt19937 random(1);
-      for (int p = 0; p < bounds_.corners; ++p) {
+      std::uniform_real_distribution<double> uniform(-1, 1);
+      for (int p = 0; p < bounds_.starts; ++p) {
         Eigen::MatrixXd point(rows, columns);
         for (Eigen::Index j = 0; j < size; ++j)
           point(j) = p < 2 * columns ? (j / rows == p / 2 ? (p % 2 == 0 ? 1.0 : -1.0) : 0.0)
-                                     : (random() % 2 == 0 ? 1.0 : -1.0);
+                     : p % 2 == 0    ? (random() % 2 == 0 ? 1.0 : -1.0)
+                                     : uniform(random);
         points.push_back(point);
       }
     }
     for (const Eigen::MatrixXd& point : points)
-      if (std::optional<Member> member = evaluate(TractionFamily::admissible(point), nominal))
-        members.push_back(std::move(*member));
+      if (std::optional<Member> member = evaluate(point, nominal)) members.push_back(std::move(*member));
     return members;
   }
 
-  // The corner each node's gradient points to, then shorter ways to it and steps along the gradient itself.
+  // Towards the corners that each node's gradient points to, in tractions and in slip origins, and along the gradient.
+  // Moving tractions keeps the others where they are in a linear body; moving slip origins lets others follow, which at
+  // their limits they do without slipping.
   void climb(Member at, double sense, Member& best) {
     constexpr int kSteps = 40;
     for (int step = 0; step < kSteps && !exhausted(); ++step) {
-      const Eigen::MatrixXd slope = sense * gradient(at);
+      const Eigen::MatrixXd by_origin = sense * gradient(at);
+      const Eigen::MatrixXd slope = family_->gradient(by_origin);
       const double largest = slope.rowwise().norm().maxCoeff();
       if (!(largest > 0)) break;
-      Eigen::MatrixXd corner = at.traction;
-      for (Eigen::Index i = 0; i < corner.rows(); ++i)
-        if (slope.row(i).norm() > 0) corner.row(i) = slope.row(i).normalized();
+      const Eigen::MatrixXd corner = directions(slope, at.traction);
+      const Eigen::MatrixXd push = family_->reach().asDiagonal() * directions(by_origin, 0 * by_origin);
       bool gained = false;
-      const auto take = [&](const Eigen::MatrixXd& traction) {
-        std::optional<Member> next = evaluate(TractionFamily::admissible(traction), at);
-        if (!next || !(sense * (next->value - at.value) > bounds_.tolerance * std::abs(at.value))) return false;
+      const auto take = [&](std::optional<Member> next) {
+        if (!next || !gains(sense, next->value, at.value)) return false;
         at = std::move(*next);
         return gained = true;
       };
       for (const double part : {1.0, 0.5, 0.2})
-        if (take(at.traction + part * (corner - at.traction))) break;
+        if (gained || take(evaluate(at.traction + part * (corner - at.traction), at))) break;
+      for (const double part : {1.0, 0.2, 0.04})
+        if (gained || take(evaluate_origin(origin_of(at) + part * push, at))) break;
       for (const double length : {0.2, 0.05, 0.01})
-        if (gained || take(at.traction + length / largest * slope)) break;
+        if (gained || take(evaluate(at.traction + length / largest * slope, at))) break;
       if (!gained) break;
     }
     if (sense * (at.value - best.value) > 0) best = std::move(at);
+  }
+
+  // Each row of length 1, or that of `otherwise` where it is zero.
+  static Eigen::MatrixXd directions(const Eigen::MatrixXd& rows, const Eigen::MatrixXd& otherwise) {
+    Eigen::MatrixXd result = otherwise;
+    for (Eigen::Index i = 0; i < rows.rows(); ++i)
+      if (rows.row(i).norm() > 0) result.row(i) = rows.row(i).normalized();
+    return result;
+  }
+
+  // At kinks, where nodes begin to slip, gradients lead nowhere: tries single slip origins and random tractions.
+  void poll(double sense, Member& best) {
+    constexpr int kPasses = 3;
+    std::mt19937 random(2);
+    std::normal_distribution<double> normal;
+    const auto take = [&](std::optional<Member> next) {
+      if (!next || !gains(sense, next->value, best.value)) return false;
+      best = std::move(*next);
+      return true;
+    };
+    for (const double step : {1.0, 0.2, 0.04})
+      for (int pass = 0; pass < kPasses; ++pass) {
+        const double before = best.value;
+        for (const Eigen::Index i : family_->nodes())
+          for (Eigen::Index r = 0; r < best.traction.cols(); ++r) {
+            Eigen::MatrixXd move = Eigen::MatrixXd::Zero(model_->nodes(), best.traction.cols());
+            move(i, r) = step * family_->reach()(i);
+            if (!take(evaluate_origin(origin_of(best) + move, best)))
+              take(evaluate_origin(origin_of(best) - move, best));
+            for (double& entry : move.reshaped()) entry = step * normal(random);
+            const Eigen::MatrixXd direction = move(family_->nodes(), Eigen::all);
+            if (!take(evaluate(best.traction + direction, best))) take(evaluate(best.traction - direction, best));
+          }
+        if (!gains(sense, best.value, before)) break;
+      }
+  }
+
+  // Elsewhere in the family other nodes may stay stuck: their tractions are free there.
+  void recentre(double sense, Member& best) {
+    constexpr int kRounds = 3;
+    for (int round = 0; round < kRounds && !exhausted(); ++round) {
+      TractionFamily around(best.state);
+      if (around.nodes() == family_->nodes() || around.nodes().empty()) return;
+      family_.emplace(std::move(around));
+      best.traction = family_->nominal();
+      climb(Member(best), sense, best);
+      poll(sense, best);
+    }
+  }
+
+  [[nodiscard]] bool gains(double sense, double value, double over) const {
+    return sense * (value - over) > bounds_.tolerance * std::max(std::abs(over), scale_);
   }
 
   [[nodiscard]] AttainedValue attained(const Member& member) const {
@@ -271,7 +360,8 @@ class Search {
   BoundedQuantity quantity_;
   const TractionBoundsOptions& bounds_;
   std::optional<TractionFamily> family_;
-  int solves_ = 0, failed_ = 0;
+  double scale_ = 0;  // gains are measured against it when it is larger than the value
+  int solves_ = 0, failed_ = 0, limit_ = 0;
 };
 
 }  // namespace

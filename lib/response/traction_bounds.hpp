@@ -23,10 +23,10 @@ enum class BoundedQuantity {
 [[nodiscard]] std::string_view to_string(BoundedQuantity quantity);
 
 struct TractionBoundsOptions {
-  int output = 0;                       ///< of the amplitudes and the resonance, [0, n_out)
-  int corners = 8;                      ///< corners of the admissible set tried as starts besides the given state, >= 0
-  int max_solves = 400;                 ///< steady states (or resonances) in all, >= 2
-  double tolerance = 1e-8;              ///< relative gain below which a climb ends, > 0
+  int output = 0;           ///< of the amplitudes and the resonance, [0, n_out)
+  int starts = 24;          ///< admissible tractions tried besides the given ones: corners and points inside, >= 0
+  int max_solves = 1000;    ///< steady states (or resonances) in all, >= 2
+  double tolerance = 1e-8;  ///< relative gain below which a climb ends, > 0
   double resonance_search_range = 0.2;  ///< of omega, for the resonance quantities, (0, 1)
 };
 

@@ -24,12 +24,16 @@ class TractionFamily {
   [[nodiscard]] Eigen::MatrixXd traction(const SteadyState& state) const;
   /// dq/dm from dq/dX_T [Nc, d-1].
   [[nodiscard]] Eigen::MatrixXd gradient(const Eigen::MatrixXd& by_slip_origin) const;
+  /// How far the slip origin of each node [Nc] moves when its traction goes from one limit to the other; 0: not of the
+  /// family.
+  [[nodiscard]] const Eigen::VectorXd& reach() const { return reach_; }
   /// The nearest m with |m| <= 1 for each node.
   [[nodiscard]] static Eigen::MatrixXd admissible(Eigen::MatrixXd traction);
 
  private:
   std::vector<Eigen::Index> nodes_;
-  Eigen::VectorXd friction_;          // mu of all nodes
+  Eigen::VectorXd friction_;  // mu of all nodes
+  Eigen::VectorXd reach_;
   Eigen::VectorXd limit_;             // mu mean lambda_N of the stuck ones
   Eigen::MatrixXd origin_, nominal_;  // X_T and m of the nominal state
   Eigen::MatrixXd compliance_;        // -dX_T / d lambda_T, node by node
