@@ -52,9 +52,13 @@ void march_node(const double* prediction, const NodeLaw& law, int samples, const
     start = {.sample = reset, .memory = reset_memory};
     for (int n = 0; n < samples; ++n) {
       const Step step =
-          sample_step<Directions>(prediction + (1 + Directions) * n, law.friction, options.slip_return, memory);
+          sample_step<Directions>(prediction + (1 + Directions) * ((n + samples - 1) % samples),
+                                  prediction + (1 + Directions) * n, law.friction, options.slip_return, memory);
       for (int r = 0; r <= Directions; ++r) result.force(n, r) = step.force[r];
-      for (int r = 0; r < Directions; ++r) result.slip_force(n, 1 + r) = memory.slip_force[r];
+      for (int r = 0; r < Directions; ++r) {
+        result.slip_force(n, 1 + r) = memory.slip_force[r];
+        result.slip_step(n, r) = step.end[r] - step.origin[r];
+      }
       result.slip_force(n, 0) = step.state == SampleState::separated ? prediction[(1 + Directions) * n] : 0;
       result.state[static_cast<std::size_t>(n)] = step.state;
       moved = moved || step.state != SampleState::stuck;
@@ -96,7 +100,7 @@ void march_node(const double* prediction, const NodeLaw& law, int samples, const
   result.periods = std::min(result.periods, periods);
   result.always_stuck = !moved;
 
-  // Increments of X_T with trapezoidal normal forces; the sample before the first is the last one.
+  // Increments of X_T under load with trapezoidal normal forces; the sample before the first is the last one.
   result.slip_distance = result.slip_load = 0;
   result.friction_margin = kInfinity;
   result.always_closed = result.always_separated = true;
@@ -106,8 +110,7 @@ void march_node(const double* prediction, const NodeLaw& law, int samples, const
     result.always_separated = result.always_separated && separated;
     double square = 0, traction = 0;
     for (int r = 0; r < Directions; ++r) {
-      const double previous = n > 0 ? result.slip_force(n - 1, 1 + r) : before.slip_force[r];
-      square += std::pow(result.slip_force(n, 1 + r) - previous, 2);
+      square += std::pow(result.slip_step(n, r), 2);
       traction += std::pow(result.force(n, 1 + r), 2);
     }
     if (!separated)
@@ -143,6 +146,7 @@ void march(const Eigen::Ref<const Eigen::MatrixXd>& prediction, const NodeLaw& l
   assert(prediction.rows() == basis.samples());
   result.force.resize(basis.samples(), directions);
   result.slip_force.resize(basis.samples(), directions);
+  result.slip_step.resize(basis.samples(), directions - 1);
   result.state.resize(static_cast<std::size_t>(basis.samples()));
   if (directions == 2)
     run<1>(prediction, law, basis, options, with_derivative, result);
@@ -157,6 +161,7 @@ void carry_nothing(const Eigen::Ref<const Eigen::MatrixXd>& prediction, double t
   result.periods = 1;
   result.force.setZero(prediction.rows(), d);
   result.slip_force = prediction;
+  result.slip_step.setZero(prediction.rows(), d - 1);
   result.state.assign(static_cast<std::size_t>(prediction.rows()), SampleState::separated);
   result.always_separated = true;
   for (Eigen::Index r = 0; r + 1 < d; ++r) result.slip_end(r) = prediction(last, 1 + r) / tangential_penalty;

@@ -12,14 +12,15 @@ enum class SampleState : unsigned char { separated, stuck, slipping };
 
 enum class SlipReturn {
   first_order,   ///< backward Euler, as in [Salles 2009, eq. 15-19]
-  second_order,  ///< rotates the previous slip direction; the same as first_order with one tangential direction
+  second_order,  ///< rotates the previous slip direction (in space) and starts contact between samples
 };
 
 struct MarchOptions {
   SlipReturn slip_return = SlipReturn::first_order;
-  bool periodic = true;      ///< false: march the samples once and stop (a quasi-static path)
-  int max_periods = 2000;    ///< periods marched before giving up, >= 1
-  double tolerance = 1e-10;  ///< distance of lambda_x,T from its periodic orbit relative to the largest limit force, > 0
+  bool periodic = true;    ///< false: march the samples once and stop (a quasi-static path)
+  int max_periods = 2000;  ///< periods marched before giving up, >= 1
+  double tolerance =
+      1e-10;  ///< distance of lambda_x,T from its periodic orbit relative to the largest limit force, > 0
 };
 
 /// What one node is, besides its prediction forces.
@@ -38,6 +39,7 @@ struct MarchResult {
   int periods = 0;                    ///< periods marched
   Eigen::MatrixXd force;              ///< lambda [N, d], N
   Eigen::MatrixXd slip_force;         ///< lambda_x = eps X [N, d], N
+  Eigen::MatrixXd slip_step;          ///< increments of lambda_x,T under load [N, d-1] over the last period, N
   std::vector<SampleState> state;     ///< [N] of the last period
   bool extrapolated = false;          ///< slip that dies out slowly was extrapolated to its periodic state
   bool always_stuck = false;          ///< neither slipped nor separated in any marched period

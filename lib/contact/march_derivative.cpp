@@ -76,6 +76,21 @@ void separation_tangent(const double* row, Eigen::Index k, Tangent<Directions>& 
     for (Eigen::Index j = 0; j < k; ++j) tangent.slip_force((1 + r) * k + j, r) = row[j];
 }
 
+// d lambda_x,T where contact begins or ends: lambda_u,T there, with the place itself moving.
+template <int Directions>
+void crossing_tangent(const double* previous, const double* prediction, const Step& step, const double* row_before,
+                      const double* row, Eigen::Index k, Eigen::MatrixXd& slope) {
+  slope.setZero();
+  const double jump = prediction[0] - previous[0];
+  for (int r = 0; r < Directions; ++r) {
+    const double rise = (prediction[1 + r] - previous[1 + r]) / (jump * jump);
+    for (Eigen::Index j = 0; j < k; ++j) {
+      slope((1 + r) * k + j, r) = (1 - step.crossing) * row_before[j] + step.crossing * row[j];
+      slope(j, r) = rise * (previous[0] * row[j] - prediction[0] * row_before[j]);
+    }
+  }
+}
+
 // Derivative of the state at the start of a periodic orbit: the march over one period maps it to M s + B with
 // s = (lambda_x,T, angle), so s = (I - M)^-1 B. M comes from three more columns beside the coefficients. False when the
 // orbit does not determine its state (a node that only sticks).
@@ -87,8 +102,12 @@ bool orbit_tangent(const double* prediction, const NodeLaw& law, const Eigen::Ma
   Memory memory = orbit;
   for (Eigen::Index n = 0; n < rows.cols(); ++n) {
     const Memory before = memory;
-    const Step step = sample_step<2>(prediction + 3 * n, law.friction, rule, memory);
+    const Eigen::Index earlier = (n + rows.cols() - 1) % rows.cols();
+    const Step step = sample_step<2>(prediction + 3 * earlier, prediction + 3 * n, law.friction, rule, memory);
     const double* row = rows.col(n).data();
+    if (step.touched)
+      crossing_tangent<2>(prediction + 3 * earlier, prediction + 3 * n, step, rows.col(earlier).data(), row, k,
+                          wide.slip_force);
     if (step.state == SampleState::separated)
       separation_tangent<2>(row, k, wide);
     else if (step.state == SampleState::slipping)
@@ -138,6 +157,7 @@ void differentiate(const double* prediction, const NodeLaw& law, const numerics:
   Tangent<Directions> tangent{.slip_force = Eigen::MatrixXd::Zero(m, Directions),
                               .previous = Eigen::MatrixXd::Zero(m, Directions),
                               .angle = Eigen::VectorXd::Zero(m)};
+  Eigen::MatrixXd end(m, Directions);  // d lambda_x,T where contact ends
   Memory memory = start.memory;
   const long last = static_cast<long>(result.periods) * samples;
   const long last_period = last - samples;
@@ -186,35 +206,41 @@ void differentiate(const double* prediction, const NodeLaw& law, const numerics:
     const bool counts = i >= last_period;
     const double* row = rows.col(n).data();
     const Memory before = memory;
-    const Step step = sample_step<Directions>(prediction + d * n, law.friction, rule, memory);
-    const bool changes = step.state != SampleState::stuck;
+    const int earlier = (n + samples - 1) % samples;
+    const Step step = sample_step<Directions>(prediction + d * earlier, prediction + d * n, law.friction, rule, memory);
+    const bool changes = step.state != SampleState::stuck || step.touched;
     if (changes) {
-      if (counts) {
-        close_run();
-        tangent.previous = tangent.slip_force;
-      }
+      if (counts) close_run();
+      if (step.touched)
+        crossing_tangent<Directions>(prediction + d * earlier, prediction + d * n, step, rows.col(earlier).data(), row,
+                                     k, tangent.slip_force);
+      tangent.previous = tangent.slip_force;
       if (step.state == SampleState::separated)
         separation_tangent<Directions>(row, k, tangent);
-      else
+      else if (step.state == SampleState::slipping)
         slip_tangent<Directions>(step, before, memory, law.friction, row, k, tangent);
     }
     if (!counts) continue;
     weight += analysis.col(n);
     if (step.state == SampleState::separated)
       derivative.topLeftCorner(k, k).noalias() -= analysis.col(n) * rows.col(n).transpose();
-    if (!changes) continue;
-    const int earlier = (n + samples - 1) % samples;
+    const bool separates = step.state == SampleState::separated;
+    if (!(step.state == SampleState::slipping || separates)) continue;
     const bool loaded_before = prediction[d * earlier] > 0, loaded = prediction[d * n] > 0;
     const double load = (result.force(n, 0) + result.force(earlier, 0)) / 2;
     double delta[2] = {0, 0}, square = 0;
     for (int r = 0; r < Directions; ++r) {
-      delta[r] = memory.slip_force[r] - before.slip_force[r];
+      delta[r] = step.end[r] - step.origin[r];
       square += delta[r] * delta[r];
     }
     if (load <= 0 || square <= 0) continue;
     const double length = std::sqrt(square);
+    if (step.opened)
+      crossing_tangent<Directions>(prediction + d * earlier, prediction + d * n, step, rows.col(earlier).data(), row, k,
+                                   end);
     for (int r = 0; r < Directions; ++r)
-      load_slope += (load * delta[r] / length) * (tangent.slip_force.col(r) - tangent.previous.col(r));
+      load_slope +=
+          (load * delta[r] / length) * ((step.opened ? end : tangent.slip_force).col(r) - tangent.previous.col(r));
     if (loaded) load_slope.head(k) += (length / 2) * rows.col(n);
     if (loaded_before) load_slope.head(k) += (length / 2) * rows.col(earlier);
   }

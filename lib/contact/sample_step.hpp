@@ -11,6 +11,7 @@ struct Memory {
   double slip_force[2] = {0, 0};  ///< lambda_x,T, N
   double direction[2] = {1, 0};   ///< of lambda_T at the last slip (two tangential directions)
   bool slipped = false;           ///< at the last sample
+  bool separated = false;         ///< at the last sample
 };
 
 /// What one sample did.
@@ -20,17 +21,44 @@ struct Step {
   bool rotated = false;         ///< the second-order return was used
   double trial[2] = {0, 0};     ///< pre_T
   double limit = 0;             ///< mu lambda_N
+  double origin[2] = {0, 0};    ///< lambda_x,T where the loaded part of the interval before this sample begins, N
+  double end[2] = {0, 0};       ///< lambda_x,T where it ends
+  bool touched = false;         ///< it begins, or
+  bool opened = false;          ///< ends, inside the interval:
+  double crossing = 0;          ///< at this fraction of it
 };
 
-/// One sample of the contact law for `Directions` tangential directions; updates `memory`.
+/// One sample of the contact law for `Directions` tangential directions; updates `memory`. `previous` is the prediction
+/// of the sample before. A node that touches down sticks from there on. The second-order rule begins and ends contact
+/// where lambda_u,N, linear between the samples, passes zero, with lambda_x,T = lambda_u,T there; the first-order rule
+/// does so at the sample without force.
 template <int Directions>
-inline Step sample_step(const double* prediction, double friction, SlipReturn rule, Memory& memory) {
+inline Step sample_step(const double* previous, const double* prediction, double friction, SlipReturn rule,
+                        Memory& memory) {
   Step step;
   const double normal = prediction[0];
-  if (!(normal > 0)) {
-    for (int r = 0; r < Directions; ++r) memory.slip_force[r] = prediction[1 + r];
+  const bool loaded = normal > 0;
+  if (rule == SlipReturn::second_order && loaded == memory.separated && loaded != (previous[0] > 0)) {
+    (loaded ? step.touched : step.opened) = true;
+    step.crossing = previous[0] / (previous[0] - normal);
+  }
+  const auto at_crossing = [&](int r) {
+    return (1 - step.crossing) * previous[1 + r] + step.crossing * prediction[1 + r];
+  };
+  if (!loaded) {
+    for (int r = 0; r < Directions; ++r) {
+      step.origin[r] = memory.separated ? prediction[1 + r] : memory.slip_force[r];
+      step.end[r] = step.opened ? at_crossing(r) : prediction[1 + r];
+      memory.slip_force[r] = prediction[1 + r];
+    }
     memory.slipped = false;
+    memory.separated = true;
     return step;
+  }
+  memory.separated = false;
+  for (int r = 0; r < Directions; ++r) {
+    if (step.touched) memory.slip_force[r] = at_crossing(r);
+    step.origin[r] = step.end[r] = memory.slip_force[r];
   }
   step.force[0] = normal;
   step.limit = friction * normal;
@@ -69,7 +97,7 @@ inline Step sample_step(const double* prediction, double friction, SlipReturn ru
     step.force[1] = step.limit * direction[0];
     step.force[2] = step.limit * direction[1];
   }
-  for (int r = 0; r < Directions; ++r) memory.slip_force[r] = prediction[1 + r] - step.force[1 + r];
+  for (int r = 0; r < Directions; ++r) step.end[r] = memory.slip_force[r] = prediction[1 + r] - step.force[1 + r];
   memory.slipped = true;
   return step;
 }

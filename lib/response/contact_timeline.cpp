@@ -162,10 +162,12 @@ void ContactTimeline::locate_touches() {
     if (k > 0 && mode_at(n - 1) == ContactMode::open && table(0, n) > 0) {
       const Eigen::Vector3d at = value(touch(first + k - 1));
       for (Eigen::Index r = 0; r + 1 < d; ++r) memory.slip_force[r] = at(1 + r);
+      memory.separated = false;
     }
+    const double *before = table.col(wrapped(n - 1)).data(), *here = table.col(n).data();
     const contact::Step step =
-        d == 2 ? contact::sample_step<1>(table.col(n).data(), law_.friction, contact::SlipReturn::second_order, memory)
-               : contact::sample_step<2>(table.col(n).data(), law_.friction, contact::SlipReturn::second_order, memory);
+        d == 2 ? contact::sample_step<1>(before, here, law_.friction, contact::SlipReturn::second_order, memory)
+               : contact::sample_step<2>(before, here, law_.friction, contact::SlipReturn::second_order, memory);
     march_.state[static_cast<std::size_t>(n)] = step.state;
     for (Eigen::Index r = 0; r < d; ++r) march_.force(n, r) = step.force[r];
     for (Eigen::Index r = 1; r < d; ++r) march_.slip_force(n, r) = memory.slip_force[r - 1];

@@ -49,8 +49,7 @@ void truncation_errors(const SteadyResidual& residual, const ResidualState& stat
       total += march.force.row(n).norm();
       double exact = 0, truncated = 0;
       for (Eigen::Index r = 1; r < d; ++r) {
-        exact += march.force(n, r) * (march.slip_force(n, r) - march.slip_force(before, r)) /
-                 residual.penalty().tangential(i);
+        exact += march.force(n, r) * march.slip_step(n, r - 1) / residual.penalty().tangential(i);
         truncated += force(n, i * d + r) * (displacement(n, i * d + r) - displacement(before, i * d + r));
       }
       power_missed += std::abs(exact - truncated);

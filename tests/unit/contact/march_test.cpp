@@ -70,6 +70,7 @@ INSTANTIATE_TEST_SUITE_P(
     Mixtures, MarchDerivative,
     testing::Values(Mixture{"PlaneSlip", 2, 0.4, 3, 0.3, 1, SlipReturn::first_order},
                     Mixture{"PlaneLiftOff", 2, 0.4, 0.5, 1, 1, SlipReturn::first_order},
+                    Mixture{"PlaneLiftOffSecondOrder", 2, 0.4, 0.5, 1, 1, SlipReturn::second_order},
                     Mixture{"PlaneStick", 2, 5, 9, 0.1, 0.5, SlipReturn::first_order},
                     Mixture{"SpaceSlip", 3, 0.4, 3, 0.3, 1, SlipReturn::first_order},
                     Mixture{"SpaceLiftOff", 3, 0.4, 0.5, 1, 1, SlipReturn::first_order},

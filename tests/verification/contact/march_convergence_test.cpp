@@ -64,5 +64,40 @@ TEST(March, ConvergesToFineTimeIntegration) {
   EXPECT_LT(error(2048, SlipReturn::second_order), error(2048, SlipReturn::first_order));
 }
 
+// A node that lifts off and sticks when it touches down: where inside a sample contact begins decides the order, for
+// the slip under load and for the tangential force. (Where it slips at once, force and load begin at zero and both
+// rules are second order.)
+TEST(March, LiftsOffToSecondOrder) {
+  Eigen::MatrixXd plane(2, 5), space(3, 5);
+  plane << 0.5, 1, 0.3, 0.2, -0.1, 0.2, 1.5, 0.8, 0.3, 0.4;
+  space << 0.5, 1, 0.3, 0.2, -0.1, 0.2, 1.5, 0.8, 0.3, 0.4, -0.1, 0.4, -1.2, 0.2, 0.5;
+  for (const Eigen::MatrixXd& coefficients : {plane, space}) {
+    const NodeLaw law{.friction = 2.5, .tangential_penalty = 1};
+    const auto describe = [&](int samples, SlipReturn rule) {
+      const MarchResult result = run(coefficients, law, samples, rule);
+      // Mean and first harmonic of lambda_T, and the load on slip.
+      const FourierBasis basis(1, samples);
+      Eigen::VectorXd all(4);
+      all << result.slip_load, basis.analyse(result.force.col(1)).transpose();
+      return all;
+    };
+    const Eigen::VectorXd fine = describe(1 << 16, SlipReturn::second_order);
+    const auto error = [&](int samples, SlipReturn rule) -> Eigen::ArrayXd {
+      return (describe(samples, rule) - fine).array().abs() / (1 + fine.array().abs());
+    };
+    // Where a touch lies between two samples makes the error of one N erratic: the largest of a few.
+    const auto worst = [&](int samples, SlipReturn rule) {
+      double largest = 0;
+      for (const int extra : {0, 1, 2, 3, 5, 7}) largest = std::max(largest, error(samples + extra, rule).maxCoeff());
+      return largest;
+    };
+    // 16 times the samples: first order gains 16, second 256.
+    EXPECT_GT(worst(128, SlipReturn::second_order) / worst(2048, SlipReturn::second_order), 100);
+    EXPECT_LT(worst(128, SlipReturn::first_order) / worst(2048, SlipReturn::first_order), 40);
+    EXPECT_LT(worst(128, SlipReturn::second_order), worst(128, SlipReturn::first_order) / 4);
+    EXPECT_LT(worst(2048, SlipReturn::second_order), 1e-5);
+  }
+}
+
 }  // namespace
 }  // namespace dovetail::contact
