@@ -3,6 +3,7 @@
 #include <string>
 
 #include "response/problem.hpp"
+#include "response/rescue.hpp"
 #include "response/solve.hpp"
 
 namespace dovetail::response {
@@ -27,8 +28,12 @@ class Search {
   bool attempt(double ratio, const Eigen::MatrixXd& start, Method method,
                const std::shared_ptr<const Linearisation>& reuse = {}) {
     const SteadyResidual residual = problem(ratio);
-    Attempt found = solve(residual, start.size() > 0 ? start : residual.closed_start(), method, options_.tolerance,
-                          options_.max_iterations, reuse);
+    return keep(solve(residual, start.size() > 0 ? start : residual.closed_start(), method, options_.tolerance,
+                      options_.max_iterations, reuse),
+                ratio);
+  }
+
+  bool keep(Attempt found, double ratio) {
     iterations_ += found.iterations;
     evaluations_ += found.evaluations;
     if (found.status == Status::converged || best_.displacement.size() == 0 || found.residual < best_.residual) {
@@ -56,7 +61,9 @@ class Search {
       }
       return;
     }
-    if (options_.solver == "auto") attempt(1, {}, Method::powell);
+    if (options_.solver != "auto" || attempt(1, {}, Method::powell)) return;
+    if (options_.max_rescue_iterations > 0)
+      keep(rescue(model_, system_, condition_, options_, options_.max_rescue_iterations), 1);
   }
 
   [[nodiscard]] SteadyState result() const {

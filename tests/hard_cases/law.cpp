@@ -50,12 +50,14 @@ class Follower {
 Orbit periodic_orbit(const std::vector<Vector>& prediction, double friction, bool second_order,
                      const Vector& slip_force) {
   constexpr int kMaxPeriods = 20000;
+  constexpr double kRounding = 1e-16, kResolved = 1e-12;
   double largest = 0;
   for (const Vector& p : prediction) largest = std::max({largest, std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
   Follower follower(friction, second_order, slip_force);
   Orbit orbit;
   orbit.force.resize(prediction.size());
   orbit.slip_force.resize(prediction.size());
+  double previous = 0, ratio = 0;
   for (int period = 0; period < kMaxPeriods && !orbit.periodic; ++period) {
     const Vector before = follower.slip();
     for (std::size_t n = 0; n < prediction.size(); ++n) {
@@ -64,7 +66,10 @@ Orbit periodic_orbit(const std::vector<Vector>& prediction, double friction, boo
     }
     const Vector& after = follower.slip();
     const double change = std::hypot(after[1] - before[1], after[2] - before[2]);
-    orbit.periodic = change <= 1e-14 * largest;
+    if (change > kResolved * largest && previous > 0) ratio = std::min(change / previous, 1 - 1e-6);
+    orbit.periodic = change <= kRounding * largest || (change <= kResolved * largest && change >= previous);
+    orbit.uncertainty = (change + kRounding * largest) / (1 - ratio);
+    previous = change;
   }
   return orbit;
 }

@@ -13,6 +13,7 @@ struct Orbit {
   std::vector<Vector> force;       ///< lambda, N
   std::vector<Vector> slip_force;  ///< eps X: slip, and in the normal direction the opening (<= 0), N
   bool periodic = false;
+  double uncertainty = 0;  ///< distance to the periodic orbit: rounding, multiplied where slip dies out slowly, N
 };
 
 /// Unilateral contact and Coulomb friction followed from sample to sample: at every sample the force is the closest

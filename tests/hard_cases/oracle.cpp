@@ -197,7 +197,9 @@ Verdict examine(const Problem& problem, const Claim& claim) {
   if (!(scale > 0)) scale = 1;
   Verdict verdict;
   verdict.residual = distance(same.harmonics, sum.reaction) / scale;
-  verdict.rounding = 1e-14 * (sum.magnitude + norm(sum.load)) / scale;
+  double uncertainty = 1e-14 * (sum.magnitude + norm(sum.load));
+  for (const Orbit& orbit : same.orbits) uncertainty += orbit.uncertainty;
+  verdict.rounding = uncertainty / scale;
   verdict.fine_residual =
       distance(fine.harmonics, sum.reaction) / std::max(norm(sum.load) + norm(sum.reaction), 1e-300);
   for (const Marched* marched : {&same, &fine})

@@ -17,7 +17,7 @@ struct Claim {
 /// Findings of the independent check, all dimensionless.
 struct Verdict {
   double residual = 0;       ///< |F - Z U - lambda| on the engine's samples, relative to the excitation
-  double rounding = 0;       ///< what double precision leaves of that difference
+  double rounding = 0;       ///< what double precision leaves of that difference and of the check's own march
   double fine_residual = 0;  ///< the same on 16 times as many samples, relative to |F| + |lambda|
   double penetration = 0;    ///< largest u_N - g - W beyond what the truncation of the series leaves, relative
   double tension = 0;        ///< the same for pulling forces
