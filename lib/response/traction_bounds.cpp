@@ -52,32 +52,21 @@ struct Member {
 
 class Search {
  public:
-  Search(std::shared_ptr<const CondensedModel> model, double omega, ContactCondition condition, SteadyOptions options,
-         BoundedQuantity quantity, const TractionBoundsOptions& bounds)
-      : model_(std::move(model)),
-        omega_(omega),
-        condition_(std::move(condition)),
-        options_(std::move(options)),
-        quantity_(quantity),
-        bounds_(bounds),
-        limit_(bounds.max_solves) {
-    options_.linearise = true;
-  }
+  Search(FamilyQuantity quantity, const TractionBoundsOptions& bounds)
+      : quantity_(std::move(quantity)), bounds_(bounds), limit_(bounds.max_solves) {}
 
   TractionBounds run(const Eigen::MatrixXd& guess) {
     TractionBounds result;
-    Member nominal{.value = 0, .traction = {}, .state = solve(condition_.slip_origin, guess)};
-    result.solves = solves_;
+    Member nominal{.value = 0, .traction = {}, .state = quantity_.solve({}, guess)};
+    result.solves = quantity_.solves();
     result.status = nominal.state.status;
     if (nominal.state.status != Status::converged) {
       result.reason = "the state with the slip origin given did not converge";
       return result;
     }
-    nominal.value = value(nominal.state);
-    omega_ = nominal.state.omega;
-    // Slip that is rounding next to the energy the excitation puts in is none.
-    if (quantity_ == BoundedQuantity::friction_energy) scale_ = std::abs(nominal.state.input_energy);
-    if (quantity_ == BoundedQuantity::wear_rate) scale_ = wear_scale(nominal.state);
+    nominal.value = quantity_.value(nominal.state);
+    scale_ = quantity_.scale(nominal.state);
+    quantity_.follow(nominal.state.omega);
     family_.emplace(nominal.state);
     nominal.traction = family_->nominal();
     result.nominal = result.minimum = result.maximum = attained(nominal);
@@ -93,7 +82,7 @@ class Search {
                        [&](const Member& a, const Member& b) { return sense * a.value > sense * b.value; });
       family_.emplace(nominal.state);
       // Each side may use what is left in equal parts.
-      limit_ = sense < 0 ? (solves_ + bounds_.max_solves) / 2 : bounds_.max_solves;
+      limit_ = sense < 0 ? (quantity_.solves() + bounds_.max_solves) / 2 : bounds_.max_solves;
       // The most promising starts and the given state; others lead to the same ends more slowly.
       constexpr std::size_t kClimbs = 3;
       Member best = members.front();
@@ -104,7 +93,7 @@ class Search {
       cut_short = cut_short || exhausted();
       (sense < 0 ? result.minimum : result.maximum) = attained(best);
     }
-    result.solves = solves_;
+    result.solves = quantity_.solves();
     result.failed = failed_;
     result.status = cut_short ? Status::iteration_limit : Status::converged;
     result.reason = cut_short ? "attained values; the search was ended by max_solves"
@@ -113,84 +102,7 @@ class Search {
   }
 
  private:
-  [[nodiscard]] bool exhausted() const { return solves_ >= limit_; }
-
-  SteadyState solve(const Eigen::MatrixXd& origin, const Eigen::MatrixXd& guess) {
-    ++solves_;
-    ContactCondition condition = condition_;
-    condition.slip_origin = origin;
-    if (quantity_ != BoundedQuantity::resonance_amplitude && quantity_ != BoundedQuantity::resonance_frequency)
-      return steady_state(model_, omega_, condition, options_, guess);
-    // Members are tracked from the nominal resonance: another peak is no answer.
-    const ResonanceOptions near{
-        .output = bounds_.output, .search_range = bounds_.resonance_search_range, .sweep_range = 0};
-    Resonance found = resonance(model_, omega_, condition, options_, near, guess);
-    found.state.status = found.status;
-    return std::move(found.state);
-  }
-
-  [[nodiscard]] Eigen::VectorXd weights() const {
-    const reduction::ContactNodes& contact = model_->contact();
-    // Volume is area times depth, so areas cancel.
-    return quantity_ == BoundedQuantity::wear_rate ? contact.wear_coefficient : contact.friction;
-  }
-
-  // The wear of all that energy at the largest ratio of wear to friction.
-  [[nodiscard]] double wear_scale(const SteadyState& state) const {
-    double ratio = 0;
-    for (Eigen::Index i = 0; i < model_->nodes(); ++i)
-      if (model_->contact().friction(i) > 0)
-        ratio = std::max(ratio, model_->contact().wear_coefficient(i) / model_->contact().friction(i));
-    return ratio * std::abs(state.input_energy);
-  }
-
-  [[nodiscard]] double value(const SteadyState& state) const {
-    switch (quantity_) {
-      case BoundedQuantity::friction_energy:
-        return state.friction_energy;
-      case BoundedQuantity::wear_rate:
-        return model_->contact().area.dot(state.wear_rate);
-      case BoundedQuantity::resonance_frequency:
-        return state.omega;
-      case BoundedQuantity::amplitude:
-      case BoundedQuantity::resonance_amplitude:
-        break;
-    }
-    return state.amplitudes(bounds_.output);
-  }
-
-  // dq/dX_T. The amplitude at a resonance is stationary in frequency, so its gradient is that at constant frequency.
-  Eigen::MatrixXd gradient(const Member& member) {
-    switch (quantity_) {
-      case BoundedQuantity::friction_energy:
-      case BoundedQuantity::wear_rate:
-        return slip_load_to_slip_origin(member.state, weights());
-      case BoundedQuantity::resonance_frequency:
-        return frequency_gradient(member);
-      case BoundedQuantity::amplitude:
-      case BoundedQuantity::resonance_amplitude:
-        break;
-    }
-    return amplitude_to_slip_origin(member.state, bounds_.output);
-  }
-
-  // dw/dX = -(d2A/dw dX) / (d2A/dw2), both by central differences of exact first derivatives.
-  Eigen::MatrixXd frequency_gradient(const Member& member) {
-    Eigen::MatrixXd mixed = Eigen::MatrixXd::Zero(model_->nodes(), model_->directions() - 1);
-    double curvature = 0;
-    constexpr double kStep = 1e-5;
-    for (const double side : {-1.0, 1.0}) {
-      ContactCondition condition = condition_;
-      condition.slip_origin = member.state.linearisation->residual().condition().slip_origin;
-      const SteadyState near =
-          steady_state(model_, member.state.omega * (1 + side * kStep), condition, options_, member.state.displacement);
-      ++solves_;
-      if (near.status != Status::converged) return Eigen::MatrixXd::Zero(mixed.rows(), mixed.cols());
-      mixed += side * amplitude_to_slip_origin(near, bounds_.output);
-      curvature += side * amplitude_slope(near, bounds_.output).slope;
-    }
-    return curvature < 0 ? Eigen::MatrixXd(mixed / -curvature) : Eigen::MatrixXd::Zero(mixed.rows(), mixed.cols());
-  }
+  [[nodiscard]] bool exhausted() const { return quantity_.solves() >= limit_; }
 
   // The member with these tractions, or as near to them as the march lets it come.
   std::optional<Member> evaluate(const Eigen::MatrixXd& traction, const Member& from) {
@@ -206,7 +118,8 @@ class Search {
     if (exhausted()) return {};
     const Eigen::MatrixXd& before = origin_of(from);
     Member member;
-    member.state = solve(origin, from.state.displacement + response_to_slip_origin(from.state, origin - before));
+    member.state =
+        quantity_.solve(origin, from.state.displacement + response_to_slip_origin(from.state, origin - before));
     if (member.state.status == Status::converged && slid(member.state) && !exhausted()) {
       // Started from where it ended, the same state has derivatives with respect to all its tractions.
       // A hair inside, lest rounding slips a node that stands at its limit.
@@ -215,14 +128,14 @@ class Search {
       Eigen::MatrixXd settled = origin;
       for (const Eigen::Index i : family_->nodes())
         settled.row(i) = member.state.slip_end.row(i) + kInside * (relaxed.row(i) - member.state.slip_end.row(i));
-      SteadyState again = solve(settled, member.state.displacement);
+      SteadyState again = quantity_.solve(settled, member.state.displacement);
       if (again.status == Status::converged) member.state = std::move(again);
     }
     if (member.state.status != Status::converged || !member.state.linearisation) {
       ++failed_;
       return {};
     }
-    member.value = value(member.state);
+    member.value = quantity_.value(member.state);
     member.traction = family_->traction(member.state);
     return member;
   }
@@ -271,7 +184,7 @@ class Search {
   void climb(Member at, double sense, Member& best) {
     constexpr int kSteps = 40;
     for (int step = 0; step < kSteps && !exhausted(); ++step) {
-      const Eigen::MatrixXd by_origin = sense * gradient(at);
+      const Eigen::MatrixXd by_origin = sense * quantity_.gradient(at.state);
       const Eigen::MatrixXd slope = family_->gradient(by_origin);
       const double largest = slope.rowwise().norm().maxCoeff();
       if (!(largest > 0)) break;
@@ -317,7 +230,7 @@ class Search {
         const double before = best.value;
         for (const Eigen::Index i : family_->nodes())
           for (Eigen::Index r = 0; r < best.traction.cols(); ++r) {
-            Eigen::MatrixXd move = Eigen::MatrixXd::Zero(model_->nodes(), best.traction.cols());
+            Eigen::MatrixXd move = Eigen::MatrixXd::Zero(quantity_.model().nodes(), best.traction.cols());
             move(i, r) = step * family_->reach()(i);
             if (!take(evaluate_origin(origin_of(best) + move, best)))
               take(evaluate_origin(origin_of(best) - move, best));
@@ -350,37 +263,17 @@ class Search {
     return {.value = member.value,
             .omega = member.state.omega,
             .slip_origin = member.state.linearisation->residual().condition().slip_origin,
-            .traction = mean_tractions(member.state, model_->contact().friction)};
+            .traction = mean_tractions(member.state, quantity_.model().contact().friction)};
   }
 
-  std::shared_ptr<const CondensedModel> model_;
-  double omega_;
-  ContactCondition condition_;
-  SteadyOptions options_;
-  BoundedQuantity quantity_;
+  FamilyQuantity quantity_;
   const TractionBoundsOptions& bounds_;
   std::optional<TractionFamily> family_;
   double scale_ = 0;  // gains are measured against it when it is larger than the value
-  int solves_ = 0, failed_ = 0, limit_ = 0;
+  int failed_ = 0, limit_ = 0;
 };
 
 }  // namespace
-
-std::string_view to_string(BoundedQuantity quantity) {
-  switch (quantity) {
-    case BoundedQuantity::amplitude:
-      return "amplitude";
-    case BoundedQuantity::friction_energy:
-      return "friction_energy";
-    case BoundedQuantity::wear_rate:
-      return "wear_rate";
-    case BoundedQuantity::resonance_amplitude:
-      return "resonance_amplitude";
-    case BoundedQuantity::resonance_frequency:
-      return "resonance_frequency";
-  }
-  return "unknown";
-}
 
 TractionBounds traction_bounds(const std::shared_ptr<const CondensedModel>& model, double omega,
                                const ContactCondition& condition, const SteadyOptions& options,
@@ -395,7 +288,8 @@ TractionBounds traction_bounds(const std::shared_ptr<const CondensedModel>& mode
                      .value = std::to_string(bounds.output),
                      .allowed = "must be < " + std::to_string(outputs)});
   if (!found.empty()) throw InputError(std::move(found));
-  return Search(model, omega, condition, options, quantity, bounds).run(guess);
+  return Search({model, quantity, bounds.output, omega, bounds.resonance_search_range, condition, options}, bounds)
+      .run(guess);
 }
 
 }  // namespace dovetail::response

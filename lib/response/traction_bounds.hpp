@@ -3,24 +3,12 @@
 #include <Eigen/Core>
 #include <memory>
 #include <string>
-#include <string_view>
 
 #include "core/options.hpp"
-#include "response/resonance.hpp"
+#include "response/bounded_quantity.hpp"
 #include "response/steady_state.hpp"
 
 namespace dovetail::response {
-
-/// What is bounded over the residual tractions.
-enum class BoundedQuantity {
-  amplitude,            ///< half peak-to-peak of one output at the frequency given
-  friction_energy,      ///< J per cycle
-  wear_rate,            ///< sum over nodes of area times depth per cycle, m^3
-  resonance_amplitude,  ///< amplitude at the maximum of the response curve near the frequency given
-  resonance_frequency,  ///< rad/s
-};
-
-[[nodiscard]] std::string_view to_string(BoundedQuantity quantity);
 
 struct TractionBoundsOptions {
   int output = 0;           ///< of the amplitudes and the resonance, [0, n_out)

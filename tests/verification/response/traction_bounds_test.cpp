@@ -198,9 +198,6 @@ TEST(TractionBounds, OfAResonanceMatchAGrid) {
     small = std::min(small, found.amplitude);
     large = std::max(large, found.amplitude);
   }
-  std::printf("w .8f %.8f] bounds [%.8f %.8f] %d; A .8f %.8f] bounds [%.8f %.8f] %d\n", low, high,
-              frequency.minimum.value, frequency.maximum.value, frequency.solves, small, large, amplitude.minimum.value,
-              amplitude.maximum.value, amplitude.solves);
   // The resonance is resolved to 1e-7.
   EXPECT_LE(frequency.minimum.value, low * (1 + 1e-6));
   EXPECT_GE(frequency.maximum.value, high * (1 - 1e-6));
