@@ -101,7 +101,8 @@ void define_study_commands(CLI::App& app, Arguments& a) {
   add_json(*evaluate, a.evaluate.json);
   evaluate->callback([&a] {
     a.command = [&a](const Streams& s) {
-      a.evaluate.overrides = with_solver(a.overrides(), a.solver);
+      a.evaluate.overrides = a.overrides();
+      a.evaluate.solver = a.solver;
       return run_evaluate(a.evaluate, s);
     };
   });
@@ -186,7 +187,8 @@ void define_model_commands(CLI::App& app, Arguments& a) {
       "retuned, until the resonance stays); the worn volume may differ by tens of per cent. JSON: {\"method\", "
       "\"status\",\n"
       "\"follow\", \"frequency_hz\", \"frequencies_hz\", \"cycles\", \"worn_volume_m3\", \"depth_m\",\n"
-      "\"final_wear_rate_m_per_cycle\", \"solves\"}. A history that reached --cycles while still wearing has the "
+      "\"final_wear_rate_m_per_cycle\", \"solves\", \"settings\"[, \"error_bars\"]}. A history that reached --cycles "
+      "while still wearing has the "
       "status\n"
       "no_asymptote, one that used up --steps not_converged.");
   wear->add_option("INPUT", a.wear.input, kInput)->required()->type_name("");
@@ -205,6 +207,9 @@ void define_model_commands(CLI::App& app, Arguments& a) {
   wear->add_option("--steps", a.wear.steps, "history: steps at most (default: 200)")->type_name("N");
   wear->add_option("--increment", a.wear.increment_m, "history: largest increase of depth per step, m (default: 1e-7)")
       ->type_name("M");
+  wear->add_flag(
+      "--error-bars", a.wear.error_bars,
+      "How far harmonics, samples and pseudo-penalty may have moved volume and depth: four computations more");
   add_set(*wear, a);
   add_solver(*wear, a);
   add_json(*wear, a.wear.json);

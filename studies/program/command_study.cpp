@@ -12,6 +12,7 @@
 #include "studies/program/engine.hpp"
 #include "studies/program/json.hpp"
 #include "studies/program/study_template.hpp"
+#include "studies/program/truncation_choice.hpp"
 
 namespace dovetail::studies {
 
@@ -72,15 +73,21 @@ std::string evaluation_table(const optimizer::Evaluation& evaluation) {
 }  // namespace
 
 int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
-  const Study study = load_study(options.study, options.overrides);
-  optimizer::Evaluation evaluation = scene_evaluator(study)->evaluate(study.scene).evaluation;
+  check_accuracy(options.solver);
+  Study study = load_study(options.study, with_solver(options.overrides, options.solver));
+  const std::shared_ptr<const optimizer::SceneEvaluator> evaluator = scene_evaluator(study);
+  const std::optional<Status> automatic = choose_truncation(study.scene, *evaluator, options.solver);
+  optimizer::Evaluation evaluation = evaluator->evaluate(study.scene).evaluation;
+  if (automatic && *automatic != Status::converged)
+    evaluation.messages.push_back(
+        truncation_complaint(*automatic, optimizer::steady_options(study.scene.solver), options.solver));
   if (!study.problem.objective.empty() || !study.problem.constraints.empty())
     optimizer::annotate(study.problem, study.optimizer.constraint_tolerance, evaluation);
   deliver_json(options.json, evaluation_json(evaluation), streams);
   if (options.json != "-") streams.out << evaluation_table(evaluation);
   if (evaluation.status == "infeasible") throw infeasible(options.study, evaluation.messages);
   for (const std::string& message : evaluation.messages) streams.err << "dovetail: " << message << "\n";
-  if (evaluation.converged()) return kDone;
+  if (evaluation.converged()) return automatic && *automatic != Status::converged ? kNotConverged : kDone;
   streams.err << "dovetail: " << options.study << ": not converged: " << evaluation.status << "\n";
   return kNotConverged;
 }

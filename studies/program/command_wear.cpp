@@ -1,16 +1,19 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <optional>
 #include <ostream>
 
 #include "response/resonance.hpp"
+#include "response/truncation.hpp"
 #include "studies/program/commands.hpp"
 #include "studies/program/engine.hpp"
 #include "studies/program/interrupt.hpp"
 #include "studies/program/json.hpp"
 #include "studies/program/progress.hpp"
+#include "studies/program/truncation_choice.hpp"
 
 namespace dovetail::studies {
 namespace {
@@ -110,6 +113,41 @@ FollowedAsymptote asymptote(const WearOptions& options, const LoadedModel& loade
   return result;
 }
 
+/// What is left of a worn state for its error bars; NaN where wear did not come to an end.
+struct WornState {
+  double volume = std::nan(""), depth = std::nan("");
+};
+
+/// Error bars of a worn state: it is computed again from the start at the settings of response::error_bars.
+WearBars worn_bars(const LoadedModel& loaded, const WornState& nominal,
+                   const std::function<WornState(const LoadedModel&)>& compute) {
+  const auto changed = [&](response::SteadyOptions settings) {
+    LoadedModel again = loaded;
+    again.steady = std::move(settings);
+    return compute(again);
+  };
+  const auto scaled = [&](double ratio) {
+    response::SteadyOptions settings = loaded.steady;
+    settings.penalty_scale *= ratio;
+    return changed(settings);
+  };
+  const WornState harmonics = changed(response::more_harmonics(loaded.steady));
+  const WornState samples = changed(response::more_samples(loaded.steady));
+  const WornState softer = scaled(0.5), stiffer = scaled(2);
+  const auto bar = [&](double WornState::*value) {
+    const auto change = [&](const WornState& other) {
+      const double difference = std::abs(other.*value - nominal.*value);
+      return std::isnan(difference) ? kInfinity : difference;  // not computed: unknown
+    };
+    return response::bar_from({.harmonics = change(harmonics),
+                               .samples = change(samples),
+                               .softer = change(softer),
+                               .stiffer = change(stiffer)},
+                              loaded.condensed->massless_contact());
+  };
+  return {.worn_volume = bar(&WornState::volume), .largest_depth = bar(&WornState::depth)};
+}
+
 std::string summary(const std::string& status, double hz, const std::string& follow, double volume, double depth,
                     int solves) {
   return fmt::format(
@@ -130,8 +168,19 @@ int verdict(const std::string& input, const std::string& status, Status solver, 
   return kNotConverged;
 }
 
-int with_history(const WearOptions& options, const LoadedModel& loaded, const Start& at, const wear::Control& control,
-                 const OrderlyInterrupt& interrupt, const Streams& streams) {
+/// The two methods behind one face.
+struct Answer {
+  std::string json, status;
+  Status solver = Status::converged;
+  WornState worn;
+  double volume = 0, depth = 0;  ///< of the last state, worn out or not
+  int solves = 0;
+};
+
+using JsonQuestion = std::function<WearQuestion(const WornState&)>;
+
+Answer by_history(const WearOptions& options, const LoadedModel& loaded, const Start& at, const wear::Control& control,
+                  const JsonQuestion& question) {
   wear::HistoryOptions settings;
   settings.follow = options.follow;
   settings.cycles = options.cycles.value_or(settings.cycles);
@@ -139,33 +188,58 @@ int with_history(const WearOptions& options, const LoadedModel& loaded, const St
   settings.increment = options.increment_m.value_or(settings.increment);
   wear::History history = wear::history(loaded.condensed, at.omega, {}, loaded.steady, settings, {}, control);
   if (at.resonance) history.solves += at.resonance->solves;
-  const std::string status = wear_status(history);
-  const WearQuestion question{.frequency_hz = at.hz, .follow = options.follow};
-  deliver_json(options.json, history_json(question, history), streams);
-  const Eigen::Index last = history.depth.rows() - 1;
-  if (options.json.empty())
-    streams.out << summary(status, question.frequency_hz, options.follow, last < 0 ? 0 : history.worn_volume[last],
-                           last < 0 ? 0 : largest(history.depth.row(last).transpose()), history.solves);
-  const Status solver = history.end == wear::HistoryEnd::steps ? Status::iteration_limit : history.status;
-  return verdict(options.input, status, solver, interrupt.requested(), streams);
+  Answer answer;
+  answer.status = wear_status(history);
+  answer.solver = history.end == wear::HistoryEnd::steps ? Status::iteration_limit : history.status;
+  answer.solves = history.solves;
+  if (const Eigen::Index last = history.depth.rows() - 1; last >= 0) {
+    answer.volume = history.worn_volume[last];
+    answer.depth = largest(history.depth.row(last).transpose());
+    if (answer.status != "not_converged") answer.worn = {.volume = answer.volume, .depth = answer.depth};
+  }
+  if (question) answer.json = history_json(question(answer.worn), history);
+  return answer;
+}
+
+Answer by_asymptote(const WearOptions& options, const LoadedModel& loaded, const Start& at,
+                    const wear::Control& control, const JsonQuestion& question) {
+  const FollowedAsymptote found = asymptote(options, loaded, at, control);
+  Answer answer;
+  answer.status = std::string(wear::to_string(found.asymptote.verdict));
+  answer.solver = found.asymptote.status;
+  answer.solves = found.solves;
+  answer.volume = found.asymptote.worn_volume;
+  answer.depth = largest(found.asymptote.depth);
+  if (answer.status == "asymptote") answer.worn = {.volume = answer.volume, .depth = answer.depth};
+  if (question)
+    answer.json = asymptote_json(question(answer.worn), found.asymptote, found.frequencies_hz, found.solves);
+  return answer;
 }
 
 }  // namespace
 
 int run_wear(const WearOptions& options, const Streams& streams) {
   validate(options);
-  const LoadedModel loaded = load_model(options.input, options.overrides, options.solver);
+  check_accuracy(options.solver);
+  LoadedModel loaded = load_model(options.input, options.overrides, options.solver);
   const auto failed = [&](const std::string& why) {
-    streams.err << "dovetail: " << options.input << ": not converged: " << why << "\n";
+    streams.err << "dovetail: " << options.input << ": " << why << "\n";
     return static_cast<int>(kNotConverged);
   };
-  if (!loaded.failure.empty()) return failed(loaded.failure);
+  if (!loaded.failure.empty()) return failed("not converged: " + loaded.failure);
   if (loaded.model.contact.count() == 0)
     throw InputError(
         Violation{.file = {}, .key = options.input, .value = {}, .allowed = "has no contact nodes: nothing can wear"});
-  const Start at = start(options, loaded);
-  if (at.resonance && at.resonance->status != Status::converged)
-    return failed("unworn resonance: " + std::string(to_string(at.resonance->status)) + "; give --frequency HZ");
+  Start at = start(options, loaded);
+  const auto found = [&] { return !at.resonance || at.resonance->status == Status::converged; };
+  std::optional<Status> automatic;
+  if (found() && options.solver.automatic()) {
+    automatic = choose_truncation(loaded, {at.hz}, options.solver);
+    at = start(options, loaded);
+  }
+  if (!found())
+    return failed("not converged: unworn resonance: " + std::string(to_string(at.resonance->status)) +
+                  "; give --frequency HZ");
 
   const OrderlyInterrupt interrupt;
   wear::Control control;
@@ -177,17 +251,30 @@ int run_wear(const WearOptions& options, const Streams& streams) {
                                  volume, rate)
                   << std::flush;
     };
-  if (options.method == "history") return with_history(options, loaded, at, control, interrupt, streams);
-
-  const FollowedAsymptote found = asymptote(options, loaded, at, control);
+  const auto compute = [&](const LoadedModel& model, const Start& from, const JsonQuestion& question) {
+    return options.method == "history" ? by_history(options, model, from, control, question)
+                                       : by_asymptote(options, model, from, control, question);
+  };
+  const auto again = [&](const LoadedModel& model) {
+    if (interrupt.requested()) return WornState{};
+    const Start from = start(options, model);
+    if (from.resonance && from.resonance->status != Status::converged) return WornState{};
+    return compute(model, from, {}).worn;
+  };
+  const Answer answer = compute(loaded, at, [&](const WornState& worn) {
+    WearQuestion question{.frequency_hz = at.hz, .follow = options.follow, .settings = loaded.steady};
+    if (automatic) question.automatic = WearQuestion::Automatic{*automatic, accuracy(options.solver)};
+    if (options.error_bars) question.bars = worn_bars(loaded, worn, again);
+    return question;
+  });
   if (terminal) streams.err << "\r\033[K" << std::flush;
-  const WearQuestion question{.frequency_hz = at.hz, .follow = options.follow};
-  deliver_json(options.json, asymptote_json(question, found.asymptote, found.frequencies_hz, found.solves), streams);
-  const std::string status(wear::to_string(found.asymptote.verdict));
+  deliver_json(options.json, answer.json, streams);
   if (options.json.empty())
-    streams.out << summary(status, question.frequency_hz, options.follow, found.asymptote.worn_volume,
-                           largest(found.asymptote.depth), found.solves);
-  return verdict(options.input, status, found.asymptote.status, interrupt.requested(), streams);
+    streams.out << summary(answer.status, at.hz, options.follow, answer.volume, answer.depth, answer.solves);
+  const int end = verdict(options.input, answer.status, answer.solver, interrupt.requested(), streams);
+  if (end == kDone && automatic && *automatic != Status::converged)
+    return failed(truncation_complaint(*automatic, loaded.steady, options.solver));
+  return end;
 }
 
 }  // namespace dovetail::studies

@@ -38,20 +38,6 @@ struct NewOptions {
 };
 int run_new(const NewOptions& options, const Streams& streams);
 
-struct EvaluateOptions {
-  std::string study;
-  std::vector<Override> overrides;
-  std::string json;  ///< file, "-" for standard output, empty for a table on standard output
-};
-int run_evaluate(const EvaluateOptions& options, const Streams& streams);
-
-struct ReduceOptions {
-  std::string study;
-  std::string model;
-  std::vector<Override> overrides;
-};
-int run_reduce(const ReduceOptions& options, const Streams& streams);
-
 /// Settings shared by the commands that take a model or a study; absent ones keep the file's or the default.
 struct SolverOverrides {
   std::optional<int> harmonics, samples;
@@ -64,6 +50,21 @@ struct SolverOverrides {
 
   [[nodiscard]] bool automatic() const { return automatic_harmonics || automatic_samples; }
 };
+
+struct EvaluateOptions {
+  std::string study;
+  std::vector<Override> overrides;
+  SolverOverrides solver;
+  std::string json;  ///< file, "-" for standard output, empty for a table on standard output
+};
+int run_evaluate(const EvaluateOptions& options, const Streams& streams);
+
+struct ReduceOptions {
+  std::string study;
+  std::string model;
+  std::vector<Override> overrides;
+};
+int run_reduce(const ReduceOptions& options, const Streams& streams);
 
 /// What is computed of each point of a response besides itself.
 struct AnalysisChoice {
@@ -94,6 +95,7 @@ struct WearOptions {
   std::optional<double> cycles;        ///< history
   std::optional<int> steps;            ///< history
   std::optional<double> increment_m;   ///< history
+  bool error_bars = false;
   std::string json;
 };
 int run_wear(const WearOptions& options, const Streams& streams);

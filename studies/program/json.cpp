@@ -13,6 +13,17 @@ Json wear_json(const std::string& method, const std::string& status, const WearQ
   json["status"] = status;
   json["follow"] = question.follow;
   json["frequency_hz"] = number(question.frequency_hz);
+  Json& settings = json["settings"];
+  settings["harmonics"] = question.settings.harmonics;
+  settings["samples"] = question.settings.samples;
+  settings["tolerance"] = number(question.settings.tolerance);
+  settings["solver"] = question.settings.solver;
+  if (question.automatic)
+    settings["automatic"] = Json{{"status", std::string(to_string(question.automatic->status))},
+                                 {"accuracy", number(question.automatic->accuracy)}};
+  if (question.bars)
+    json["error_bars"] = Json{{"worn_volume_m3", number(question.bars->worn_volume)},
+                              {"largest_depth_m", number(question.bars->largest_depth)}};
   return json;
 }
 

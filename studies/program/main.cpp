@@ -1,3 +1,5 @@
+#include <malloc.h>
+
 #include <iostream>
 
 #include "numerics/dense_lu.hpp"
@@ -8,6 +10,11 @@ int main(int argc, char** argv) {
   // Candidates are evaluated side by side: threads of OpenBLAS within each would only compete with the others, and one
   // thread gives the same digits whatever the machine.
   dovetail::numerics::set_blas_threads(1);
+  // Jacobians of tens of megabytes come and go in every iteration: memory given back to the system each time would have
+  // to be mapped page by page again, which takes longer than filling it.
+  constexpr int kKept = 1 << 30;
+  ::mallopt(M_MMAP_THRESHOLD, kKept);
+  ::mallopt(M_TRIM_THRESHOLD, kKept);
   dovetail::studies::install_interrupt_handler();
   return dovetail::studies::run_program(argc, argv, {.out = std::cout, .err = std::cerr});
 }

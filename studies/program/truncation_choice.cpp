@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "response/automatic.hpp"
+#include "response/resonance.hpp"
 
 namespace dovetail::studies {
 namespace {
@@ -41,6 +42,23 @@ std::optional<Status> choose_truncation(LoadedModel& loaded, const std::vector<d
       response::automatic_settings(loaded.condensed, omega, {}, loaded.steady, options);
   loaded.steady = chosen.options;
   return chosen.status;
+}
+
+std::optional<Status> choose_truncation(optimizer::Scene& scene, const optimizer::SceneEvaluator& evaluator,
+                                        const SolverOverrides& solver) {
+  if (!solver.automatic()) return std::nullopt;
+  const optimizer::CandidateModel candidate = evaluator.builder().build(scene);
+  if (!candidate.converged()) return std::nullopt;
+  LoadedModel loaded;
+  loaded.condensed = candidate.condensed;
+  loaded.steady = optimizer::steady_options(scene.solver);
+  const double glued = candidate.reduction.glued_frequencies(scene.loading.mode - 1);
+  const response::Resonance resonance = response::resonance(loaded.condensed, glued, {}, loaded.steady);
+  if (resonance.status != Status::converged) return std::nullopt;
+  const std::optional<Status> status = choose_truncation(loaded, {resonance.omega / (2 * std::numbers::pi)}, solver);
+  scene.solver.harmonics = loaded.steady.harmonics;
+  scene.solver.samples = loaded.steady.samples;
+  return status;
 }
 
 std::string truncation_complaint(Status status, const response::SteadyOptions& reached, const SolverOverrides& solver) {

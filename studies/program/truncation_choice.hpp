@@ -19,6 +19,11 @@ void check_accuracy(const SolverOverrides& solver);
 std::optional<Status> choose_truncation(LoadedModel& loaded, const std::vector<double>& hz,
                                         const SolverOverrides& solver);
 
+/// The same for a scene, at its unworn resonance. Nothing is chosen where its model does not exist: evaluating it says
+/// why.
+std::optional<Status> choose_truncation(optimizer::Scene& scene, const optimizer::SceneEvaluator& evaluator,
+                                        const SolverOverrides& solver);
+
 /// One sentence about a choice that did not reach the accuracy.
 [[nodiscard]] std::string truncation_complaint(Status status, const response::SteadyOptions& reached,
                                                const SolverOverrides& solver);
