@@ -40,11 +40,13 @@ struct TractionBounds {
 
 /// Nodes that stay stuck all the period keep the tractions their history left them, |m| <= 1 of mu lambda_N: the
 /// response is a family with the slip origins X_T as its parameters. This searches it for the smallest and largest
-/// value of one quantity: from the given state, from corners of the admissible set |m| <= 1 and from the corners the
-/// gradient points to, it climbs along projected gradients, each value being a steady state solved from an admissible
-/// slip origin (a node whose traction does not fit slips in the march until it does). The gradient is exact where nodes
-/// never slipped. Mean tractions relate to slip origins by the static stiffness with the nominal contact states.
+/// value of one quantity: from the given state, corners and inner points of |m| <= 1 it climbs along exact gradients,
+/// then tries single origins and random changes, which kinks need; where other nodes stick than in the given state, it
+/// goes on with those. Each value belongs to a steady state solved from a slip origin: a node whose traction does not
+/// fit slips in the march until it does, so every member is admissible. Residual tractions only matter where they
+/// change normal forces; otherwise they shift means, and minimum and maximum agree.
 ///
+/// Without stuck nodes in the given state there is nothing to search from: minimum, maximum and nominal are equal.
 /// `omega` rad/s; near the resonance for the resonance quantities. `guess` is U of a nearby state or empty.
 [[nodiscard]] TractionBounds traction_bounds(const std::shared_ptr<const CondensedModel>& model, double omega,
                                              const ContactCondition& condition, const SteadyOptions& options,
