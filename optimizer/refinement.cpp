@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "response/peak_shift.hpp"
+#include "response/refined_state.hpp"
 #include "wear/archard.hpp"
 
 namespace dovetail::optimizer {
@@ -19,13 +21,7 @@ response::SteadyOptions refined(response::SteadyOptions options) {
   return options;
 }
 
-Eigen::MatrixXd padded(const Eigen::MatrixXd& coefficients, int harmonics) {
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(coefficients.rows(), 2 * harmonics + 1);
-  result.leftCols(coefficients.cols()) = coefficients;
-  return result;
-}
-
-/// How far a resonance moves under finer settings: one Newton step on dA/dw with its slope by a difference.
+/// How far a resonance and its friction energy move under finer settings.
 struct ResonanceChange {
   double omega = kUnknown, amplitude = kUnknown, friction_energy = kUnknown;
 };
@@ -33,25 +29,11 @@ struct ResonanceChange {
 ResonanceChange resonance_change(const CandidateModel& model, const response::Resonance& at,
                                  const Eigen::VectorXd& depth, const response::SteadyOptions& finer) {
   const response::ContactCondition condition{.wear_depth = depth, .released = {}, .slip_origin = {}};
-  const Eigen::MatrixXd guess = padded(at.state.displacement, finer.harmonics);
-  // A hundredth of the peak's width even at a damping ratio of 1e-3: dA/dw is close to linear over it.
-  const double step = 1e-5 * at.omega;
-  const response::SteadyState here = response::steady_state(model.condensed, at.omega, condition, finer, guess);
-  if (here.status != Status::converged) return {};
-  const response::SteadyState beside =
-      response::steady_state(model.condensed, at.omega + step, condition, finer, here.displacement);
-  if (beside.status != Status::converged) return {};
-  const response::AmplitudeSlope a = response::amplitude_slope(here, 0);
-  const response::AmplitudeSlope b = response::amplitude_slope(beside, 0);
-  const double curvature = (b.slope - a.slope) / step;
-  ResonanceChange change{.omega = kUnknown,
-                         .amplitude = std::abs(a.amplitude - at.amplitude),
-                         .friction_energy = std::abs(here.friction_energy - at.state.friction_energy)};
-  if (curvature < 0) {
-    change.omega = std::abs(a.slope / curvature);
-    change.amplitude += a.slope * a.slope / (2 * std::abs(curvature));
-  }
-  return change;
+  const response::PeakShift shift = response::peak_shift(model.condensed, at, 0, condition, finer);
+  if (shift.state.status != Status::converged) return {};
+  return {.omega = shift.omega,
+          .amplitude = shift.amplitude,
+          .friction_energy = std::abs(shift.state.friction_energy - at.state.friction_energy)};
 }
 
 void wear_bars(const CandidateResult& result, const response::SteadyOptions& finer,
@@ -70,7 +52,7 @@ void wear_bars(const CandidateResult& result, const response::SteadyOptions& fin
   condition.released.assign(asymptote.released.begin(), asymptote.released.end());
   const response::SteadyState state =
       response::steady_state(result.model.condensed, result.unworn->omega, condition, finer,
-                             padded(asymptote.steady.displacement, finer.harmonics));
+                             response::padded(asymptote.steady.displacement, finer.harmonics));
   if (state.status != Status::converged) {
     volume = depth = kUnknown;
     return;

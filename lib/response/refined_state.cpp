@@ -15,6 +15,7 @@ SteadyState refined_state(const std::shared_ptr<const CondensedModel>& model, co
                           const ContactCondition& condition, SteadyOptions finer) {
   finer.penalty_scale *= state.penalty_ratio;
   finer.penalty_cascade = false;
+  finer.max_rescue_iterations = 0;
   SteadyState refined = steady_state(model, state.omega, condition, finer, padded(state.displacement, finer.harmonics));
   refined.penalty_ratio *= state.penalty_ratio;
   return refined;
