@@ -2,8 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "response/continuation.hpp"
 #include "response/frequency_response.hpp"
-#include "tests/verification/response/rod.hpp"
+#include "tests/verification/response/gap_oscillator.hpp"
 
 namespace dovetail::verification {
 namespace {
@@ -64,8 +65,49 @@ TEST(Resonance, HasAnExactSlope) {
 }
 
 TEST(Resonance, SaysWhenThereIsNone) {
-  const response::Resonance peak = resonance(condensed(rod(10)), 3.5, {}, {}, {.search_range = 0.02});
+  const response::Resonance peak = resonance(condensed(rod(10)), 3.5, {}, {}, {.search_range = 0.02, .sweep_range = 0});
   EXPECT_EQ(peak.status, Status::no_bracket);
+}
+
+TEST(Resonance, IsFoundFarBelowTheGluedFrequency) {
+  // Ten times the excitation of the test above: everything slides, and the peak is a quarter below the glued frequency.
+  const auto model = condensed(rod(10));
+  const double glued = model->glued_frequencies()(0);
+  const response::Resonance near = resonance(model, glued, {}, {}, {.sweep_range = 0});
+  EXPECT_EQ(near.status, Status::no_bracket);
+  const response::Resonance peak = resonance(model, glued, {}, {});
+  ASSERT_EQ(peak.status, Status::converged);
+  EXPECT_TRUE(peak.swept);
+  EXPECT_LT(peak.omega, 0.8 * glued);
+  EXPECT_TRUE(peak.state.linearisation);
+  std::vector<double> omega;
+  for (double w = 0.3 * glued; w < 1.2 * glued; w += 0.005 * glued) omega.push_back(w);
+  for (const response::SteadyState& state : frequency_response(model, omega, {}, {})) {
+    ASSERT_EQ(state.status, Status::converged);
+    EXPECT_LE(state.amplitudes(0), peak.amplitude * (1 + 1e-8)) << state.omega;
+  }
+}
+
+TEST(Resonance, IsFoundOnABranchThatLeansOver) {
+  // From the glued frequency sqrt(2) the response is on the low branch; the maximum is on the other one, near its turn.
+  const auto model = condensed(gap_oscillator(1, 0.02, 0.1));
+  const response::SteadyOptions steady{.harmonics = 7, .samples = 256, .tolerance = 1e-11};
+  const response::Resonance peak = resonance(model, model->glued_frequencies()(0), {}, steady);
+  ASSERT_EQ(peak.status, Status::converged);
+  const response::Branch branch = continuation(model, 0.8, 1.4, {}, steady);
+  double highest = 0;
+  for (const response::ContinuationPoint& point : branch.points) highest = std::max(highest, point.state.amplitudes(0));
+  EXPECT_GE(peak.amplitude, highest);
+  EXPECT_LT(peak.amplitude, 1.02 * highest);
+}
+
+TEST(Resonance, OfAnUndampedGluedStructureIsFoundBesideItsPole) {
+  reduction::ReducedModel model = rod(3);
+  model.damping.setZero();
+  const auto prepared = condensed(model);
+  const response::Resonance peak = resonance(prepared, prepared->glued_frequencies()(0), {}, {});
+  ASSERT_EQ(peak.status, Status::converged);
+  EXPECT_GT(peak.state.friction_energy, 0);
 }
 
 }  // namespace

@@ -1,0 +1,110 @@
+#include "response/continuation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "response/bordered.hpp"
+#include "response/problem.hpp"
+#include "tests/verification/response/gap_oscillator.hpp"
+
+namespace dovetail::response {
+namespace {
+
+using verification::condensed;
+using verification::gap_oscillator;
+
+TEST(Continuation, EndsExactlyWhereAskedInBothDirections) {
+  const auto model = condensed(gap_oscillator(1, 0.05, 0.05));
+  for (const auto& [from, to] : {std::pair{0.7, 1.31}, std::pair{1.31, 0.7}}) {
+    const Branch branch = continuation(model, from, to, {}, {});
+    ASSERT_EQ(branch.status, Status::converged);
+    EXPECT_EQ(branch.points.front().state.omega, from);
+    EXPECT_EQ(branch.points.back().state.omega, to);
+    for (const ContinuationPoint& point : branch.points) EXPECT_EQ(point.direction > 0, to > from);
+  }
+}
+
+TEST(Continuation, KeepsItsStepsWithinTheirLimits) {
+  const auto model = condensed(gap_oscillator(1, 0.05, 0.05));
+  const ContinuationOptions options{.largest_frequency_step = 0.01};
+  const Branch branch = continuation(model, 0.5, 0.7, {}, {}, options);
+  ASSERT_EQ(branch.status, Status::converged);
+  ASSERT_GE(branch.points.size(), 100U);
+  for (std::size_t i = 1; i < branch.points.size(); ++i)
+    EXPECT_LE(branch.points[i].state.omega - branch.points[i - 1].state.omega, 0.01 * 0.2 * (1 + 1e-9));
+}
+
+TEST(Continuation, SaysWhyItEndedEarly) {
+  const auto model = condensed(gap_oscillator(1, 0.05, 0.05));
+  const Branch limited = continuation(model, 0.5, 1.5, {}, {}, {.max_points = 4});
+  EXPECT_EQ(limited.status, Status::iteration_limit);
+  EXPECT_EQ(limited.points.size(), 4U);
+  const Branch stopped =
+      continuation(model, 0.5, 1.5, {}, {}, {}, [](const ContinuationPoint& point) { return point.arc_length < 0.1; });
+  EXPECT_EQ(stopped.status, Status::interrupted);
+  EXPECT_GE(stopped.points.back().arc_length, 0.1);
+}
+
+TEST(Continuation, RefusesBadInput) {
+  const auto model = condensed(gap_oscillator(1, 0.05, 0.05));
+  EXPECT_THROW(static_cast<void>(continuation(model, 1, 1, {}, {})), InputError);
+  EXPECT_THROW(static_cast<void>(continuation(model, -1, 1, {}, {})), InputError);
+  EXPECT_THROW(static_cast<void>(continuation(model, 1, 2, {}, {}, {.largest_change = 0})), InputError);
+  EXPECT_THROW(static_cast<void>(continuation(model, 1, 2, {}, {.harmonics = 0})), InputError);
+}
+
+// A state with open, sliding and stuck samples, away from equilibrium.
+Linearisation linearised(double omega, double size) {
+  const auto model = condensed(verification::rod(3));
+  const SteadyOptions options;
+  const numerics::FourierBasis basis(options.harmonics, options.samples);
+  auto system = std::make_shared<const HarmonicSystem>(harmonic_system(*model, options.harmonics, omega));
+  const SteadyResidual residual = steady_problem(model, system, basis, {}, options, 1);
+  Eigen::MatrixXd displacement = residual.closed_start();
+  for (Eigen::Index j = 0; j < displacement.size(); ++j)
+    displacement.data()[j] += size * std::sin(1.7 * static_cast<double>(j) + omega);
+  ResidualState state;
+  residual.evaluate(displacement, true, state);
+  return {residual, std::move(state)};
+}
+
+TEST(Linearisation, KnowsTheSignOfItsDeterminant) {
+  for (int i = 0; i < 40; ++i) {
+    const Linearisation linear = linearised(1.5 + 0.1 * i, 0.05 * (1 + 4 * (i % 5)));
+    const Eigen::MatrixXd jacobian = linear.residual().jacobian(linear.state());
+    const double scale = jacobian.cwiseAbs().maxCoeff();
+    const double determinant = Eigen::PartialPivLU<Eigen::MatrixXd>(jacobian / scale).determinant();
+    EXPECT_EQ(linear.determinant_sign(), determinant > 0 ? 1 : -1) << i;
+  }
+}
+
+TEST(DenseLu, KnowsTheSignOfItsDeterminant) {
+  Eigen::MatrixXd matrix(3, 3);
+  matrix << 0, 2, 1, 1, 0, 3, 4, 1, 0;  // det = 25
+  EXPECT_EQ(numerics::DenseLu(matrix).determinant_sign(), 1);
+  matrix.row(0).swap(matrix.row(2));
+  EXPECT_EQ(numerics::DenseLu(matrix).determinant_sign(), -1);
+  matrix.row(0).setZero();
+  EXPECT_EQ(numerics::DenseLu(matrix).determinant_sign(), 0);
+}
+
+TEST(BorderedSystem, SolvesWithItsRowAndColumn) {
+  const Linearisation linear = linearised(2.3, 0.1);
+  const Eigen::MatrixXd jacobian = linear.residual().jacobian(linear.state());
+  const Eigen::Index n = jacobian.rows();
+  const Eigen::VectorXd row = Eigen::VectorXd::LinSpaced(n, -1, 2), forces = Eigen::VectorXd::LinSpaced(n, 0.3, -0.4);
+  const BorderedSystem bordered(linear, row, 0.7);
+  const BorderedSystem::Solution found = bordered.solve(forces, 0.9);
+  ASSERT_EQ(found.status, Status::converged);
+  const Eigen::VectorXd column = residual_to_frequency(linear.residual(), linear.state()).reshaped();
+  // Refined to 1e-10 of the terms that cancel.
+  const double size = forces.norm() + column.norm() * std::abs(found.omega);
+  EXPECT_LT((jacobian * found.displacement + column * found.omega - forces).norm(), 1e-9 * size);
+  const double reach = 1 + row.norm() * found.displacement.norm();
+  EXPECT_NEAR(row.dot(found.displacement) + 0.7 * found.omega, 0.9, 1e-9 * reach);
+}
+
+}  // namespace
+}  // namespace dovetail::response

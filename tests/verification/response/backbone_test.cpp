@@ -1,0 +1,146 @@
+#include "response/backbone.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "tests/verification/response/gap_oscillator.hpp"
+
+namespace dovetail::verification {
+namespace {
+
+using namespace response;
+
+// Both searches stop when the correction left is 0.2 of this: their answers differ by less than 1e-7.
+const BackboneOptions kTight{.resonance = {.frequency_tolerance = 2e-8}};
+const SteadyOptions kSteady{.harmonics = 5, .samples = 256, .tolerance = 1e-11};
+
+// Every point against resonance() started anew beside it; returns the Jacobians resonance() took.
+int expect_resonances(const Backbone& backbone, const BackboneFamily& family, const SteadyOptions& steady) {
+  int jacobians = 0;
+  EXPECT_EQ(backbone.status, Status::converged);
+  for (const BackbonePoint& point : backbone.points) {
+    const BackboneCase problem = family(point.parameter);
+    const Resonance again = resonance(problem.model, point.omega * 1.003, problem.condition, steady, kTight.resonance);
+    EXPECT_EQ(again.status, Status::converged) << point.parameter;
+    EXPECT_NEAR(point.omega / again.omega, 1, 1e-7) << point.parameter;
+    EXPECT_NEAR(point.amplitude / again.amplitude, 1, 1e-8) << point.parameter;
+    EXPECT_EQ(point.state.omega, point.omega);
+    EXPECT_LE(point.error, 1e-7);
+    jacobians += again.jacobians;
+  }
+  return jacobians;
+}
+
+std::vector<double> levels(double from, double to, int count) {
+  std::vector<double> values;
+  for (int i = 0; i < count; ++i) values.push_back(from + (to - from) * i / (count - 1));
+  return values;
+}
+
+// Two masses in x and y behind springs on one massless contact node that slides all the time: forced round, the contact
+// never sticks, no sample changes its state and the response is a smooth function of everything. Normal force N_0 - W.
+reduction::ReducedModel sliding_orbit() {
+  reduction::ReducedModel model = empty_model(5, 1, 2);
+  model.mass.topLeftCorner<2, 2>().setIdentity();
+  model.damping.topLeftCorner<2, 2>() = 0.05 * Eigen::Matrix2d::Identity();
+  model.stiffness.diagonal() << 2, 2.3, 1, 1, 1;
+  for (const int r : {0, 1}) model.stiffness(r, 2 + r) = model.stiffness(2 + r, r) = -1;
+  model.contact.tangential << 2, 3;
+  model.contact.normal << 4;
+  model.contact.friction << 0.5;
+  model.static_force(4) = 1;
+  model.cosine_force(0, 0) = 1;
+  model.sine_force(0, 1) = 1;
+  model.output_vectors = Eigen::MatrixXd::Zero(1, 5);
+  model.output_vectors(0, 0) = 1;
+  model.output_names = {"x"};
+  return model;
+}
+
+void expect_tracked(const Backbone& backbone, int searching) {
+  int tracking = 0;
+  for (std::size_t i = 1; i < backbone.points.size(); ++i) {
+    EXPECT_FALSE(backbone.points[i].searched) << backbone.points[i].parameter;
+    EXPECT_TRUE(backbone.points[i].state.nodes.front().slips);
+    tracking += backbone.points[i].jacobians;
+  }
+  testing::Test::RecordProperty("jacobians_tracking", tracking);
+  testing::Test::RecordProperty("jacobians_searching", searching);
+  EXPECT_LT(tracking, 0.6 * searching);
+}
+
+TEST(Backbone, OfExcitationLevelsIsItsResonances) {
+  const BackboneFamily family = excitation_levels(condensed(sliding_orbit()));
+  const Backbone found = backbone(family, levels(1, 3, 17), 1.05, kSteady, kTight);
+  expect_tracked(found, expect_resonances(found, family, kSteady));
+}
+
+TEST(Backbone, OfWearIsItsResonances) {
+  const BackboneFamily family = wear_levels(condensed(sliding_orbit()), Eigen::VectorXd::Constant(1, 0.6));
+  const Backbone found = backbone(family, levels(0, 1, 13), 1.05, kSteady, kTight);
+  expect_tracked(found, expect_resonances(found, family, kSteady));
+  // The normal force falls: less friction, a higher peak.
+  EXPECT_GT(found.points.back().amplitude, found.points.front().amplitude);
+}
+
+TEST(Backbone, OfSpeedGoesThroughAModelOfItsOwn) {
+  // Stiffness and preload grow with the square of the speed: the model itself is a function of the parameter.
+  const BackboneFamily family = [](double speed) {
+    reduction::ReducedModel model = sliding_orbit();
+    model.stiffness.topLeftCorner<2, 2>() += 0.2 * speed * speed * Eigen::Matrix2d::Identity();
+    model.static_force(4) = 1 + 0.5 * speed * speed;
+    return BackboneCase{.model = condensed(model)};
+  };
+  const Backbone found = backbone(family, levels(0, 1, 11), 1.05, kSteady, kTight);
+  expect_tracked(found, expect_resonances(found, family, kSteady));
+  EXPECT_GT(found.points.back().omega, found.points.front().omega);
+}
+
+// Where samples change their contact state the slope of the amplitude jumps, and near its maximum there are several,
+// some 1 / N of the width of the peak apart: each search ends on one of them. That one is a maximum, and no other is
+// higher by more than the same share.
+void expect_maxima(const Backbone& backbone, const BackboneFamily& family, const SteadyOptions& steady) {
+  EXPECT_EQ(backbone.status, Status::converged);
+  for (const BackbonePoint& point : backbone.points) {
+    const BackboneCase problem = family(point.parameter);
+    for (const double beside : {1 - 1e-6, 1 + 1e-6}) {
+      const SteadyState near =
+          steady_state(problem.model, point.omega * beside, problem.condition, steady, point.state.displacement);
+      ASSERT_EQ(near.status, Status::converged);
+      EXPECT_LE(near.amplitudes(0), point.amplitude * (1 + 1e-10)) << point.parameter;
+    }
+    const Resonance again = resonance(problem.model, point.omega * 1.003, problem.condition, steady, kTight.resonance);
+    ASSERT_EQ(again.status, Status::converged);
+    EXPECT_NEAR(again.amplitude / point.amplitude, 1, 0.5 / steady.samples) << point.parameter;
+  }
+}
+
+TEST(Backbone, OfAHardeningGapIsMadeOfMaxima) {
+  const BackboneFamily family = excitation_levels(condensed(gap_oscillator(1, 0.02, 1)));
+  const Backbone found = backbone(family, levels(0.03, 0.12, 12), 1.0, kSteady, kTight);
+  expect_maxima(found, family, kSteady);
+  // Linear until the gap closes at F = 2 zeta = 0.04, then the peak moves up.
+  EXPECT_NEAR(found.points.front().omega, std::sqrt(1 - 2 * 0.02 * 0.02), 1e-7);
+  EXPECT_GT(found.points.back().omega, 1.09);
+}
+
+TEST(Backbone, OfARodThatWearsIsMadeOfMaxima) {
+  const BackboneFamily family = wear_levels(condensed(rod(5)), Eigen::VectorXd::LinSpaced(5, 0.5, 0.1));
+  const Backbone found = backbone(family, levels(0, 1, 11), 3.0, kSteady, kTight);
+  expect_maxima(found, family, kSteady);
+}
+
+TEST(Backbone, StopsWhenAsked) {
+  const BackboneFamily family = excitation_levels(condensed(sliding_orbit()));
+  const Backbone found = backbone(family, levels(1, 2, 4), 1.05, kSteady, kTight,
+                                  [](const BackbonePoint& point) { return point.parameter < 1.1; });
+  EXPECT_EQ(found.status, Status::interrupted);
+  ASSERT_EQ(found.points.size(), 4U);
+  EXPECT_EQ(found.points[1].status, Status::converged);
+  EXPECT_EQ(found.points[2].status, Status::interrupted);
+}
+
+}  // namespace
+}  // namespace dovetail::verification
