@@ -180,6 +180,41 @@ void define_model_commands(CLI::App& app, Arguments& a) {
     };
   });
 
+  CLI::App* backbone =
+      app.add_subcommand("backbone", "Resonance and its amplitude over the excitation's level or the wear");
+  backbone->footer(
+      "Each resonance is found from the ones before, not by sampling response curves. JSON: {\"over\", \"output\",\n"
+      "\"parameter\", \"status\", \"frequency_hz\", \"amplitude\", \"frequency_error\", \"dissipated_energy_j\",\n"
+      "\"searched\", \"jacobians\", \"settings\"}; one entry per parameter in each list.");
+  backbone->add_option("INPUT", a.backbone.input, kInput)->required()->type_name("");
+  backbone
+      ->add_option("--over", a.backbone.over,
+                   "force: the parameter multiplies the harmonics of the force, not its static part; wear: it is the "
+                   "largest depth, m, of wear in proportion to the rates of the unworn resonance (default: force)")
+      ->type_name("WHAT")
+      ->check(CLI::IsMember({"force", "wear"}));
+  backbone->add_option("--from", a.backbone.from, "First value of the parameter")->type_name("X")->required();
+  backbone->add_option("--to", a.backbone.to, "Last value of the parameter")->type_name("X")->required();
+  backbone->add_option("--points", a.backbone.points, "Number of values")->type_name("N")->required();
+  backbone->add_flag("--logarithmic", a.backbone.logarithmic, "Space the values evenly on a logarithmic scale");
+  backbone->add_option("--output", a.backbone.output, "Name of the output that resonates (default: the first)")
+      ->type_name("NAME");
+  backbone
+      ->add_option("--frequency", a.backbone.frequency_hz,
+                   "Where the first resonance is searched (default: the natural frequency of the study's mode, of a "
+                   "model's lowest)")
+      ->type_name("HZ");
+  add_set(*backbone, a);
+  add_solver(*backbone, a);
+  add_json(*backbone, a.backbone.json);
+  backbone->callback([&a] {
+    a.command = [&a](const Streams& s) {
+      a.backbone.overrides = a.overrides();
+      a.backbone.solver = a.solver;
+      return run_backbone(a.backbone, s);
+    };
+  });
+
   CLI::App* wear = app.add_subcommand("wear", "Worn state of a model or a study's design");
   wear->footer(
       "`asymptote` computes the shape at which wear comes to rest directly, `history` goes there cycle by cycle. With\n"

@@ -16,6 +16,7 @@ struct Arguments {
   EvaluateOptions evaluate;
   ReduceOptions reduce;
   ResponseOptions response;
+  BackboneOptions backbone;
   WearOptions wear;
   RunOptions run;
   ImportOptions import;

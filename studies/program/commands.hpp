@@ -85,6 +85,20 @@ struct ResponseOptions {
 };
 int run_response(const ResponseOptions& options, const Streams& streams);
 
+struct BackboneOptions {
+  std::string input;  ///< MODEL or STUDY.toml
+  std::vector<Override> overrides;
+  SolverOverrides solver;
+  std::string over = "force";  ///< force: factor of its harmonics; wear: largest depth, m
+  double from = 0, to = 0;
+  int points = 1;
+  bool logarithmic = false;
+  std::optional<std::string> output;   ///< absent: the first
+  std::optional<double> frequency_hz;  ///< where the first resonance is searched
+  std::string json;
+};
+int run_backbone(const BackboneOptions& options, const Streams& streams);
+
 struct WearOptions {
   std::string input;  ///< MODEL.h5 or STUDY.toml
   std::vector<Override> overrides;

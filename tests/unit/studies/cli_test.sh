@@ -28,7 +28,7 @@ absent() { [ ! -e "$1" ] || fail "$1 was left behind"; }
 # Help and version
 expect 0 --version; answers "dovetail "
 expect 0 --help; answers "dovetail new mine.toml"
-for command in run evaluate reduce response wear export report check new; do
+for command in run evaluate reduce response backbone wear import export report check new; do
   expect 0 "$command" --help; answers "$command"
 done
 
@@ -88,6 +88,16 @@ expect 2 check s.toml --set geometry.neck_wdth_mm=3; lines 1; says "did you mean
 expect 2 check s.toml --set geometry --set =3; lines 2; says "must be KEY=VALUE"
 expect 2 evaluate s.toml --harmonics 0; lines 1; says "--harmonics 0: must be >= 1"
 expect 2 response s.toml --from 1 --to 2 --points 2 --tolerance nan; lines 1; says "--tolerance nan"
+
+# The settings of the contact computation are keys of a study, too
+expect 0 check s.toml --set solver.pseudo_penalty_n_per_m=1e8 --set solver.solver=powell_fd
+expect 2 check s.toml --set solver.pseudo_penalty_n_per_m=-1; lines 1; says "must be >= 0"
+expect 2 evaluate s.toml --pseudo-penalty -1; lines 1; says "--pseudo-penalty -1: must be >= 0"
+expect 2 evaluate s.toml --solver guess; lines 1; says "--solver"
+expect 2 evaluate s.toml --harmonics 3.5; lines 1; says "must be a whole number or auto, not 3.5"
+expect 2 evaluate s.toml --accuracy 1e-3; lines 1; says "only has a meaning with --harmonics auto"
+expect 2 backbone s.toml --from 0 --to 1 --points 0; lines 2; says "--from = 0: must be > 0"; says "--points = 0"
+expect 2 import s.toml -o m.h5; lines 1; says "is not a reduced model"; absent m.h5
 
 # The end of a range is inside it, whatever the units round to
 expect 0 export s.toml --format dxf -o crown.dxf --set geometry.flank_crown_um=500

@@ -6,9 +6,11 @@ algebra and to published values.
 import json
 import math
 import os
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 import h5py
@@ -239,6 +241,36 @@ class ModelFiles(unittest.TestCase):
         sentence = self.refusal(write_model.rod(3), "response", self.model, "--from", 1, "--to", 1, "--points", 1,
                                 "--arclength")
         self.assertIn("--arclength: needs an interval", sentence)
+
+    def test_a_backbone_of_open_contact_is_the_linear_resonance(self):
+        # m = 1, c = 0.1, k = 2: the amplitude is largest at w^2 = k/m - c^2/(2 m^2), F/(c sqrt(k/m - c^2/(4 m^2))).
+        data = slider(mass=1.0, damping=0.1)
+        data["/contact/gap"] = np.array([1e3])
+        write_model.write_model(self.model, data)
+        answer = self.answer("backbone", self.model, "--from", 0.5, "--to", 8, "--points", 5, "--logarithmic",
+                             "--frequency", 0.21)
+        for factor, hz, amplitude in zip(answer["parameter"], answer["frequency_hz"], answer["amplitude"]):
+            # The search stops at a relative 1e-7 of the frequency; the amplitude is stationary there.
+            self.assertAlmostEqual(hz / (math.sqrt(2 - 0.005) / (2 * math.pi)), 1, delta=3e-7)
+            self.assertAlmostEqual(amplitude / (factor / (0.1 * math.sqrt(2 - 0.0025))), 1, delta=1e-9)
+        done = self.run_program("backbone", self.model, "--from", 1, "--to", 2, "--points", 2)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("give --frequency HZ", done.stderr)
+
+    def test_an_interrupted_response_keeps_what_is_finished(self):
+        write_model.write_model(self.model, write_model.rod(20))
+        command = [DOVETAIL, "response", self.model, "--from", "0.1", "--to", "0.6", "--points", "100000", "--json",
+                   "out.json"]
+        process = subprocess.Popen(command, cwd=self.folder.name, stderr=subprocess.PIPE)
+        time.sleep(1)
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130)
+        with open(os.path.join(self.folder.name, "out.json")) as file:
+            answer = json.load(file)
+        self.assertEqual(len(answer["status"]), 100000)
+        self.assertEqual(set(answer["status"]), {"converged", "interrupted"})
+        self.assertEqual(sorted(os.listdir(self.folder.name)), ["model.h5", "out.json"])
 
     def test_matrix_market_and_back_is_the_same_to_the_last_bit(self):
         data = write_model.rod(3)
