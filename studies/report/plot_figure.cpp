@@ -100,7 +100,7 @@ std::string plot_style() {
 svg.plot{display:block;width:100%;height:auto;overflow:visible}
 svg.plot text{font:12.5px system-ui,-apple-system,"Segoe UI",Roboto,sans-serif;fill:var(--soft)}
 .grid path{stroke:var(--hair);stroke-width:1;fill:none}.grid path.base,.grid path.tick{stroke:var(--base)}
-svg.plot text.point{font-size:11px}
+svg.plot text.point{font-size:11px;paint-order:stroke;stroke:var(--card);stroke-width:3px}
 .grid text.y{text-anchor:end;font-variant-numeric:tabular-nums}.grid text.x{text-anchor:middle}
 svg.plot text.title{fill:var(--ink)}.grid text.x-title{text-anchor:end}
 path.line{fill:none;stroke-width:2;stroke-linejoin:round;stroke-linecap:round}

@@ -35,6 +35,7 @@ class Scale {
     upper = std::max(axis.upper.value_or(upper), lower);
     ticks_ = logarithmic_ ? logarithmic_ticks(lower, upper) : linear_ticks(lower, upper, count, tight);
     if (axis.whole && !logarithmic_) keep_whole_ticks();
+    if (axis.tight && logarithmic_) end_at_ticks(lower, upper);
   }
   void place(double from, double to) {
     from_ = from;
@@ -56,6 +57,20 @@ class Scale {
       kept.labels.push_back(plain(at, 12));
     }
     ticks_ = std::move(kept);
+  }
+
+  void end_at_ticks(double lower, double upper) {
+    std::size_t first = 0, last = ticks_.at.size();
+    while (first + 2 < last && ticks_.at[first + 1] <= lower) ++first;
+    while (first + 2 < last && ticks_.at[last - 2] >= upper) --last;
+    if (last == 0) return;
+    const auto keep = [&](auto& list) {
+      list = {list.begin() + static_cast<std::ptrdiff_t>(first), list.begin() + static_cast<std::ptrdiff_t>(last)};
+    };
+    keep(ticks_.at);
+    keep(ticks_.labels);
+    ticks_.lower = ticks_.at.front();
+    ticks_.upper = ticks_.at.back();
   }
 
   bool logarithmic_;
@@ -192,6 +207,40 @@ std::string grid(const Plot& plot, const Scale& x, const Scale& y, double left, 
   return text + "</g>\n";
 }
 
+/// Labels of points: above, below or beside, the first place where no other label stands; none when there is no room.
+std::string point_labels(const Plot& plot, const Scale& x, const Scale& y, double right) {
+  struct Box {
+    double left, top, right, bottom;
+    [[nodiscard]] bool meets(const Box& other) const {
+      return left < other.right && other.left < right && top < other.bottom && other.top < bottom;
+    }
+  };
+  std::vector<Box> taken;
+  std::string text;
+  for (const PlotLine& line : plot.lines)
+    for (std::size_t i = 0; i < std::min({line.x.size(), line.y.size(), line.labels.size()}); ++i) {
+      if (!drawable(line.x[i], plot.x) || !drawable(line.y[i], plot.y) || line.labels[i].empty()) continue;
+      const double px = x(line.x[i]), py = y(line.y[i]);
+      const double width = 6.6 * static_cast<double>(letters(line.labels[i])), height = 11;
+      const std::array<std::pair<double, double>, 6> places{{{px + 4, py - 5},
+                                                             {px - 4 - width, py - 5},
+                                                             {px + 4, py + 13},
+                                                             {px - 4 - width, py + 13},
+                                                             {px - width / 2, py - 8},
+                                                             {px - width / 2, py + 17}}};
+      for (const auto& [left, base] : places) {
+        const Box box{left, base - height, left + width, base + 1};
+        const auto meets = [&](const Box& other) { return box.meets(other); };
+        if (box.right > right + 8 || std::any_of(taken.begin(), taken.end(), meets)) continue;
+        taken.push_back(box);
+        text += fmt::format("<text class=\"point\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", left, base,
+                            escape(line.labels[i]));
+        break;
+      }
+    }
+  return text;
+}
+
 }  // namespace
 
 bool is_empty(const Plot& plot) {
@@ -224,11 +273,7 @@ std::string plot_svg(const Plot& plot) {
         left, y(level.y), right, right - 2, y(level.y) - 5, escape(level.name));
   }
   for (const PlotLine& line : plot.lines) text += path_of(line, plot, x, y);
-  for (const PlotLine& line : plot.lines)
-    for (std::size_t i = 0; i < std::min({line.x.size(), line.y.size(), line.labels.size()}); ++i)
-      if (drawable(line.x[i], plot.x) && drawable(line.y[i], plot.y))
-        text += fmt::format("<text class=\"point\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", x(line.x[i]) + 5,
-                            y(line.y[i]) - 5, escape(line.labels[i]));
+  text += point_labels(plot, x, y, right);
   for (const PlotLine& line : plot.lines) {
     if (!line.dots) continue;
     for (std::size_t i = 0; i < std::min(line.x.size(), line.y.size()); ++i) {

@@ -16,7 +16,7 @@ enum class Shape { circle, cross, triangle, star };
 struct PlotLine {
   std::string name = {};  ///< in the legend; empty: not listed
   std::vector<double> x = {}, y = {};
-  std::vector<std::string> labels = {};  ///< written beside the points; empty: none
+  std::vector<std::string> labels = {};  ///< beside the points, where there is room; empty: none
   Role role = Role::after;
   Stroke stroke = Stroke::solid;
   bool dots = false;    ///< a small dot at each point, with its values as tooltip
@@ -44,6 +44,7 @@ struct PlotAxis {
   std::string unit = {};   ///< "mm"; empty: none
   bool logarithmic = false;
   bool whole = false;                            ///< counts something: ticks at whole numbers only
+  bool tight = false;                            ///< logarithmic: ends at the ticks next to the values, not at decades
   bool from_zero = false;                        ///< the range includes 0
   std::optional<double> lower = {}, upper = {};  ///< fixed ends of the range
 };

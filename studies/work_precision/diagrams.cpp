@@ -26,7 +26,7 @@ class Sweeps {
 
   void harmonics(const std::vector<int>& values) {
     begin({.key = "harmonics", .title = "Harmonics", .refines = true});
-    line("auto", vary(defaults_, values, "H = {}", [](Setting& s, int h) { s.harmonics = h; }));
+    line("", vary(defaults_, values, "H = {}", [](Setting& s, int h) { s.harmonics = h; }));
   }
 
   void samples(const std::vector<int>& values, bool both_returns) {
@@ -40,14 +40,14 @@ class Sweeps {
   }
 
   void penalty(const std::vector<double>& ratios) {
-    begin({.key = "penalty", .title = "Pseudo-penalty"});
+    begin({.key = "penalty", .title = "Pseudo-penalty: ratio to the automatic one"});
     Setting alone = defaults_;
     alone.cascade = false;
     line("", vary(alone, ratios, "{:g} eps", [](Setting& s, double ratio) { s.penalty = ratio; }));
   }
 
   void solver(const std::vector<int>& harmonics, const std::vector<int>& by_differences) {
-    begin({.key = "solver", .title = "Solver"});
+    begin({.key = "solver", .title = "Solver, over harmonics"});
     const auto set = [](Setting& s, int h) { s.harmonics = h; };
     line("auto: Newton and fall-backs", vary(defaults_, harmonics, "H = {}", set));
     Setting powell = defaults_;
@@ -64,7 +64,7 @@ class Sweeps {
   }
 
   void mesh(const std::vector<int>& values) {
-    begin({.key = "mesh", .title = "Mesh", .with_model_time = true});
+    begin({.key = "mesh", .title = "Mesh: element edges along a flank", .with_model_time = true, .refines = true});
     line("", vary(defaults_, values, "{} edges", [](Setting& s, int n) { s.flank_elements = n; }));
   }
 
@@ -144,9 +144,12 @@ Diagram scene_diagram(const DiagramOptions& options) {
   if (options.progress) options.progress(diagram.title + ": reference");
   diagram.reference = contact_reference(subject, defaults, quick ? 6 : 15, quick ? 256 : 1024, quick ? 16 : 80);
   Setting fine = diagram.reference.run.setting, check = fine;
-  fine.harmonics = check.harmonics = quick ? 3 : 7;
-  fine.samples = check.samples = quick ? 128 : 512;
-  fine.modes = check.modes = quick ? 16 : 40;
+  fine.harmonics = quick ? 4 : 11;
+  check.harmonics = quick ? 3 : 9;
+  fine.samples = quick ? 128 : 1024;
+  check.samples = quick ? 128 : 512;
+  fine.modes = quick ? 16 : 60;
+  check.modes = quick ? 12 : 40;
   fine.flank_elements = quick ? 12 : 96;
   check.flank_elements = quick ? 10 : 64;
   diagram.mesh_reference = refer(subject, fine, check);
@@ -157,14 +160,14 @@ Diagram scene_diagram(const DiagramOptions& options) {
     sweeps.penalty({0.001, 1, 1000});
     sweeps.solver({1, 3}, {});
     sweeps.modes({6, 10});
-    sweeps.mesh({6, 8});
+    sweeps.mesh({6, 8, 10});
   } else {
     sweeps.harmonics({1, 2, 3, 5, 7, 9});
-    sweeps.samples({16, 32, 64, 128, 256, 512}, false);
+    sweeps.samples({16, 32, 64, 128, 256, 512}, true);
     sweeps.penalty({0.001, 0.01, 0.1, 1, 10, 100, 1000});
     sweeps.solver({1, 3, 5}, {1});
     sweeps.modes({5, 10, 20, 40, 60});
-    sweeps.mesh({6, 8, 12, 16, 24, 32, 48});
+    sweeps.mesh({6, 8, 12, 16, 24, 32, 48, 64});
   }
   judge(diagram);
   return diagram;

@@ -34,6 +34,12 @@ std::string described(const Line& line, const Point& point, const Sweep& sweep, 
                      point.run.converged() ? fmt::format("error {:.2g}", point.error[quantity]) : point.run.status);
 }
 
+// The number in "H = 3", "1 eps" or "24 edges": the sweep's title says what it is.
+std::string value_of(const std::string& label) {
+  const std::size_t from = label.starts_with("H = ") || label.starts_with("N = ") ? 4 : 0;
+  return label.substr(from, label.find(' ', from) - from);
+}
+
 // Errors below this are rounding and the tolerance of the search for the resonance.
 constexpr double kLowest = 1e-9;
 
@@ -47,7 +53,7 @@ double mesh_error(const Diagram& diagram, std::size_t quantity) {
     if (sweep.key == "mesh")
       for (const Line& line : sweep.lines)
         for (const Point& point : line.points)
-          if (point.is_default) return point.error[quantity];
+          if (point.is_default) return point.own_error[quantity];
   return kNan;
 }
 
@@ -71,7 +77,7 @@ Plot error_plot(const Diagram& diagram, const Sweep& sweep, std::size_t quantity
     const Line& line = sweep.lines[l];
     const auto& [role, stroke] = kLook[std::min(l, kLook.size() - 1)];
     PlotLine total{.name = line.name.empty() ? "error" : line.name, .role = role, .stroke = stroke, .dots = true};
-    PlotLine part{.name = l == 0 ? "of it by this setting alone" : "", .role = Role::muted, .stroke = Stroke::dotted};
+    PlotLine part{.name = "part of it by this setting alone", .role = Role::muted, .stroke = Stroke::dotted};
     for (const Point& point : line.points) {
       const double seconds = sweep.seconds(point), error = drawn(point.error[quantity]);
       x.add(seconds);
@@ -83,7 +89,7 @@ Plot error_plot(const Diagram& diagram, const Sweep& sweep, std::size_t quantity
       y.add(error);
       total.x.push_back(seconds);
       total.y.push_back(error);
-      total.labels.push_back(l == 0 || sweep.key == "solver" ? point.label : "");
+      total.labels.push_back(l == 0 || sweep.key == "solver" ? value_of(point.label) : "");
       part.x.push_back(seconds);
       part.y.push_back(drawn(point.own_error[quantity]));
       y.add(part.y.back());
@@ -93,7 +99,7 @@ Plot error_plot(const Diagram& diagram, const Sweep& sweep, std::size_t quantity
       star.titles.push_back(described(line, point, sweep, quantity));
     }
     plot.lines.push_back(std::move(total));
-    if (sweep.refines) own.push_back(std::move(part));
+    if (sweep.refines && l == 0) own.push_back(std::move(part));
   }
   for (PlotLine& part : own) plot.lines.push_back(std::move(part));
   const auto level = [&](const std::string& name, double value, Role role, Stroke stroke) {
@@ -105,8 +111,8 @@ Plot error_plot(const Diagram& diagram, const Sweep& sweep, std::size_t quantity
                           .role = role,
                           .stroke = stroke});
   };
-  if (sweep.key != "mesh") level("error of the default mesh", mesh_error(diagram, quantity), Role::bad, Stroke::dashed);
-  level("references agree to", diagram.reference_of(sweep).agreement[quantity], Role::muted, Stroke::solid);
+  if (sweep.key != "mesh") level("part by the default mesh", mesh_error(diagram, quantity), Role::bad, Stroke::dashed);
+  level("the references agree to this", diagram.reference_of(sweep).agreement[quantity], Role::muted, Stroke::dashed);
   // Failed runs stand above all errors.
   failed.y.assign(failed.x.size(), y.upper > 0 ? 2 * y.upper : 1);
   plot.points.push_back(std::move(star));
@@ -117,7 +123,7 @@ Plot error_plot(const Diagram& diagram, const Sweep& sweep, std::size_t quantity
 Plot growth_plot(const Growth& growth) {
   Plot plot{.title = "Over " + growth.title,
             .description = growth.fixed + ", half of the nodes stuck",
-            .x = {.label = growth.title, .logarithmic = true},
+            .x = {.label = growth.title, .logarithmic = true, .tight = true},
             .y = {.label = "time", .unit = "s", .logarithmic = true},
             .width = kWidth,
             .height = 360};

@@ -61,29 +61,28 @@ std::string numbers(const Sweep& sweep) {
 
 std::string settings_words(const Run& run, bool meshed) {
   const Setting& s = run.setting;
-  std::string text = fmt::format("H = {}, N = {}, {:g} eps, {} slip return", s.harmonics, s.samples, s.penalty,
-                                 s.slip_return == "second_order" ? "second-order" : "first-order");
+  std::string text = fmt::format("H = {}, N = {}", s.harmonics, s.samples);
+  if (s.penalty != 1) text += fmt::format(", {:g} eps", s.penalty);
   if (meshed) text += fmt::format(", {} modes, {} edges", s.modes, s.flank_elements);
   return text;
 }
 
 std::string reference_table(const Diagram& diagram) {
   const bool meshed = diagram.mesh_reference.has_value();
-  std::string text =
-      head({"reference", "resonance (rad/s)", "dissipated energy (J)", "peak amplitude", "seconds", "status"});
+  std::string text = head({"reference", "resonance (rad/s)", "energy (J)", "amplitude", "seconds"});
   const auto add = [&](const std::string& name, const Reference& reference) {
     const auto values = [&](const std::string& what, const Run& run) {
-      text +=
-          row({what + ": " + settings_words(run, meshed), cell(run.value[0], "{:.9g}"), cell(run.value[1], "{:.9g}"),
-               cell(run.value[2], "{:.9g}"), cell(run.seconds + run.model_seconds, "{:.3g}"), run.status});
+      text += row({what + ": " + settings_words(run, meshed), cell(run.value[0], "{:.9g}"),
+                   cell(run.value[1], "{:.9g}"), cell(run.value[2], "{:.9g}"),
+                   run.converged() ? cell(run.seconds + run.model_seconds, "{:.3g}") : run.status});
     };
     values(name, reference.run);
     values("Check", reference.check);
     text += row({"They agree to", cell(reference.agreement[0], "{:.1e}"), cell(reference.agreement[1], "{:.1e}"),
-                 cell(reference.agreement[2], "{:.1e}"), "", ""});
+                 cell(reference.agreement[2], "{:.1e}"), ""});
   };
   add("Reference", diagram.reference);
-  if (diagram.mesh_reference) add("Reference of the mesh", *diagram.mesh_reference);
+  if (diagram.mesh_reference) add("For the mesh", *diagram.mesh_reference);
   return text + kTableEnd;
 }
 
@@ -180,7 +179,8 @@ std::string page_html(const Results& results) {
   text +=
       "<p>One setting is varied at a time, all others keep their defaults. Errors are those of the resonance "
       "frequency, the energy friction dissipates per cycle and the peak amplitude, relative to a reference that is "
-      "finer in everything; a second one, fine in another way, says how good the first is. Seconds are processor "
+      "finer in everything; a second one, fine in another way, says how good the first is. References use the "
+      "second-order slip return. Seconds are processor "
       "time of one core, the median of repetitions. The star is the default of the program; a cross along the upper "
       "edge is a run that failed, at the time it took to fail.</p>\n</header>\n";
   for (const Diagram& diagram : results.diagrams) text += diagram_section(diagram);

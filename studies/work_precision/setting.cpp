@@ -8,19 +8,23 @@ namespace dovetail::work_precision {
 
 Run timed_resonance(const std::shared_ptr<const response::CondensedModel>& model, double omega_start,
                     const Setting& setting, double tolerance, double seconds) {
+  // Without fall-backs, auto is Newton's method, and a search that fails is not continued along the branch.
+  const bool bare = !setting.cascade;
   const response::SteadyOptions steady{.harmonics = setting.harmonics,
                                        .samples = setting.samples,
                                        .tolerance = tolerance,
-                                       .solver = setting.solver,
+                                       .solver = bare && setting.solver == "auto" ? "newton" : setting.solver,
                                        .penalty_scale = setting.penalty,
                                        .penalty_cascade = setting.cascade,
                                        .slip_return = setting.slip_return};
+  response::ResonanceOptions search;
+  if (bare) search.sweep_range = 0;
   response::Resonance found;
   std::vector<double> times;
   double spent = 0;
   while (times.size() < 5 && (times.empty() || spent < seconds)) {
     const double before = processor_seconds();
-    found = response::resonance(model, omega_start, {}, steady);
+    found = response::resonance(model, omega_start, {}, steady, search);
     times.push_back(processor_seconds() - before);
     spent += times.back();
   }

@@ -19,6 +19,7 @@ struct Setting {
   double penalty = response::SteadyOptions{}.penalty_scale;  ///< ratio to the automatic pseudo-penalty
   std::string solver = response::SteadyOptions{}.solver;
   std::string slip_return = response::SteadyOptions{}.slip_return;
+  /// Other penalties, solvers and ways are tried when a solve fails.
   bool cascade = response::SteadyOptions{}.penalty_cascade;
   int modes = optimizer::SolverSettings{}.modes;              ///< of the reduction, where there is one
   int flank_elements = geometry::MeshSizes{}.flank_elements;  ///< along a flank; all other sizes follow

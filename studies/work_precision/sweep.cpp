@@ -22,26 +22,19 @@ double worst(const Point& point) {
   return point.run.converged() ? result : kNan;
 }
 
-std::string errors(const Point& point) {
-  return fmt::format("{:.1e} in frequency, {:.1e} in energy and {:.1e} in amplitude", point.error[0], point.error[1],
-                     point.error[2]);
+std::string percent(double error) {
+  return error < 1e-6 ? "less than 0.0001 %" : fmt::format("{:.2g} %", 100 * error);
 }
 
-// "1.9 times the time and 3.1 times smaller errors": of the quantity that changes most.
+std::string errors(const Point& point) {
+  return fmt::format("{} in frequency, {} in energy and {} in amplitude", percent(point.error[0]),
+                     percent(point.error[1]), percent(point.error[2]));
+}
+
 std::string beside(const Sweep& sweep, const Point& other, const Point& at) {
   if (!other.run.converged()) return other.label + " fails (" + other.run.status + ")";
-  const double time = sweep.seconds(other) / sweep.seconds(at);
-  std::size_t quantity = 0;
-  double change = 1;
-  for (std::size_t q = 0; q < other.error.size(); ++q) {
-    const double ratio = other.error[q] / at.error[q];
-    if (std::abs(std::log(ratio)) > std::abs(std::log(change))) {
-      change = ratio;
-      quantity = q;
-    }
-  }
-  return fmt::format("{} takes {:.2g} times as long and errs {:.2g} times {} in {}", other.label, time,
-                     change > 1 ? change : 1 / change, change > 1 ? "more" : "less", kQuantities[quantity]);
+  return fmt::format("{} takes {:.2g} times as long for {}", other.label, sweep.seconds(other) / sweep.seconds(at),
+                     percent(worst(other)));
 }
 
 struct Place {
@@ -92,7 +85,7 @@ std::string verdict(const Sweep& sweep, double goal) {
   const std::vector<Point>& points = place.line->points;
   const Point& at = points[place.at];
   if (!at.run.converged()) return "The default fails here: " + at.run.status + ".";
-  std::string text = fmt::format("Default {}: errors of {} in {:.2g} s.", at.label, errors(at), sweep.seconds(at));
+  std::string text = fmt::format("Default {}: errors of {}, in {:.2g} s.", at.label, errors(at), sweep.seconds(at));
   std::string neighbours;
   if (place.at > 0) neighbours = beside(sweep, points[place.at - 1], at);
   if (place.at + 1 < points.size())
@@ -102,7 +95,7 @@ std::string verdict(const Sweep& sweep, double goal) {
       for (const Point& point : line.points)
         if (point.run.setting.harmonics == at.run.setting.harmonics)
           neighbours += (neighbours.empty() ? "" : "; ") + line.name + " at " + beside(sweep, point, at);
-  if (!neighbours.empty()) text += " " + neighbours + ".";
+  if (!neighbours.empty()) text += " By the largest of them: " + neighbours + ".";
 
   const Point* cheapest = nullptr;
   for (const Line& line : sweep.lines)
