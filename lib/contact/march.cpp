@@ -40,6 +40,12 @@ void march_node(const double* prediction, const NodeLaw& law, int samples, const
   if (limit <= 0)
     for (int n = 0; n < samples; ++n)
       for (int r = 0; r < Directions; ++r) limit = std::max(limit, std::abs(prediction[(1 + Directions) * n + 1 + r]));
+  // What rounding of lambda_x leaves of a change over a period.
+  double largest_force = 0;
+  for (int n = 0; n < samples; ++n)
+    for (int r = 0; r < Directions; ++r)
+      largest_force = std::max(largest_force, std::abs(prediction[(1 + Directions) * n + 1 + r]));
+  const double rounding = std::max(kRounding * limit, kRounding / 8 * largest_force);
   const int periods = options.periodic ? options.max_periods : 1;
   bool moved = false;
   double change_before[2] = {0, 0}, largest_before = 0;
@@ -74,12 +80,13 @@ void march_node(const double* prediction, const NodeLaw& law, int samples, const
     }
     // Slip that dies out geometrically is as far from its orbit as the changes still to come: their sum counts.
     double rest = largest;
-    if (Directions == 2 && largest > kRounding * limit) {
+    if (Directions == 2 && largest > rounding) {
       const double ratio = largest_before > 0 ? largest / largest_before : 1;
       rest = ratio < 1 ? largest * std::max(1.0, ratio / (1 - ratio)) : kInfinity;
     }
     largest_before = largest;
-    const bool repeats = options.periodic && rest <= options.tolerance * limit;
+    const bool repeats =
+        options.periodic && rest <= std::max(std::min(options.tolerance * limit, options.resolution), rounding);
     // Extrapolated into a state that sticks for good, the orbit is one of many: only marching knows which.
     if (repeats && result.extrapolated && std::none_of(result.state.begin(), result.state.end(), [](SampleState state) {
           return state == SampleState::slipping;

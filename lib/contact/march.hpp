@@ -19,8 +19,10 @@ struct MarchOptions {
   SlipReturn slip_return = SlipReturn::first_order;
   bool periodic = true;    ///< false: march the samples once and stop (a quasi-static path)
   int max_periods = 2000;  ///< periods marched before giving up, >= 1
-  double tolerance =
-      1e-10;  ///< distance of lambda_x,T from its periodic orbit relative to the largest limit force, > 0
+  /// Distance of lambda_x,T from its periodic orbit, relative to the largest limit force and absolute, > 0: both hold,
+  /// as far as rounding permits.
+  double tolerance = 1e-10;
+  double resolution = 1e300;  ///< N
 };
 
 /// What one node is, besides its prediction forces.

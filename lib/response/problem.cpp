@@ -8,12 +8,15 @@
 namespace dovetail::response {
 namespace {
 
-contact::MarchOptions march_options(const SteadyOptions& options) {
+// Forces of the contact may be far larger than the excitation that the residual is measured by.
+contact::MarchOptions march_options(const SteadyOptions& options, double force_scale) {
+  constexpr double kShare = 0.1;
   return {.slip_return = options.slip_return == "second_order" ? contact::SlipReturn::second_order
                                                                : contact::SlipReturn::first_order,
           .periodic = true,
           .max_periods = options.max_periods,
-          .tolerance = options.periodic_tolerance};
+          .tolerance = options.periodic_tolerance,
+          .resolution = kShare * options.tolerance * force_scale};
 }
 
 }  // namespace
@@ -23,8 +26,8 @@ SteadyResidual steady_problem(const std::shared_ptr<const CondensedModel>& model
                               const ContactCondition& condition, const SteadyOptions& options, double penalty_ratio) {
   const contact::PseudoPenalty penalty = contact::pseudo_penalty(model->local_stiffness(), model->directions(),
                                                                  options.normal_penalty, options.tangential_penalty);
-  return {model,     std::move(system),     basis, penalty.scaled(penalty_ratio * options.penalty_scale),
-          condition, march_options(options)};
+  const contact::MarchOptions march = march_options(options, system->force_scale);
+  return {model, std::move(system), basis, penalty.scaled(penalty_ratio * options.penalty_scale), condition, march};
 }
 
 SteadyState described(const SteadyResidual& residual, const Eigen::MatrixXd& displacement, Status status,

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iostream>
+
 #include "tests/hard_cases/suite.hpp"
 
 namespace dovetail::hard_cases {
@@ -17,6 +20,12 @@ TEST_P(HardCases, AreSolvedOrClassified) {
     const Outcome& outcome = outcomes.back();
     EXPECT_EQ(outcome.wrong, "") << outcome.id();
     EXPECT_EQ(outcome.thrown, "") << outcome.id();
+  }
+  // Where a steady state exists nearly all are found; with mass on contacts that lift off there may be none.
+  if (outcomes.front().has_answer) {
+    const auto converged =
+        std::count_if(outcomes.begin(), outcomes.end(), [](const Outcome& o) { return o.converged(); });
+    EXPECT_GE(converged, family.count * 9 / 10);
   }
   std::cout << table(outcomes) << failures(outcomes);
 }

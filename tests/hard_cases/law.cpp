@@ -11,6 +11,13 @@ class Follower {
   Follower(double friction, bool second_order, const Vector& slip_force)
       : friction_(friction), second_order_(second_order), slip_(slip_force) {}
 
+  // Touches down where the prediction, a straight line from the sample before, starts to press.
+  void touch(const Vector& before, const Vector& prediction) {
+    if (!second_order_ || !open_ || before[0] > 0 || prediction[0] <= 0) return;
+    const double open_share = -before[0] / (prediction[0] - before[0]);
+    for (std::size_t r = 1; r < 3; ++r) slip_[r] = before[r] + open_share * (prediction[r] - before[r]);
+  }
+
   Vector advance(const Vector& prediction) {
     const double normal = std::max(0.0, prediction[0]);
     const double limit = friction_ * normal;
@@ -31,6 +38,7 @@ class Follower {
       angle_ = angle;
     }
     slid_ = slides;
+    open_ = normal <= 0;
     for (std::size_t r = 0; r < 3; ++r)
       if (r == 0 || normal <= 0 || slides) slip_[r] = prediction[r] - force[r];
     return force;
@@ -42,7 +50,7 @@ class Follower {
   bool second_order_;
   Vector slip_;
   double angle_ = 0;
-  bool slid_ = false;
+  bool slid_ = false, open_ = false;
 };
 
 }  // namespace
@@ -61,6 +69,7 @@ Orbit periodic_orbit(const std::vector<Vector>& prediction, double friction, boo
   for (int period = 0; period < kMaxPeriods && !orbit.periodic; ++period) {
     const Vector before = follower.slip();
     for (std::size_t n = 0; n < prediction.size(); ++n) {
+      follower.touch(prediction[(n + prediction.size() - 1) % prediction.size()], prediction[n]);
       orbit.force[n] = follower.advance(prediction[n]);
       orbit.slip_force[n] = follower.slip();
     }

@@ -20,7 +20,7 @@ struct Orbit {
 /// point of the friction cone's section |lambda_T| <= mu lambda_N, lambda_N = max(0, prediction_N), to the trial force
 /// prediction_T - eps X_T. Repeated until the slip at the end of a period is that at its start. `second_order`: a slip
 /// that goes on turns by the exact angle of a slip direction that follows a straight path, instead of jumping to
-/// the closest point.
+/// the closest point, and contact begins where the normal prediction passes zero between two samples.
 [[nodiscard]] Orbit periodic_orbit(const std::vector<Vector>& prediction, double friction, bool second_order,
                                    const Vector& slip_force);
 

@@ -13,9 +13,11 @@ int main(int argc, char** argv) {
   CLI::App app("Hard cases of the steady state: each converges, checked independently, or says why not.");
   std::vector<std::string> only;
   std::string csv;
+  std::string slip_return;
   bool quiet = false;
   app.add_option("--only", only, "families, or single problems as FAMILY/NUMBER");
   app.add_option("--csv", csv, "file for one line per problem");
+  app.add_option("--slip-return", slip_return, "first_order or second_order for all problems instead of their own");
   app.add_flag("--quiet", quiet, "no line per problem that did not converge");
   CLI11_PARSE(app, argc, argv);
   const auto asked = [&](const std::string& family, int index) {
@@ -27,7 +29,9 @@ int main(int argc, char** argv) {
   for (const Family& family : families())
     for (int index = 0; index < family.count; ++index) {
       if (!asked(family.name, index)) continue;
-      outcomes.push_back(attempt(family.name, index, family.make(index)));
+      Problem problem = family.make(index);
+      if (!slip_return.empty()) problem.options.slip_return = slip_return;
+      outcomes.push_back(attempt(family.name, index, problem));
       if (!quiet) fmt::print("{}", failures({outcomes.back()}));
       std::fflush(stdout);
     }
