@@ -166,10 +166,14 @@ LoadedModel from_model(const std::string& file, reduction::ReducedModel model, r
   loaded.steady = steady;
   loaded.model = std::move(model);
   loaded.condensed = std::make_shared<const response::CondensedModel>(loaded.model);
-  const response::CondensedModel& condensed = *loaded.condensed;
-  if (condensed.modal() && condensed.glued_frequencies().size() > 0)
-    loaded.glued_omega = condensed.glued_frequencies()[0];
-  if (!std::isfinite(loaded.glued_omega) || loaded.glued_omega < 0) loaded.glued_omega = 0;
+  // Ascending; those of free motion are no resonance to start from.
+  constexpr double kFree = 1e-6;
+  const Eigen::VectorXd glued = loaded.condensed->glued_frequencies();
+  for (const double omega : glued)
+    if (std::isfinite(omega) && omega > kFree * glued.maxCoeff()) {
+      loaded.glued_omega = omega;
+      break;
+    }
   return loaded;
 }
 

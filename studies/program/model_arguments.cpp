@@ -1,0 +1,126 @@
+#include "studies/program/shared_arguments.hpp"
+
+namespace dovetail::studies {
+
+void define_model_commands(CLI::App& app, Arguments& a) {
+  constexpr const char* kInput = "A reduced model (HDF5, or TOML with Matrix Market files) or a study file (TOML)";
+  CLI::App* response = app.add_subcommand("response", "Frequency response of a model or a study's design");
+  response->footer(
+      "The frequencies are gone through in the order given; --from may exceed --to. JSON: {\"frequency_hz\", "
+      "\"status\",\n"
+      "\"iterations\", \"outputs\":{NAME:{\"amplitude\", \"cosine\", \"sine\"}}, \"dissipated_energy_j\", "
+      "\"error_force\",\n"
+      "\"error_energy\", \"wear_rate_m_per_cycle\", \"residual\", \"penalty_ratio\", \"settings\"}; "
+      "cosine[.][0] is the\n"
+      "mean. At a frequency that did not converge all numbers but the frequency, iterations and residual are null.\n"
+      "\"settings\" holds the harmonics and samples used and the pseudo-penalties; a penalty ratio other than 1 "
+      "multiplies\n"
+      "these where a solve needed it. --arclength adds \"arclength\", and each analysis an object of its name, with\n"
+      "one entry per frequency in each list.");
+  response->add_option("INPUT", a.response.input, kInput)->required()->type_name("");
+  response->add_option("--from", a.response.from_hz, "First frequency")->type_name("HZ")->required();
+  response->add_option("--to", a.response.to_hz, "Last frequency")->type_name("HZ")->required();
+  response->add_option("--points", a.response.points, "Number of frequencies, evenly spaced")
+      ->type_name("N")
+      ->required();
+  response->add_flag("--arclength", a.response.arclength,
+                     "Follow the response from --from through its turning points until it leaves the interval; the "
+                     "frequencies are then those of the points computed, at most 1/(N-1) of the interval apart");
+  AnalysisChoice& choice = a.response.choice;
+  response->add_flag("--error-bars", choice.error_bars,
+                     "How far harmonics, samples and pseudo-penalty may have moved each result");
+  response->add_flag("--penalty-sensitivity", choice.penalty_sensitivity,
+                     "Each result for 0.5, 1, 2 and 10 times the pseudo-penalty, and its logarithmic slope");
+  response->add_flag("--stability", choice.stability,
+                     "Local stability of each periodic solution, with its multipliers; says where it has no meaning");
+  response->add_flag("--traction-bounds", choice.traction_bounds,
+                     "Least and largest result found over the admissible residual tractions of stuck nodes");
+  add_set(*response, a);
+  add_solver(*response, a);
+  add_json(*response, a.response.json);
+  response->callback([&a] {
+    a.command = [&a](const Streams& s) {
+      a.response.overrides = a.overrides();
+      a.response.solver = a.solver;
+      return run_response(a.response, s);
+    };
+  });
+
+  CLI::App* backbone =
+      app.add_subcommand("backbone", "Resonance and its amplitude over the excitation's level or the wear");
+  backbone->footer(
+      "Each resonance is found from the ones before, not by sampling response curves. JSON: {\"over\", \"output\",\n"
+      "\"parameter\", \"status\", \"frequency_hz\", \"amplitude\", \"frequency_error\", \"dissipated_energy_j\",\n"
+      "\"searched\", \"jacobians\", \"settings\"}; one entry per parameter in each list.");
+  backbone->add_option("INPUT", a.backbone.input, kInput)->required()->type_name("");
+  backbone
+      ->add_option("--over", a.backbone.over,
+                   "force: the parameter multiplies the harmonics of the force, not its static part; wear: it is the "
+                   "largest depth, m, of wear in proportion to the rates of the unworn resonance (default: force)")
+      ->type_name("WHAT")
+      ->check(CLI::IsMember({"force", "wear"}));
+  backbone->add_option("--from", a.backbone.from, "First value of the parameter")->type_name("X")->required();
+  backbone->add_option("--to", a.backbone.to, "Last value of the parameter")->type_name("X")->required();
+  backbone->add_option("--points", a.backbone.points, "Number of values")->type_name("N")->required();
+  backbone->add_flag("--logarithmic", a.backbone.logarithmic, "Space the values evenly on a logarithmic scale");
+  backbone->add_option("--output", a.backbone.output, "Name of the output that resonates (default: the first)")
+      ->type_name("NAME");
+  backbone
+      ->add_option("--frequency", a.backbone.frequency_hz,
+                   "Where the first resonance is searched (default: the natural frequency of the study's mode, of a "
+                   "model's lowest)")
+      ->type_name("HZ");
+  add_set(*backbone, a);
+  add_solver(*backbone, a);
+  add_json(*backbone, a.backbone.json);
+  backbone->callback([&a] {
+    a.command = [&a](const Streams& s) {
+      a.backbone.overrides = a.overrides();
+      a.backbone.solver = a.solver;
+      return run_backbone(a.backbone, s);
+    };
+  });
+
+  CLI::App* wear = app.add_subcommand("wear", "Worn state of a model or a study's design");
+  wear->footer(
+      "`asymptote` computes the shape at which wear comes to rest directly, `history` goes there cycle by cycle. With\n"
+      "`--follow resonance` the excitation tracks the moving resonance (the asymptote: held until wear rests, then\n"
+      "retuned, until the resonance stays); the worn volume may differ by tens of per cent. JSON: {\"method\", "
+      "\"status\",\n"
+      "\"follow\", \"frequency_hz\", \"frequencies_hz\", \"cycles\", \"worn_volume_m3\", \"depth_m\",\n"
+      "\"final_wear_rate_m_per_cycle\", \"solves\", \"settings\"[, \"error_bars\"]}. A history that reached --cycles "
+      "while still wearing has the "
+      "status\n"
+      "no_asymptote, one that used up --steps not_converged.");
+  wear->add_option("INPUT", a.wear.input, kInput)->required()->type_name("");
+  wear->add_option("--method", a.wear.method, "history or asymptote")
+      ->required()
+      ->type_name("METHOD")
+      ->check(CLI::IsMember({"history", "asymptote"}));
+  wear->add_option("--frequency", a.wear.frequency_hz,
+                   "Excitation frequency (default: the unworn resonance of the study's mode, of a model's lowest)")
+      ->type_name("HZ");
+  wear->add_option("--follow", a.wear.follow,
+                   "fixed: the frequency stays; resonance: it tracks the moving resonance (default: fixed)")
+      ->type_name("WHAT")
+      ->check(CLI::IsMember({"fixed", "resonance"}));
+  wear->add_option("--cycles", a.wear.cycles, "history: end after so many cycles")->type_name("N");
+  wear->add_option("--steps", a.wear.steps, "history: steps at most (default: 200)")->type_name("N");
+  wear->add_option("--increment", a.wear.increment_m, "history: largest increase of depth per step, m (default: 1e-7)")
+      ->type_name("M");
+  wear->add_flag(
+      "--error-bars", a.wear.error_bars,
+      "How far harmonics, samples and pseudo-penalty may have moved volume and depth: four computations more");
+  add_set(*wear, a);
+  add_solver(*wear, a);
+  add_json(*wear, a.wear.json);
+  wear->callback([&a] {
+    a.command = [&a](const Streams& s) {
+      a.wear.overrides = a.overrides();
+      a.wear.solver = a.solver;
+      return run_wear(a.wear, s);
+    };
+  });
+}
+
+}  // namespace dovetail::studies
