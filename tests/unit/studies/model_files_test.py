@@ -130,6 +130,20 @@ class ModelFiles(unittest.TestCase):
             self.assertAlmostEqual(first / last, 1, delta=1e-12)
             self.assertAlmostEqual(energy / answer["dissipated_energy_j"][1], 1, delta=1e-12)
 
+    def test_a_massless_gap_cuts_the_motion_off(self):
+        # k u + lambda = F cos with u <= g: u = min(F cos / k, g), at every harmonic computed.
+        data = slider(stiffness=1.0)
+        data["/stiffness"] = np.diag([2.0, 1.0])
+        data.update({"/force/static": np.zeros(2), "/force/cosine": np.array([[1.0, 0.0]]),
+                     "/contact/gap": np.array([0.2]), "/output/vectors": np.array([[1.0, 0.0]])})
+        answer = self.response(data, 3.0, 1.0, 2, "--samples", 2048)
+        self.assertEqual(answer["frequency_hz"], [3.0, 1.0])
+        phase = 2 * math.pi * np.arange(200000) / 200000
+        motion = np.minimum(np.cos(phase) / 2, 0.2)
+        wanted = [motion.mean()] + [2 * np.mean(motion * np.cos(h * phase)) for h in (1, 2, 3)]
+        # 2048 samples find the kinks to a fraction of a sample: an error of the order of 1/N^2.
+        np.testing.assert_allclose(answer["outputs"]["u"]["cosine"][1], wanted, atol=1e-6)
+
     def test_stuck_and_open_contact_is_linear(self):
         data = write_model.rod(3)
         n = data["/mass"].shape[0]
