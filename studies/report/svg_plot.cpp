@@ -222,10 +222,10 @@ std::string point_labels(const Plot& plot, const Scale& x, const Scale& y, doubl
       if (!drawable(line.x[i], plot.x) || !drawable(line.y[i], plot.y) || line.labels[i].empty()) continue;
       const double px = x(line.x[i]), py = y(line.y[i]);
       const double width = 6.6 * static_cast<double>(letters(line.labels[i])), height = 11;
-      const std::array<std::pair<double, double>, 6> places{{{px + 4, py - 5},
-                                                             {px - 4 - width, py - 5},
-                                                             {px + 4, py + 13},
-                                                             {px - 4 - width, py + 13},
+      const std::array<std::pair<double, double>, 6> places{{{px + 6, py - 6},
+                                                             {px - 6 - width, py - 6},
+                                                             {px + 6, py + 14},
+                                                             {px - 6 - width, py + 14},
                                                              {px - width / 2, py - 8},
                                                              {px - width / 2, py + 17}}};
       for (const auto& [left, base] : places) {

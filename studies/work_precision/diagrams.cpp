@@ -144,7 +144,7 @@ Diagram scene_diagram(const DiagramOptions& options) {
   if (options.progress) options.progress(diagram.title + ": reference");
   diagram.reference = contact_reference(subject, defaults, quick ? 6 : 15, quick ? 256 : 1024, quick ? 16 : 80);
   Setting fine = diagram.reference.run.setting, check = fine;
-  fine.harmonics = quick ? 4 : 11;
+  fine.harmonics = quick ? 4 : 7;
   check.harmonics = quick ? 3 : 9;
   fine.samples = quick ? 128 : 1024;
   check.samples = quick ? 128 : 512;

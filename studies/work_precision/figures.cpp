@@ -60,12 +60,14 @@ double mesh_error(const Diagram& diagram, std::size_t quantity) {
 }  // namespace
 
 Plot error_plot(const Diagram& diagram, const Sweep& sweep, std::size_t quantity) {
-  Plot plot{
-      .title = kQuantities[quantity],
-      .x = {.label = sweep.with_model_time ? "model and resonance" : "resonance", .unit = "s", .logarithmic = true},
-      .y = {.label = "relative error", .logarithmic = true},
-      .width = kWidth,
-      .height = kHeight};
+  Plot plot{.title = kQuantities[quantity],
+            .x = {.label = sweep.with_model_time ? "model and resonance" : "resonance",
+                  .unit = "s",
+                  .logarithmic = true,
+                  .tight = true},
+            .y = {.label = "relative error", .logarithmic = true},
+            .width = kWidth,
+            .height = kHeight};
   plot.title[0] = static_cast<char>(std::toupper(plot.title[0]));
   constexpr std::array<std::pair<Role, Stroke>, 3> kLook{
       {{Role::after, Stroke::solid}, {Role::before, Stroke::solid}, {Role::before, Stroke::dashed}}};
