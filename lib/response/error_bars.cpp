@@ -65,11 +65,12 @@ ResonanceBars error_bars(const std::shared_ptr<const CondensedModel>& model, con
     if (bars.status == Status::converged) bars.status = shifts[i].status;
     shifts[i].state.linearisation.reset();
   }
+  const double weight = penalty_weight(*model, resonance.state);
   const auto bar = [&](double PeakShift::*entry) {
     return bar_options.safety * bar_from({.harmonics = shifts[0].*entry,
                                           .samples = shifts[1].*entry,
-                                          .softer = shifts[2].*entry,
-                                          .stiffer = shifts[3].*entry},
+                                          .softer = weight * shifts[2].*entry,
+                                          .stiffer = weight * shifts[3].*entry},
                                          model->massless_contact());
   };
   bars.omega = bar(&PeakShift::omega) + resonance_options.frequency_tolerance * resonance.omega;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "response/refined_state.hpp"
 
@@ -26,6 +27,15 @@ SteadyOptions more_harmonics(SteadyOptions options) {
 SteadyOptions more_samples(SteadyOptions options) {
   options.samples *= 2;
   return options;
+}
+
+double penalty_weight(const CondensedModel& model, const SteadyState& state) {
+  const contact::PseudoPenalty best = contact::pseudo_penalty(model.local_stiffness(), model.directions());
+  double octaves = 0;
+  for (Eigen::Index i = 0; i < model.nodes(); ++i)
+    octaves = std::max({octaves, std::abs(std::log2(state.penalty.normal(i) / best.normal(i))),
+                        std::abs(std::log2(state.penalty.tangential(i) / best.tangential(i)))});
+  return std::max(1.0, 2 * octaves);
 }
 
 Refinements refine(const std::shared_ptr<const CondensedModel>& model, const SteadyState& state,
@@ -79,6 +89,8 @@ ErrorBars bars_from(const CondensedModel& model, const SteadyState& state, const
       if (status == Status::converged) status = states[i]->status;
     }
   }
+  const double weight = penalty_weight(model, state);
+  for (const std::size_t i : {2u, 3u}) changes[i] = transform(changes[i], [=](double x) { return weight * x; });
   ErrorBars bars =
       bars_from(value, {.harmonics = changes[0], .samples = changes[1], .softer = changes[2], .stiffer = changes[3]},
                 options.tolerance, bar_options.safety, model.massless_contact());

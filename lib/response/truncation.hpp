@@ -19,6 +19,9 @@ struct Refinements {
 [[nodiscard]] SteadyOptions more_harmonics(SteadyOptions options);
 [[nodiscard]] SteadyOptions more_samples(SteadyOptions options);
 
+/// Factor on changes with eps, >= 1: twice the octaves between the eps of the state and the local contact stiffness.
+[[nodiscard]] double penalty_weight(const CondensedModel& model, const SteadyState& state);
+
 /// Solves for all four, from a converged state.
 [[nodiscard]] Refinements refine(const std::shared_ptr<const CondensedModel>& model, const SteadyState& state,
                                  const ContactCondition& condition, const SteadyOptions& options);
