@@ -44,6 +44,10 @@ grep -q infeasible out || fail "an impossible neck is not infeasible"
 expect 0 reduce s.toml -o m.h5; [ -s m.h5 ] || fail "no m.h5"
 expect 0 response s.toml --from 490 --to 470 --points 3 --json -; is_json; cp out study.json
 expect 0 response m.h5 --from 490 --to 470 --points 3 --json -; is_json; same out study.json
+expect 0 export s.toml --format matrix-market -o mm.toml; [ -s mm.stiffness.mtx ] || fail "no mm.stiffness.mtx"
+expect 0 response mm.toml --from 490 --to 470 --points 3 --json -; is_json; same out study.json
+expect 0 import mm.toml -o again.h5
+expect 0 response again.h5 --from 490 --to 470 --points 3 --json -; is_json; same out study.json
 expect 0 wear s.toml --method asymptote --json -; is_json; cp out study.json
 expect 0 wear m.h5 --method asymptote --json -; is_json; same out study.json
 expect 0 wear m.h5 --method history --frequency 480 --cycles 1000 --json -; is_json
@@ -71,6 +75,9 @@ fi
 expect 0 report o -o page.html; same page.html o/report.html
 expect 0 export o --format vtu -o f.vtu; same f.vtu o/best.vtu
 expect 0 export o --format dxf -o f.dxf
+expect 0 export o --format matrix-market -o best_model.toml
+expect 0 backbone s.toml --over force --from 1 --to 2 --points 2 --json -; is_json
+expect 0 evaluate s.toml --harmonics auto --samples auto --accuracy 0.01 --json -; is_json
 
 [ "$failures" = 0 ] && echo "all passed"
 exit "$((failures > 0))"
