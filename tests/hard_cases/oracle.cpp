@@ -19,7 +19,8 @@ constexpr double kAmplified = 0.1;
 
 // Reaction forces R = F - Z U of one harmonic from the uncondensed equations, and the energies of that harmonic.
 struct Balance {
-  std::vector<Eigen::VectorXcd> displacement, reaction, load;  // contact dofs, per harmonic
+  std::vector<Eigen::VectorXcd> displacement, reaction, load;  // per harmonic; the first two of contact dofs
+  std::vector<Eigen::VectorXcd> blocked;                       // contact forces of the load when nothing moves there
   double magnitude = 0;                                        // of the terms that cancel in R
   double energy = 0;                                           // of the terms that cancel in the energy balance
 };
@@ -61,11 +62,13 @@ Balance balance(const Problem& problem, const Claim& claim) {
     else
       contact = claim.displacement.col(2 * h - 1) - Complex(0, 1) * claim.displacement.col(2 * h);
     all(c) = contact;
+    Eigen::VectorXcd blocked = force(c);
     if (!internal.empty()) {
       const Eigen::MatrixXcd coupling = dynamic(internal, c), own = dynamic(internal, internal);
       const Eigen::PartialPivLU<Eigen::MatrixXcd> factor(own);
       const Eigen::VectorXcd inside = factor.solve(Eigen::VectorXcd(force(internal) - coupling * contact));
       all(internal) = inside;
+      blocked -= coupling.transpose() * factor.solve(Eigen::VectorXcd(force(internal)));
       // Errors of rounding in the internal dofs, which a resonance of the glued structure amplifies.
       const double stiffness = model.stiffness(internal, internal).norm();
       result.magnitude += kAmplified * factor.solve(coupling).norm() * stiffness * inside.norm();
@@ -75,6 +78,7 @@ Balance balance(const Problem& problem, const Claim& claim) {
     result.displacement.push_back(contact);
     result.reaction.push_back(reaction(c));
     result.load.push_back(force);
+    result.blocked.push_back(blocked);
     result.energy += std::numbers::pi * h *
                      (force.norm() + (dynamic.cwiseAbs() * all.cwiseAbs()).norm() + reaction(c).norm()) * all.norm();
   }
@@ -198,8 +202,9 @@ Verdict examine(const Problem& problem, const Claim& claim) {
   const int samples = problem.options.samples;
   const Marched same = march_all(problem, claim, sum, samples, nullptr);
   const Marched fine = march_all(problem, claim, sum, 16 * samples, &same.orbits);
-  double scale = norm(sum.load, 1);
-  if (!(scale > 0)) scale = norm(sum.load);
+  // As the engine measures: by the excitation as the contact sees it.
+  double scale = norm(sum.blocked, 1);
+  if (!(scale > 0)) scale = norm(sum.blocked);
   if (!(scale > 0)) scale = 1;
   Verdict verdict;
   verdict.residual = distance(same.harmonics, sum.reaction) / scale;
@@ -220,9 +225,10 @@ std::string objection(const Problem& problem, const Verdict& verdict) {
   const double tolerance = problem.options.tolerance;
   if (!verdict.periodic) return "not periodic";
   if (!(verdict.rounding <= 1e-6)) return "rounding swamps the forces";
-  if (!(verdict.residual <= 2 * tolerance + verdict.rounding)) return "residual";
+  // Slip that dies out slowly is extrapolated by the engine and marched to its end here: a few tolerances apart.
+  if (!(verdict.residual <= 5 * tolerance + verdict.rounding)) return "residual";
   // The law on finer samples differs by O(1/N) of the forces at most: kinks inside an interval and slip that turns.
-  if (!(verdict.fine_residual <= 2 * tolerance + verdict.rounding + 10.0 / problem.options.samples))
+  if (!(verdict.fine_residual <= 5 * tolerance + verdict.rounding + 10.0 / problem.options.samples))
     return "residual on finer samples";
   if (!(verdict.tension <= 1e-6)) return "pulls";
   if (!(verdict.cone <= 1e-6)) return "leaves the cone of friction";
