@@ -113,7 +113,8 @@ BranchEquations::Correction BranchEquations::correct(const BranchVector& start, 
   Correction found{.status = Status::singular, .point = start};
   equations.residual(z);
   if (!equations.problem()) return found;
-  const double goal = std::max(options_.tolerance, rounding_floor(*equations.problem(), equations.state()));
+  const double goal =
+      std::max(options_.tolerance, std::min(rounding_floor(*equations.problem(), equations.state()), kLargestFloor));
   const numerics::NewtonSystem system{
       .residual = [&](const Eigen::VectorXd& at) { return equations.residual(at); },
       .newton_step = [&](Eigen::VectorXd& step) { return equations.newton_step(step); }};

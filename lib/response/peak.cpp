@@ -13,8 +13,6 @@
 namespace dovetail::response {
 namespace {
 
-constexpr double kLargestFloor = 1e-6;
-
 double vibration(const Eigen::MatrixXd& coefficients) {
   return coefficients.rightCols(coefficients.cols() - 1).norm();
 }

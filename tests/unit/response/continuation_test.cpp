@@ -71,12 +71,20 @@ Linearisation linearised(double omega, double size) {
 }
 
 TEST(Linearisation, KnowsTheSignOfItsDeterminant) {
-  for (int i = 0; i < 40; ++i) {
-    const Linearisation linear = linearised(1.5 + 0.1 * i, 0.05 * (1 + 4 * (i % 5)));
+  // Of J along a branch that leans over: it changes where the frequency turns, and nowhere else.
+  const SteadyOptions options{.harmonics = 7, .samples = 256, .tolerance = 1e-11};
+  const Branch branch = continuation(condensed(gap_oscillator(1, 0.02, 0.1)), 0.8, 1.4, {}, options);
+  ASSERT_EQ(branch.turns(), 2);
+  for (const ContinuationPoint& point : branch.points) {
+    if (point.is_turn) continue;
+    ASSERT_TRUE(point.state.linearisation);
+    const Linearisation& linear = *point.state.linearisation;
     const Eigen::MatrixXd jacobian = linear.residual().jacobian(linear.state());
     const double scale = jacobian.cwiseAbs().maxCoeff();
     const double determinant = Eigen::PartialPivLU<Eigen::MatrixXd>(jacobian / scale).determinant();
-    EXPECT_EQ(linear.determinant_sign(), determinant > 0 ? 1 : -1) << i;
+    EXPECT_EQ(linear.determinant_sign(), determinant > 0 ? 1 : -1) << point.state.omega;
+    EXPECT_EQ(linear.determinant_sign() > 0, point.turns % 2 == 0) << point.state.omega;
+    EXPECT_EQ(point.direction > 0, point.turns % 2 == 0) << point.state.omega;
   }
 }
 
