@@ -31,7 +31,7 @@ TEST_P(HardCases, AreSolvedOrClassified) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Family, HardCases, testing::ValuesIn(families()),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& param_info) { return param_info.param.name; });
 
 }  // namespace
 }  // namespace dovetail::hard_cases
