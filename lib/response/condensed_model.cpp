@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "numerics/dense_product.hpp"
+#include "reduction/contact_order.hpp"
 #include "response/contact_model_check.hpp"
 
 namespace dovetail::response {
@@ -73,6 +74,35 @@ CondensedModel::CondensedModel(const reduction::ReducedModel& model) {
 void CondensedModel::set_slip_origin(const Eigen::MatrixXd& slip_origin) {
   assert(slip_origin.rows() == nodes() && slip_origin.cols() == directions() - 1);
   contact_.slip_origin = slip_origin;
+}
+
+reduction::ReducedModel CondensedModel::reduced() const {
+  const Eigen::Index nc = contact_size(), ni = force_internal_.rows(), n = nc + ni;
+  const auto joined = [&](const Partition& part) {
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
+    matrix.topLeftCorner(nc, nc) = part.cc;
+    matrix.topRightCorner(nc, ni) = part.ci;
+    matrix.bottomLeftCorner(ni, nc) = part.ci.transpose();
+    if (modal_)
+      matrix.diagonal().tail(ni) = part.ii.col(0);
+    else
+      matrix.bottomRightCorner(ni, ni) = part.ii;
+    return matrix;
+  };
+  reduction::ReducedModel model;
+  model.mass = joined(mass_);
+  model.damping = joined(damping_);
+  model.stiffness = joined(stiffness_);
+  model.contact = reduction::contact_first(contact_);
+  Eigen::MatrixXcd force(n, force_contact_.cols());
+  force << force_contact_, force_internal_;
+  model.static_force = force.col(0).real();
+  model.cosine_force = force.rightCols(force_harmonics()).real().transpose();
+  model.sine_force = -force.rightCols(force_harmonics()).imag().transpose();
+  model.output_vectors.resize(output_contact_.rows(), n);
+  model.output_vectors << output_contact_, output_internal_;
+  model.output_names = output_names_;
+  return model;
 }
 
 // Internal coordinates in which M, C and K are diagonal, if there are any; and the local contact stiffness.

@@ -49,6 +49,9 @@ class CondensedModel {
     force_internal_.rightCols(force_harmonics()) *= factor;
   }
 
+  /// The same model in this object's coordinates: contact dofs first, node by node, then the internal coordinates.
+  [[nodiscard]] reduction::ReducedModel reduced() const;
+
   /// omega in rad/s. Loads of harmonic 0 are multiplied by `static_scale` (a loading path).
   [[nodiscard]] HarmonicStiffness harmonic(int h, double omega, double static_scale = 1) const;
   /// dZ_h/dw U_c - dF_h/dw [nc] at constant U_c, without forming dZ_h/dw: with q = (U_c, q_i) and T = (I, -S_ii^-1

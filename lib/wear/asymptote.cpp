@@ -7,6 +7,7 @@
 
 #include "wear/archard.hpp"
 #include "wear/history.hpp"
+#include "wear/partial_release.hpp"
 #include "wear/passes.hpp"
 
 namespace dovetail::wear {
@@ -23,19 +24,26 @@ void set_depth(const reduction::ContactNodes& contact, const VectorXd& depth, As
   result.largest_depth = result.interpolated_largest_depth = depth.size() == 0 ? 0.0 : depth.maxCoeff();
 }
 
-void set_edges(const reduction::ContactNodes& contact, const PlacedEdges& placed, Asymptote& result) {
-  result.edges = placed.edges;
-  result.edge_status = placed.status;
-  if (placed.status != Status::converged || placed.edges.empty()) return;
-  result.interpolated_depth = interpolate_edges(placed.edges, result.depth, placed.states);
-  result.interpolated_volume = worn_volume(contact, result.interpolated_depth);
-  result.interpolated_largest_depth = result.interpolated_depth.maxCoeff();
-  std::vector<Edge> moved = placed.edges;
-  for (std::size_t end = 0; end < 2; ++end) {
-    for (Edge& edge : moved) edge.theta = static_cast<double>(end);
-    result.volume_bracket[end] = worn_volume(contact, interpolate_edges(moved, result.depth, placed.states));
+void place_edges(Release& release, double threshold, int limit, Asymptote& result) {
+  const PartialRelease partial = release_partially(release, result.unworn, threshold, limit);
+  result.edge_status = partial.status;
+  if (!partial.settled) return;
+  const reduction::ContactNodes& contact = release.model().contact();
+  result.share = partial.share;
+  result.interpolated_depth = partial.depth;
+  result.interpolated_volume = worn_volume(contact, partial.depth);
+  result.interpolated_largest_depth = partial.depth.size() == 0 ? 0.0 : partial.depth.maxCoeff();
+  result.volume_bracket.fill(result.interpolated_volume);
+  for (const bool outside : {false, true}) {
+    const VectorXd whole = outside ? VectorXd(partial.share.array().ceil()) : VectorXd(partial.share.array().floor());
+    if (whole == partial.share) continue;
+    const response::SteadyState state = release.solve_shared(whole, partial.state.displacement);
+    // Where nothing would hold with the edge outside, the other half of the bracket stands for both.
+    if (state.status != Status::converged) continue;
+    const double volume = worn_volume(contact, release.shared_depth(whole, state));
+    result.volume_bracket[0] = std::min(result.volume_bracket[0], volume);
+    result.volume_bracket[1] = std::max(result.volume_bracket[1], volume);
   }
-  std::sort(result.volume_bracket.begin(), result.volume_bracket.end());
 }
 
 /// Release found nothing that holds: nodes can stop wearing while they still carry load, which only a history sees.
@@ -136,7 +144,7 @@ Asymptote asymptote(const std::shared_ptr<const response::CondensedModel>& model
 
   result.verdict = Verdict::asymptote;
   set_depth(contact, release.depth(passes.released, passes.state), result);
-  if (options.interpolate_edge) set_edges(contact, place_edges(release, threshold, options.passes, passes), result);
+  if (options.interpolate_edge) place_edges(release, threshold, options.passes, result);
   if (options.certify) {
     const response::SteadyState worn = release.solve_worn(result.depth, passes.state.displacement);
     if (worn.status == Status::converged) {

@@ -11,7 +11,6 @@
 #include "core/status.hpp"
 #include "response/steady_state.hpp"
 #include "wear/control.hpp"
-#include "wear/edge.hpp"
 
 namespace dovetail::wear {
 
@@ -40,7 +39,7 @@ struct AsymptoteOptions {
   double confirm_increment = 0.1;
   // >= 1. Steps of that history.
   int confirm_steps = 200;
-  // Place the edge of the worn zone between nodes (smooth in the design) besides the nodal answer; plane models only.
+  // Place the edges of worn zones between nodes, besides the nodal answer: smooth in the design. Plane models only.
   bool interpolate_edge = true;
   // Solve once more with the worn gap and contact everywhere, and report the remaining rate.
   bool certify = true;
@@ -57,15 +56,16 @@ struct Asymptote {
   std::vector<bool> released;         ///< [Nc] worn off: carries nothing any more
   double worn_volume = 0.0;           ///< m^3, nodal answer
   double largest_depth = 0.0;         ///< m, nodal answer
-  /// The same with the edges of the worn zone between nodes: smooth in the design where the nodal answer jumps by a
-  /// node, and second order in the node spacing. Equal to the nodal answer when not asked for or without an edge.
-  /// `volume_bracket` are the volumes with all edges at one and at the other end of the spacing they lie in.
+  /// The same with the edges of worn zones between nodes (PartialRelease): continuous in the design where the nodal
+  /// answer jumps by a node, and second order in the node spacing where that is first order. Equal to the nodal answer
+  /// when not asked for. `volume_bracket`: the volumes with the edges moved to the nearest whole nodes inside and
+  /// outside.
   double interpolated_volume = 0.0;         ///< m^3
   double interpolated_largest_depth = 0.0;  ///< m
   Eigen::VectorXd interpolated_depth;       ///< [Nc] m
+  Eigen::VectorXd share;                    ///< [Nc] part of each node that is worn off, see PartialRelease
   std::array<double, 2> volume_bracket{};   ///< m^3, lower and upper
-  std::vector<Edge> edges;                  ///< edges of the worn zone and where they lie between nodes
-  Status edge_status = Status::converged;   ///< of the extra states; otherwise the nodal answer is repeated
+  Status edge_status = Status::converged;   ///< of the states it takes; otherwise the nodal answer is repeated
 
   Eigen::VectorXd unworn_rate;  ///< [Nc] dW of the unworn state, m per cycle
   Eigen::VectorXd rate;         ///< [Nc] dW of the worn state, m per cycle (no asymptote: the steady one)
