@@ -8,6 +8,7 @@
 #include "response/peak_shift.hpp"
 #include "response/refined_state.hpp"
 #include "wear/archard.hpp"
+#include "wear/partial_release.hpp"
 
 namespace dovetail::optimizer {
 
@@ -48,24 +49,28 @@ void wear_bars(const CandidateResult& result, const response::SteadyOptions& fin
     return;
   }
 
-  response::ContactCondition condition;
-  condition.released.assign(asymptote.released.begin(), asymptote.released.end());
-  const response::SteadyState state =
-      response::steady_state(result.model.condensed, result.unworn->omega, condition, finer,
-                             response::padded(asymptote.steady.displacement, finer.harmonics));
-  if (state.status != Status::converged) {
-    volume = depth = kUnknown;
-    return;
-  }
+  // The worn zones again, from the unworn state at finer settings: they shift the edges as well as the depths.
+  const wear::Control control;
+  wear::Release release(result.model.condensed, result.unworn->omega, {}, finer, control);
+  const response::SteadyState unworn =
+      release.solve(std::vector<bool>(asymptote.released.size(), false),
+                    response::padded(result.unworn->state.displacement, finer.harmonics));
+  volume = depth = kUnknown;
+  if (unworn.status != Status::converged) return;
+  const wear::AsymptoteOptions defaults;
+  const double threshold = std::max(defaults.rate_threshold, defaults.relative_threshold * unworn.wear_rate.maxCoeff());
+  const wear::PartialRelease partial = wear::release_partially(release, unworn, threshold, defaults.passes);
+  if (!partial.settled) return;
   const reduction::ContactNodes& contact = result.model.reduction.model.contact;
-  Eigen::VectorXd worn = Eigen::VectorXd::Zero(contact.count());
-  for (Eigen::Index i = 0; i < contact.count(); ++i)
-    if (asymptote.released[static_cast<std::size_t>(i)])
-      worn(i) = std::max(0.0, state.nodes[static_cast<std::size_t>(i)].max_normal_displacement - contact.gap(i));
-  const double edge = (asymptote.volume_bracket[1] - asymptote.volume_bracket[0]) / 2;
-  volume = std::abs(wear::worn_volume(contact, worn) - asymptote.worn_volume) + edge;
-  depth = std::abs(worn.maxCoeff() - asymptote.largest_depth) +
-          std::abs(asymptote.interpolated_largest_depth - asymptote.largest_depth);
+  // Of what one node more or less in the zones would change, edges between nodes leave a few per cent: on dovetails of
+  // 12 to 64 edges per flank 1 to 5 per cent.
+  constexpr double kEdge = 0.1;
+  const double bracket = asymptote.volume_bracket[1] - asymptote.volume_bracket[0];
+  volume = std::abs(wear::worn_volume(contact, partial.depth) - asymptote.interpolated_volume) + kEdge * bracket;
+  depth = std::abs(partial.depth.maxCoeff() - asymptote.interpolated_largest_depth) +
+          kEdge * std::abs(asymptote.largest_depth - asymptote.interpolated_largest_depth);
+  if (asymptote.interpolated_volume > 0)
+    depth += kEdge * bracket / asymptote.interpolated_volume * asymptote.interpolated_largest_depth / 2;
 }
 
 }  // namespace
