@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "wear/archard.hpp"
-#include "wear/history.hpp"
+#include "wear/implicit_history.hpp"
 #include "wear/partial_release.hpp"
 #include "wear/passes.hpp"
 
@@ -46,39 +47,86 @@ void place_edges(Release& release, double threshold, int limit, Asymptote& resul
   }
 }
 
-/// Release found nothing that holds: nodes can stop wearing while they still carry load, which only a history sees.
-void ask_history(const std::shared_ptr<const response::CondensedModel>& model, double omega, Release& release,
-                 double threshold, const response::SteadyOptions& steady, const AsymptoteOptions& options,
-                 const Control& control, Asymptote& result) {
-  double penetration = 0.0;
-  for (Index i = 0; i < model->nodes(); ++i)
-    penetration = std::max(penetration, result.unworn.nodes[static_cast<std::size_t>(i)].max_normal_force /
-                                            model->local_stiffness()[i * model->directions()]);
-  constexpr double kDied = 1e-3;
-  const HistoryOptions history_options{.increment = options.confirm_increment * penetration,
-                                       .steps = options.confirm_steps,
-                                       .rate_fraction = kDied,
-                                       .rate_threshold = threshold};
-  const History past = history(model, omega, release.start(), steady, history_options, {}, control);
-  release.count(past.solves, past.jacobians);
-  const Index states = past.cycles.size();
-  result.status = past.status;
-  if (states == 0 || past.status != Status::converged) {
+/// What is known when the passes of release are over.
+struct Direct {
+  bool settled = false;  ///< `result` holds its depth
+  std::string doubt;     ///< why it may not be where wear ends
+};
+
+/// A node that an earlier pass wore deeper than the last one needs lost contact on the way; a history may have worn it
+/// before the load came back to others, and ends deeper.
+bool reloads(const Passes& passes, const Asymptote& result, double tolerance) {
+  return passes.deepest.size() > 0 &&
+         (passes.deepest - result.depth).maxCoeff() > tolerance * std::max(result.largest_depth, 0.0);
+}
+
+/// Solves once more with the worn gap and contact everywhere.
+void certify(Release& release, double fastest, const AsymptoteOptions& options, Asymptote& result) {
+  const response::SteadyState worn = release.solve_worn(result.depth, result.steady.displacement);
+  if (worn.status != Status::converged) {
     result.verdict = Verdict::not_converged;
+    result.status = worn.status;
     return;
   }
-  set_depth(model->contact(), past.depth.row(states - 1).transpose(), result);
-  result.rate = past.rate.row(states - 1).transpose();
-  result.steady = past.steady;
-  result.confirmed_by_history = true;
-  // Under a dead load the rate levels out; otherwise it still falls when the steps are used up, and nothing is known.
-  const bool level = past.rate.row(states - 1).maxCoeff() > 0.5 * past.rate.row((states - 1) / 2).maxCoeff();
-  if (past.end == HistoryEnd::worn_out) {
-    result.verdict = Verdict::asymptote;
-  } else {
-    result.verdict = level ? Verdict::no_asymptote : Verdict::not_converged;
-    if (!level) result.status = Status::iteration_limit;
+  result.rate = worn.wear_rate;
+  result.steady = worn;
+  result.certificate = fastest > 0.0 ? worn.wear_rate.maxCoeff() / fastest : 0.0;
+  if (!(worn.wear_rate.maxCoeff() <= std::max(options.certificate_limit * fastest, options.rate_threshold))) {
+    result.verdict = Verdict::not_converged;
+    result.status = Status::stalled;
   }
+}
+
+OtherState other_state(std::string found_by, const reduction::ContactNodes& contact, const VectorXd& depth) {
+  return {.found_by = std::move(found_by),
+          .depth = depth,
+          .worn_volume = worn_volume(contact, depth),
+          .largest_depth = depth.size() == 0 ? 0.0 : depth.maxCoeff()};
+}
+
+bool same_depth(const VectorXd& a, const VectorXd& b, double tolerance) {
+  if (a.size() == 0) return true;
+  return (a - b).cwiseAbs().maxCoeff() <= tolerance * std::max(a.maxCoeff(), b.maxCoeff());
+}
+
+/// The implicit history has the last word. Where it cannot be followed to its end a settled direct answer stands,
+/// unconfirmed; any other becomes not_converged.
+void arbitrate(const std::shared_ptr<const response::CondensedModel>& model, double omega, Release& release,
+               double fastest, const response::SteadyOptions& steady, const AsymptoteOptions& options,
+               const Direct& direct, const Control& control, Asymptote& result) {
+  const reduction::ContactNodes& contact = model->contact();
+  const ImplicitHistory past = implicit_history(model, omega, release.start(), steady,
+                                                {.tolerance = options.history_tolerance,
+                                                 .rate_fraction = options.relative_threshold,
+                                                 .rate_threshold = options.rate_threshold},
+                                                &result.unworn, control);
+  release.count(past.solves, past.jacobians);
+  const Index last = past.cycles.size() - 1;
+  const bool certified = direct.settled && result.verdict == Verdict::asymptote;
+  if (past.end != ImplicitEnd::worn_out && past.end != ImplicitEnd::steady_rate) {
+    if (past.end == ImplicitEnd::interrupted || !certified) {
+      result.verdict = Verdict::not_converged;
+      if (result.status == Status::converged || past.end == ImplicitEnd::interrupted) result.status = past.status;
+    }
+    return;
+  }
+  result.confirmed_by_history = true;
+  result.status = Status::converged;
+  const VectorXd depth = past.depth.row(last).transpose();
+  const VectorXd rate = past.rate.row(last).transpose();
+  if (past.end == ImplicitEnd::worn_out && certified && same_depth(depth, result.depth, options.state_tolerance))
+    return;
+  if (certified) result.other_states.push_back(other_state("release", contact, result.depth));
+  set_depth(contact, depth, result);
+  result.decided_by = "history";
+  result.rate = rate;
+  result.steady = past.steady;
+  if (past.end == ImplicitEnd::steady_rate) {
+    result.verdict = Verdict::no_asymptote;
+    return;
+  }
+  result.certificate = fastest > 0.0 ? rate.maxCoeff() / fastest : 0.0;
+  result.verdict = Verdict::asymptote;
 }
 
 }  // namespace
@@ -133,33 +181,44 @@ Asymptote asymptote(const std::shared_ptr<const response::CondensedModel>& model
   result.status = passes.status;
   result.steady = passes.state;
   result.rate = passes.state.wear_rate;
-  if (ending == Ending::failed) return finish();
-  if (ending == Ending::nothing_holds) {
+  if (passes.status == Status::interrupted) return finish();
+  Direct direct;
+  if (ending == Ending::failed) {
+    direct.doubt = "pass_failed";
+  } else if (ending == Ending::nothing_holds) {
+    direct.doubt = "nothing_holds";
     result.rate = result.unworn_rate;
     result.verdict = Verdict::no_asymptote;
     result.status = Status::converged;
-    if (options.confirm_by_history) ask_history(model, omega, release, threshold, steady, options, control, result);
-    return finish();
+  } else {
+    direct.settled = true;
+    result.verdict = Verdict::asymptote;
+    set_depth(contact, release.depth(passes.released, passes.state), result);
+    if (options.interpolate_edge) place_edges(release, threshold, options.passes, result);
+    if (options.certify) certify(release, fastest, options, result);
+    if (result.verdict != Verdict::asymptote)
+      direct.doubt = "certificate";
+    else if (reloads(passes, result, options.state_tolerance))
+      direct.doubt = "reload";
   }
+  result.doubt = direct.doubt;
+  if (result.doubt.empty() && options.arbitration == "always") result.doubt = "always";
+  if (result.doubt.empty() || options.arbitration == "never") return finish();
 
-  result.verdict = Verdict::asymptote;
-  set_depth(contact, release.depth(passes.released, passes.state), result);
-  if (options.interpolate_edge) place_edges(release, threshold, options.passes, result);
-  if (options.certify) {
-    const response::SteadyState worn = release.solve_worn(result.depth, passes.state.displacement);
-    if (worn.status == Status::converged) {
-      result.rate = worn.wear_rate;
-      result.steady = worn;
-      result.certificate = fastest > 0.0 ? worn.wear_rate.maxCoeff() / fastest : 0.0;
-      if (!(worn.wear_rate.maxCoeff() <= std::max(options.certificate_limit * fastest, options.rate_threshold))) {
-        result.verdict = Verdict::not_converged;
-        result.status = Status::stalled;
-      }
-    } else {
-      result.verdict = Verdict::not_converged;
-      result.status = worn.status;
-    }
+  const int solves = release.solves();
+  const int jacobians = release.jacobians();
+  if (options.arbitration == "always" && fastest > threshold) {
+    const std::optional<VectorXd> slow = release_worst_first(release, result.unworn, threshold);
+    if (slow && direct.settled && !same_depth(*slow, result.depth, options.state_tolerance))
+      result.other_states.push_back(other_state("worst_first", contact, *slow));
   }
+  arbitrate(model, omega, release, fastest, steady, options, direct, control, result);
+  if (result.decided_by == "history")
+    for (std::size_t i = 0; i < passes.released.size(); ++i)
+      passes.released[i] = result.depth[static_cast<Index>(i)] > release.start().wear_depth[static_cast<Index>(i)] &&
+                           !result.steady.nodes[i].carries_load;
+  result.arbitration_solves = release.solves() - solves;
+  result.arbitration_jacobians = release.jacobians() - jacobians;
   return finish();
 }
 

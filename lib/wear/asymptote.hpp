@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -32,13 +33,13 @@ struct AsymptoteOptions {
   double relative_threshold = 1e-4;
   // >= 1. Passes of release; each releases every loaded node that slips.
   int passes = 60;
-  // Confirm a verdict "no asymptote" by the explicit history, for wear that stops with worn nodes still loaded.
-  bool confirm_by_history = true;
-  // > 0. Largest increment of that history relative to the largest local penetration of the unworn contact,
-  // lambda_N over the node's own stiffness.
-  double confirm_increment = 0.1;
-  // >= 1. Steps of that history.
-  int confirm_steps = 200;
+  // auto | never | always. Whether the implicit history has the last word: where the direct answer is in doubt, never
+  // (then "no asymptote" is not confirmed either), or every time.
+  std::string arbitration = "auto";
+  // > 0. Two worn states are the same when their depths differ by less than this, relative to the largest depth.
+  double state_tolerance = 1e-2;
+  // in (0, 0.5]. Local error per step of the implicit history, relative to the largest depth.
+  double history_tolerance = 2e-4;
   // Place the edges of worn zones between nodes, besides the nodal answer: smooth in the design. Plane models only.
   bool interpolate_edge = true;
   // Solve once more with the worn gap and contact everywhere, and report the remaining rate.
@@ -46,6 +47,14 @@ struct AsymptoteOptions {
   // in (0, 1]. With a remaining rate above this fraction of the unworn one (and above rate_threshold), or when that
   // state cannot be solved, the verdict is not_converged.
   double certificate_limit = 1e-2;
+};
+
+/// Another state in which nothing wears.
+struct OtherState {
+  std::string found_by;        ///< release | worst_first
+  Eigen::VectorXd depth;       ///< [Nc] m
+  double worn_volume = 0.0;    ///< m^3
+  double largest_depth = 0.0;  ///< m
 };
 
 /// The worn geometry at which wear stops.
@@ -71,24 +80,34 @@ struct Asymptote {
   Eigen::VectorXd rate;         ///< [Nc] dW of the worn state, m per cycle (no asymptote: the steady one)
   /// Largest rate with gap g + W and contact everywhere over the largest unworn rate; NaN when not computed.
   double certificate = 0.0;
-  bool confirmed_by_history = false;  ///< "no asymptote" was looked at by the history as well
-  response::SteadyState unworn;       ///< steady state before wear
-  response::SteadyState steady;       ///< at the limit (no asymptote: the last one computed)
-  int passes = 0;                     ///< of release
-  int solves = 0;                     ///< steady states computed
-  int jacobians = 0;                  ///< factorised Jacobians over all of them
+  /// Why the direct answer was in doubt: "" (not at all), nothing_holds (every loaded node slips), pass_failed,
+  /// certificate (above its limit), reload (a node worn off on the way did not need to) or always (asked for).
+  std::string doubt;
+  std::string decided_by = "release";    ///< release | history: what `depth` and `verdict` are from
+  bool confirmed_by_history = false;     ///< the history was run to an end and has decided
+  std::vector<OtherState> other_states;  ///< states at rest where the history does not go
+  int arbitration_solves = 0;            ///< of `solves`: looking for doubt and the history
+  int arbitration_jacobians = 0;         ///< of `jacobians`
+  response::SteadyState unworn;          ///< steady state before wear
+  response::SteadyState steady;          ///< at the limit (no asymptote: the last one computed)
+  int passes = 0;                        ///< of release
+  int solves = 0;                        ///< steady states computed
+  int jacobians = 0;                     ///< factorised Jacobians over all of them
 };
 
 /// Limiting worn geometry without the history: solve with the released nodes free of contact, release every loaded
 /// node that slips, repeat until none does; then the released nodes have worn until they just do not touch,
 /// W = max(0, max_t u_N - g). With the worn gap every node has zero rate: it sticks or carries nothing. Zero-rate
 /// states are not unique: where pressures shift while the joint wears, or nodes lift off, a history can end deeper.
+/// Where the direct answer is in `doubt` the implicit history decides; if it ends elsewhere, `depth` is the history's
+/// and other_states holds the direct one. A verdict without asymptote is confirmed by it too. Should the history fail,
+/// a certified direct answer stands with confirmed_by_history = false.
 ///
 /// @param omega      excitation frequency rad/s, held; the unworn resonance is a good choice
 /// @param start      wear depth already there (the result includes it) and slip origin; it must release no node
 /// @param unworn     steady state of `start` at omega to begin with, or null
-/// Cost: 5 to 15 steady states, warm-started. Throws InputError for options out of range and
-/// for nodes released at the start.
+/// Cost: 5 to 15 steady states, warm-started; a history 50 to 200 Jacobians more. Throws InputError for options out of
+/// range and for nodes released at the start.
 [[nodiscard]] Asymptote asymptote(const std::shared_ptr<const response::CondensedModel>& model, double omega,
                                   const response::ContactCondition& start, const response::SteadyOptions& steady,
                                   const AsymptoteOptions& options = {}, const response::SteadyState* unworn = nullptr,

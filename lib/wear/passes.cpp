@@ -47,9 +47,27 @@ Ending release_slipping(Release& release, double threshold, int limit, const Con
     }
     passes.released = std::move(next);
     passes.state = std::move(state);
-    control.report(passes.count + 1,
-                   worn_volume(release.model().contact(), release.depth(passes.released, passes.state)),
-                   passes.state.wear_rate.maxCoeff());
+    const Eigen::VectorXd depth = release.depth(passes.released, passes.state);
+    passes.deepest = passes.deepest.size() == 0 ? depth : Eigen::VectorXd(passes.deepest.cwiseMax(depth));
+    control.report(passes.count + 1, worn_volume(release.model().contact(), depth), passes.state.wear_rate.maxCoeff());
+  }
+}
+
+std::optional<Eigen::VectorXd> release_worst_first(Release& release, const response::SteadyState& unworn,
+                                                   double threshold) {
+  response::SteadyState state = unworn;
+  std::vector<bool> released(static_cast<std::size_t>(release.model().nodes()), false);
+  for (;;) {
+    const std::vector<bool> loaded = loaded_nodes(state, released);
+    std::size_t worst = released.size();
+    for (std::size_t i = 0; i < released.size(); ++i) {
+      const auto rate = [&state](std::size_t node) { return state.wear_rate[static_cast<Index>(node)]; };
+      if (loaded[i] && rate(i) > threshold && (worst == released.size() || rate(i) > rate(worst))) worst = i;
+    }
+    if (worst == released.size()) return release.depth(released, state);
+    released[worst] = true;
+    state = release.solve(released, state.displacement, true);
+    if (state.status != Status::converged) return std::nullopt;
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include "wear/asymptote.hpp"
 #include "wear/history.hpp"
+#include "wear/implicit_history.hpp"
 
 namespace dovetail {
 
@@ -56,17 +57,18 @@ std::span<const Field<wear::AsymptoteOptions>> option_table<wear::AsymptoteOptio
                      .range = {.lower = 0, .upper = 1, .upper_open = true},
                      .help = "the same, relative to the largest rate of the unworn state"},
       Field<Options>{.key = "passes", .member = &Options::passes, .range = {.lower = 1}, .help = "passes of release"},
-      Field<Options>{.key = "confirm_by_history",
-                     .member = &Options::confirm_by_history,
-                     .help = "confirm that there is no asymptote by the history"},
-      Field<Options>{.key = "confirm_increment",
-                     .member = &Options::confirm_increment,
+      Field<Options>{.key = "arbitration",
+                     .member = &Options::arbitration,
+                     .help = "when the implicit history has the last word: in doubt, never or always",
+                     .choices = {"auto", "never", "always"}},
+      Field<Options>{.key = "state_tolerance",
+                     .member = &Options::state_tolerance,
                      .range = kPositive,
-                     .help = "increment of that history over the largest local penetration"},
-      Field<Options>{.key = "confirm_steps",
-                     .member = &Options::confirm_steps,
-                     .range = {.lower = 1},
-                     .help = "steps of that history"},
+                     .help = "difference of depths, relative to the largest, below which two worn states are the same"},
+      Field<Options>{.key = "history_tolerance",
+                     .member = &Options::history_tolerance,
+                     .range = {.lower = 0, .upper = 0.5, .lower_open = true},
+                     .help = "local error per step of the implicit history, relative to the largest depth"},
       Field<Options>{.key = "interpolate_edge",
                      .member = &Options::interpolate_edge,
                      .help = "place the edge of the worn zone between nodes"},
@@ -77,6 +79,49 @@ std::span<const Field<wear::AsymptoteOptions>> option_table<wear::AsymptoteOptio
                      .member = &Options::certificate_limit,
                      .range = {.lower = 0, .upper = 1, .lower_open = true},
                      .help = "largest remaining wear rate, relative to the unworn one, of a certified worn state"},
+  };
+  return fields;
+}
+
+template <>
+std::span<const Field<wear::ImplicitHistoryOptions>> option_table<wear::ImplicitHistoryOptions>() {
+  using Options = wear::ImplicitHistoryOptions;
+  static const std::array fields{
+      Field<Options>{.key = "tolerance",
+                     .member = &Options::tolerance,
+                     .range = {.lower = 0, .upper = 0.5, .lower_open = true},
+                     .help = "local error per step, relative to the largest depth"},
+      Field<Options>{.key = "first_increment",
+                     .member = &Options::first_increment,
+                     .range = kPositive,
+                     .help = "increase of depth in the first step over the largest local penetration"},
+      Field<Options>{.key = "growth",
+                     .member = &Options::growth,
+                     .range = {.lower = 1, .lower_open = true},
+                     .help = "largest growth of the step from one to the next"},
+      Field<Options>{.key = "steps", .member = &Options::steps, .range = {.lower = 1}, .help = "steps at most"},
+      Field<Options>{.key = "stage_iterations",
+                     .member = &Options::stage_iterations,
+                     .range = {.lower = 1},
+                     .help = "Jacobians per stage of a step before it is cut"},
+      Field<Options>{.key = "rate_fraction",
+                     .member = &Options::rate_fraction,
+                     .range = {.lower = 0, .upper = 1, .upper_open = true},
+                     .help = "worn out when the largest rate fell below this fraction of the first one"},
+      Field<Options>{.key = "rate_threshold_um_per_cycle",
+                     .member = &Options::rate_threshold,
+                     .si_per_unit = 1e-6,
+                     .range = kNonNegative,
+                     .help = "worn out, too, when the largest rate fell below this"},
+      Field<Options>{.key = "level_depth",
+                     .member = &Options::level_depth,
+                     .range = {.lower = 1, .lower_open = true},
+                     .help = "depth, over the largest local penetration, beyond which rates may have levelled out"},
+      Field<Options>{.key = "level_change",
+                     .member = &Options::level_change,
+                     .range = {.lower = 0, .upper = 1, .lower_open = true, .upper_open = true},
+                     .help = "change of the largest rate, while the depth doubles, below which it has levelled out"},
+      Field<Options>{.key = "finish", .member = &Options::finish, .help = "finish by the direct method"},
   };
   return fields;
 }

@@ -1,0 +1,234 @@
+#include "wear/implicit_history.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "wear/archard.hpp"
+#include "wear/finish.hpp"
+#include "wear/implicit_stage.hpp"
+
+namespace dovetail::wear {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// gamma of the L-stable, stiffly accurate scheme of two stages and second order [Alexander 1977].
+constexpr double kGamma = 0.29289321881345254;
+
+/// Third-order quadrature over the rates at the start, at gamma and at the end, minus that of the scheme: the embedded
+/// estimate of the local error [Hosea & Shampine 1996].
+struct ErrorWeights {
+  double start = 0.5 - 1.0 / (6.0 * kGamma);
+  double middle = 1.0 / (6.0 * kGamma * (1.0 - kGamma)) - (1.0 - kGamma);
+  double end = 0.5 - 1.0 / (6.0 * (1.0 - kGamma)) - kGamma;
+};
+
+struct Record {
+  double cycles = 0;
+  VectorXd depth, rate;
+};
+
+void store(const reduction::ContactNodes& contact, const std::vector<Record>& records, ImplicitHistory& result) {
+  const auto count = static_cast<Index>(records.size());
+  result.cycles.resize(count);
+  result.worn_volume.resize(count);
+  result.depth.resize(count, contact.count());
+  result.rate.resize(count, contact.count());
+  for (Index i = 0; i < count; ++i) {
+    const Record& record = records[static_cast<std::size_t>(i)];
+    result.cycles[i] = record.cycles;
+    result.worn_volume[i] = worn_volume(contact, record.depth);
+    result.depth.row(i) = record.depth.transpose();
+    result.rate.row(i) = record.rate.transpose();
+  }
+}
+
+/// A step of `jump` cycles from `point`; writes the end of it and the local error [Nc] when it converges.
+Status step(ImplicitStage& stage, double jump, int iterations, WearPoint& point, VectorXd& error) {
+  const Index nodes = point.depth.size();
+  const VectorXd cycles = VectorXd::Constant(nodes, kGamma * jump);
+  const WearPoint start = point;
+  WearPoint middle = start;
+  if (const Status status = stage.solve(start.depth, cycles, iterations, middle); status != Status::converged)
+    return status;
+  const VectorXd base = start.depth + (1.0 - kGamma) * jump * middle.rate;
+  WearPoint end = middle;
+  if (const Status status = stage.solve(base, cycles, iterations, end); status != Status::converged) return status;
+  // The explicit half of the scheme takes a node past the depth at which it carries or slips no more: from there on it
+  // wears by the implicit rule from the first stage.
+  VectorXd bounded = base;
+  VectorXd slowed = cycles;
+  bool past = false;
+  for (Index i = 0; i < nodes; ++i)
+    if (end.rate[i] <= 0.0 && base[i] > middle.depth[i]) {
+      bounded[i] = middle.depth[i];
+      slowed[i] = (1.0 - kGamma) * jump;
+      past = true;
+    }
+  if (past) {
+    end = middle;
+    if (const Status status = stage.solve(bounded, slowed, iterations, end); status != Status::converged) return status;
+  }
+  constexpr ErrorWeights kWeights;
+  error = stage.damp(slowed,
+                     jump * (kWeights.start * start.rate + kWeights.middle * middle.rate + kWeights.end * end.rate));
+  point = std::move(end);
+  return Status::converged;
+}
+
+/// Whether the rates stayed as they were while the depth doubled, far beyond the elastic scale.
+bool levelled_out(const std::vector<Record>& records, double penetration, const ImplicitHistoryOptions& options) {
+  const Record& last = records.back();
+  const double deep = last.depth.maxCoeff();
+  if (deep < options.level_depth * penetration) return false;
+  const auto earlier = std::find_if(records.rbegin(), records.rend(),
+                                    [deep](const Record& record) { return record.depth.maxCoeff() <= 0.5 * deep; });
+  if (earlier == records.rend() || earlier->depth.maxCoeff() < 0.05 * deep) return false;
+  return (last.rate - earlier->rate).cwiseAbs().maxCoeff() <= options.level_change * last.rate.maxCoeff();
+}
+
+}  // namespace
+
+std::string_view to_string(ImplicitEnd end) {
+  switch (end) {
+    case ImplicitEnd::worn_out:
+      return "worn_out";
+    case ImplicitEnd::steady_rate:
+      return "steady_rate";
+    case ImplicitEnd::steps:
+      return "steps";
+    case ImplicitEnd::failed:
+      return "failed";
+    case ImplicitEnd::interrupted:
+      return "interrupted";
+  }
+  return "unknown";
+}
+
+ImplicitHistory implicit_history(const std::shared_ptr<const response::CondensedModel>& model, double omega,
+                                 const response::ContactCondition& start, const response::SteadyOptions& steady,
+                                 const ImplicitHistoryOptions& options, const response::SteadyState* unworn,
+                                 const Control& control) {
+  if (std::vector<Violation> wrong = violations(options, "implicit_history"); !wrong.empty())
+    throw InputError(std::move(wrong));
+  if (std::count(start.released.begin(), start.released.end(), 0) != std::ssize(start.released))
+    throw InputError({.file = {},
+                      .key = "start.released",
+                      .value = "some nodes",
+                      .allowed = "must release no node: which ones wear off is the answer"});
+  ImplicitHistory result;
+  std::vector<Record> records;
+  const auto finish = [&](ImplicitEnd end, Status status) {
+    result.end = end;
+    result.status = status;
+    store(model->contact(), records, result);
+    return std::move(result);
+  };
+  if (control.stopped()) return finish(ImplicitEnd::interrupted, Status::interrupted);
+  response::SteadyOptions settings = steady;
+  settings.linearise = true;
+  if (unworn != nullptr && unworn->linearisation) {
+    result.steady = *unworn;
+  } else {
+    result.steady = response::steady_state(model, omega, start, settings);
+    result.solves = 1;
+    result.jacobians = result.steady.iterations;
+    result.evaluations = result.steady.evaluations;
+  }
+  if (result.steady.status != Status::converged) return finish(ImplicitEnd::failed, result.steady.status);
+
+  for (Index i = 0; i < model->nodes(); ++i)
+    result.largest_penetration =
+        std::max(result.largest_penetration, result.steady.nodes[static_cast<std::size_t>(i)].max_normal_force /
+                                                 model->local_stiffness()[i * model->directions()]);
+  WearPoint point{.displacement = result.steady.displacement,
+                  .depth = start.wear_depth.size() > 0 ? start.wear_depth : VectorXd(VectorXd::Zero(model->nodes())),
+                  .rate = result.steady.wear_rate};
+  const VectorXd first_depth = point.depth;
+  records.push_back({.cycles = 0.0, .depth = point.depth, .rate = point.rate});
+  const double first_rate = point.rate.size() > 0 ? point.rate.maxCoeff() : 0.0;
+  const double worn_out = std::max(options.rate_threshold, options.rate_fraction * first_rate);
+  if (!(first_rate > worn_out)) return finish(ImplicitEnd::worn_out, Status::converged);
+
+  ImplicitStage stage(model, start, settings, result.steady);
+  const auto count = [&] {
+    result.solves += stage.solves();
+    result.jacobians += stage.jacobians();
+    result.evaluations += stage.evaluations();
+  };
+  const auto leave = [&](ImplicitEnd end, Status status) {
+    if (records.size() > 1) result.steady = stage.described(point);
+    count();
+    return finish(end, status);
+  };
+  // Early on a finish must hardly move anything: what the released nodes leave to others still has to wear in time.
+  constexpr double kCloseBefore = 0.02;
+  constexpr double kCloseAtEnd = 0.05;
+  double finish_below = 1e-2;
+  double jump = cycle_jump(point.rate, options.first_increment * result.largest_penetration);
+  double cycles = 0.0;
+  // After a step whose equations could not be solved the next ones grow slowly.
+  constexpr int kRecovery = 3;
+  constexpr double kSlowGrowth = 1.5;
+  int recovering = 0;
+  Status failure = Status::iteration_limit;
+  for (int i = 0; i < options.steps; ++i) {
+    if (control.stopped()) return leave(ImplicitEnd::interrupted, Status::interrupted);
+    WearPoint next = point;
+    VectorXd error;
+    failure = step(stage, jump, options.stage_iterations, next, error);
+    const double scale =
+        options.tolerance * std::max(result.largest_penetration, (next.depth - first_depth).maxCoeff());
+    const double ratio = failure == Status::converged ? error.cwiseAbs().maxCoeff() / scale : kInfinity;
+    if (!(ratio <= 1.0)) {
+      ++result.rejected;
+      constexpr double kCut = 0.25;
+      jump *= failure == Status::converged ? std::clamp(0.9 / std::cbrt(ratio), 0.1, 0.7) : kCut;
+      if (failure != Status::converged) recovering = kRecovery;
+      constexpr double kSmallest = 1e-7;
+      if (jump * point.rate.maxCoeff() < kSmallest * scale / options.tolerance)
+        return leave(ImplicitEnd::failed, failure == Status::converged ? Status::stalled : failure);
+      continue;
+    }
+    point = std::move(next);
+    cycles += jump;
+    records.push_back({.cycles = cycles, .depth = point.depth, .rate = point.rate});
+    control.report(static_cast<int>(records.size()) - 1, worn_volume(model->contact(), point.depth),
+                   point.rate.maxCoeff());
+    const double fastest = point.rate.maxCoeff();
+    const bool done = fastest <= worn_out;
+    if (done || (options.finish && fastest <= finish_below * first_rate)) {
+      const response::SteadyState reached = stage.described(point);
+      Finish last;
+      if (options.finish) {
+        last = finish_by_release(model, omega, start, steady, reached, point.depth, cycles,
+                                 done ? kCloseAtEnd : kCloseBefore, control);
+        result.solves += last.solves;
+        result.jacobians += last.jacobians;
+        finish_below = 0.1 * fastest / first_rate;
+      }
+      if (done || last.done) {
+        result.steady = last.done ? last.steady : reached;
+        result.finished = last.done;
+        count();
+        if (last.done) {
+          result.finish_change = (last.depth - point.depth).cwiseAbs().maxCoeff();
+          records.push_back({.cycles = kInfinity, .depth = last.depth, .rate = last.steady.wear_rate});
+        }
+        return finish(ImplicitEnd::worn_out, Status::converged);
+      }
+    }
+    if (levelled_out(records, result.largest_penetration, options))
+      return leave(ImplicitEnd::steady_rate, Status::converged);
+    jump *= std::clamp(0.9 / std::cbrt(std::max(ratio, 1e-6)), 0.3, recovering > 0 ? kSlowGrowth : options.growth);
+    recovering = std::max(0, recovering - 1);
+  }
+  return leave(ImplicitEnd::steps, failure == Status::converged ? Status::iteration_limit : failure);
+}
+
+}  // namespace dovetail::wear

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "core/options.hpp"
+#include "core/status.hpp"
+#include "response/steady_state.hpp"
+#include "wear/control.hpp"
+
+namespace dovetail::wear {
+
+struct ImplicitHistoryOptions {
+  // in (0, 0.5]. Local error per step, relative to the largest depth so far or, while that is less, to the largest
+  // local penetration of the unworn contact (lambda_N over the node's own stiffness).
+  double tolerance = 2e-4;
+  // > 0. Largest increase of depth in the first step, relative to that penetration.
+  double first_increment = 0.05;
+  // > 1. Largest growth of the step from one to the next.
+  double growth = 3.0;
+  // >= 1. Steps at most, accepted and rejected.
+  int steps = 300;
+  // >= 1. Jacobians per stage of a step before it is cut.
+  int stage_iterations = 10;
+  // in [0, 1). Worn out when the largest rate fell below this fraction of the first one.
+  double rate_fraction = 1e-6;
+  // >= 0. Worn out, too, when the largest rate fell below this, m per cycle: 1e-9 um.
+  double rate_threshold = 1e-15;
+  // > 1. A rate that stays within `level_change` while the depth doubles, beyond this many of those penetrations, has
+  // levelled out: wear goes on for ever.
+  double level_depth = 300.0;
+  // in (0, 1).
+  double level_change = 1e-3;
+  // Finish a worn-out history by releasing the nodes that still wear, so that no bias of the last rates remains.
+  bool finish = true;
+};
+
+/// Why an implicit history ended.
+enum class ImplicitEnd {
+  worn_out,     ///< rates died out
+  steady_rate,  ///< rates level out under load: there is no asymptote
+  steps,        ///< steps used up
+  failed,       ///< no step could be solved however short: see `status`
+  interrupted,
+};
+[[nodiscard]] std::string_view to_string(ImplicitEnd end);
+
+/// Wear over cycles in large steps; entry 0 is the unworn state, S = accepted steps + 1 (one more when finished).
+struct ImplicitHistory {
+  Status status = Status::converged;
+  ImplicitEnd end = ImplicitEnd::steps;
+  Eigen::VectorXd cycles;            ///< [S]; infinite for the finished state
+  Eigen::VectorXd worn_volume;       ///< [S] m^3
+  Eigen::MatrixXd depth;             ///< [S, Nc] m
+  Eigen::MatrixXd rate;              ///< [S, Nc] m per cycle
+  response::SteadyState steady;      ///< of the last state
+  bool finished = false;             ///< the last state is that of the direct method
+  double finish_change = 0.0;        ///< largest change of depth by finishing, m
+  double largest_penetration = 0.0;  ///< of the unworn contact, m
+  int rejected = 0;                  ///< steps cut because they failed or erred too much
+  int solves = 0;                    ///< steady states and stages solved, failed ones included
+  int jacobians = 0;                 ///< factorised Jacobians over all of them
+  int evaluations = 0;               ///< residuals
+};
+
+/// Wear history with (U, W) integrated together, dW/dn = r(U, W), f(U; W) = 0, by a stiffly accurate, L-stable scheme
+/// of second order: stages W_s = B_s + c r(U_s, W_s) are solved by Newton's method on (U, W) at once with U eliminated
+/// by the factorised Jacobian, one factorisation per iteration,
+///   dU = -J^-1 (f + J_W dW), (I - c R) dW = -(g - c r_U J^-1 f), g = W - B - c r, R = dr/dW along f = 0,
+/// over the nodes that wear. Steps grow while the local error permits and end where nothing wears any more; a step
+/// that does not converge is cut and never built on. No node loses depth, and none is worn past the load that wears it.
+///
+/// @param omega   excitation frequency rad/s, held
+/// @param start   wear depth to start from and slip origin; it must release no node
+/// @param unworn  steady state of `start` at omega with its linearisation to begin with, or null
+/// Cost: two to five Jacobians per step, 20 to 40 steps. Throws InputError for options out of range and for nodes
+/// released at the start.
+[[nodiscard]] ImplicitHistory implicit_history(const std::shared_ptr<const response::CondensedModel>& model,
+                                               double omega, const response::ContactCondition& start,
+                                               const response::SteadyOptions& steady,
+                                               const ImplicitHistoryOptions& options = {},
+                                               const response::SteadyState* unworn = nullptr,
+                                               const Control& control = {});
+
+}  // namespace dovetail::wear
+
+namespace dovetail {
+template <>
+std::span<const Field<wear::ImplicitHistoryOptions>> option_table<wear::ImplicitHistoryOptions>();
+}

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "response/problem.hpp"
+#include "response/steady_state.hpp"
+
+namespace dovetail::wear {
+
+/// A point (U, W) of a history and its rate.
+struct WearPoint {
+  Eigen::MatrixXd displacement;  ///< U [nc, 2H+1], m
+  Eigen::VectorXd depth;         ///< W [Nc], m
+  Eigen::VectorXd rate;          ///< r(U, W) [Nc], m per cycle
+};
+
+/// One implicit stage f(U; W) = 0, W = B + c r(U, W): Newton's method on (U, W) with U eliminated. Factors are kept
+/// from stage to stage as long as chord steps with them contract. Residuals are forces relative to the excitation,
+/// those of the second equation through the pseudo-penalty, eps_N (W - B - c r).
+class ImplicitStage {
+ public:
+  /// `from` is a steady state of the same model, condition and options with its linearisation.
+  ImplicitStage(std::shared_ptr<const response::CondensedModel> model, response::ContactCondition condition,
+                response::SteadyOptions steady, const response::SteadyState& from);
+
+  /// Solves from `point` and writes the solution there if it converges. `base` B [Nc] m, a lower bound of W;
+  /// `cycles` c [Nc] >= 0.
+  [[nodiscard]] Status solve(const Eigen::VectorXd& base, const Eigen::VectorXd& cycles, int max_iterations,
+                             WearPoint& point);
+  /// (I - c R)^-1 v with the factors of the last stage: an error as the equations damp it.
+  [[nodiscard]] Eigen::VectorXd damp(const Eigen::VectorXd& cycles, const Eigen::VectorXd& error) const;
+  /// The point as a steady state, with its linearisation.
+  [[nodiscard]] response::SteadyState described(const WearPoint& point) const;
+  /// Factors of a steady state computed elsewhere.
+  void adopt(const std::shared_ptr<const response::Linearisation>& linear);
+
+  [[nodiscard]] int solves() const { return solves_; }
+  [[nodiscard]] int jacobians() const { return jacobians_; }
+  [[nodiscard]] int evaluations() const { return evaluations_; }
+
+ private:
+  [[nodiscard]] response::SteadyResidual problem(const Eigen::VectorXd& depth) const;
+  [[nodiscard]] Eigen::VectorXd rate(const response::ResidualState& state) const;
+
+  std::shared_ptr<const response::CondensedModel> model_;
+  response::ContactCondition condition_;
+  response::SteadyOptions steady_;
+  double ratio_;
+  numerics::FourierBasis basis_;
+  std::shared_ptr<const response::HarmonicSystem> system_;
+  std::shared_ptr<const response::Linearisation> linear_;
+  Eigen::MatrixXd response_;  // dU/dW along f = 0, [nc (2H+1), Nc]
+  Eigen::MatrixXd slope_;     // R = dr/dW along f = 0, [Nc, Nc]
+  int solves_ = 0, jacobians_ = 0, evaluations_ = 0;
+};
+
+}  // namespace dovetail::wear
