@@ -43,6 +43,8 @@ class CondensedModel {
   void set_slip_origin(const Eigen::MatrixXd& slip_origin);
   /// Replaces the friction coefficients mu [Nc], >= 0 (large: a node that is held stuck).
   void set_friction(const Eigen::VectorXd& friction) { contact_.friction = friction; }
+  /// Replaces the wear coefficients k_w [Nc], 1/Pa, >= 0.
+  void set_wear_coefficient(const Eigen::VectorXd& coefficient) { contact_.wear_coefficient = coefficient; }
   /// Multiplies the forces of harmonics >= 1 (an excitation level).
   void scale_excitation(double factor) {
     force_contact_.rightCols(force_harmonics()) *= factor;
