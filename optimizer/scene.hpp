@@ -24,12 +24,13 @@ struct Loading {
   double tip_force = 2.0;             ///< amplitude of the tangential force at the aerofoil tip, N
   double damping_ratio = 1e-3;        ///< modal damping of the glued modes
   int nodal_diameter = 0;
-  int mode = 1;  ///< glued mode whose resonance is followed, from 1
+  int mode = 1;                  ///< glued mode whose resonance is followed, from 1
+  std::string follow = "fixed";  ///< fixed | resonance: what drives the wear
 };
 
 /// Sizes and tolerances of the contact computation.
 struct SolverSettings {
-  int harmonics = 3;
+  int harmonics = 5;
   int samples = 128;
   int modes = 20;                    ///< free-interface modes kept
   double tolerance = 1e-9;           ///< relative residual of the steady state

@@ -8,7 +8,7 @@ namespace dovetail::response {
 
 /// How a steady state is computed. Flat; see option_table<SteadyOptions>() for keys, ranges and help.
 struct SteadyOptions {
-  int harmonics = 3;                 ///< H >= 1
+  int harmonics = 5;                 ///< H >= 1
   int samples = 128;                 ///< N > 2H per period
   double tolerance = 1e-9;           ///< of the residual force relative to the excitation, > 0
   int max_iterations = 60;           ///< Jacobians per pseudo-penalty tried, >= 1

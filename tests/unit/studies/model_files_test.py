@@ -212,14 +212,14 @@ class ModelFiles(unittest.TestCase):
 
     def test_no_harmonic_of_the_force_is_dropped(self):
         data = slider(mass=0.01, damping=0.1)
-        data["/force/cosine"] = np.vstack([data["/force/cosine"]] + [np.zeros((3, 2))] + [data["/force/cosine"] * 0.2])
-        data["/force/sine"] = np.zeros((5, 2))
+        data["/force/cosine"] = np.vstack([data["/force/cosine"]] + [np.zeros((5, 2))] + [data["/force/cosine"] * 0.2])
+        data["/force/sine"] = np.zeros((7, 2))
         answer = self.response(data, 1.0, 1.0, 1)
-        self.assertEqual(answer["settings"]["harmonics"], 5)
+        self.assertEqual(answer["settings"]["harmonics"], 7)
         sentence = self.refusal(data, "response", self.model, "--from", 1, "--to", 1, "--points", 1, "--harmonics", 3)
-        self.assertIn("--harmonics = 3: must be >= 5, the largest of the force", sentence)
-        data["/force/cosine"][4] = 0  # rows of zeros ask for nothing
-        self.assertEqual(self.response(data, 1.0, 1.0, 1)["settings"]["harmonics"], 3)
+        self.assertIn("--harmonics = 3: must be >= 7, the largest of the force", sentence)
+        data["/force/cosine"][6] = 0  # rows of zeros ask for nothing
+        self.assertEqual(self.response(data, 1.0, 1.0, 1)["settings"]["harmonics"], 5)
 
     def test_automatic_harmonics_and_samples_reach_the_accuracy(self):
         data = write_model.rod(4)

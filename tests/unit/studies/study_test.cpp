@@ -107,7 +107,7 @@ TEST(Study, EveryNumberKeepsItsRange) {
 }
 
 TEST(Study, WholeNumbersRefuseFractions) {
-  EXPECT_THAT(complaints(replaced(sample(), "harmonics = 3", "harmonics = 3.5")),
+  EXPECT_THAT(complaints(replaced(sample(), "harmonics = 5", "harmonics = 3.5")),
               HasSubstr("solver.harmonics = 3.5: must be a whole number >= 1"));
 }
 
@@ -236,7 +236,7 @@ TEST(Study, ConstraintsAreChecked) {
 }
 
 TEST(Study, ContradictionsAcrossKeysNameTheirPlace) {
-  EXPECT_THAT(complaints(replaced(sample(), "harmonics = 3", "harmonics = 100")),
+  EXPECT_THAT(complaints(replaced(sample(), "harmonics = 5", "harmonics = 100")),
               testing::MatchesRegex("s.toml:[0-9]+: solver.samples = 128: must be >= .* = 202"));
   EXPECT_THAT(complaints(replaced(sample(), "nodal_diameter = 0", "nodal_diameter = 2")),
               HasSubstr("scene.nodal_diameter = 2: must be 0"));

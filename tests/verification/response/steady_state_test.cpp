@@ -20,7 +20,7 @@ double harmonic_amplitude(const SteadyState& state, Eigen::Index h) {
 // Amplitudes of an independent implementation of the same discrete equations, 12 digits printed; the residual is
 // 1e-9 of the excitation, in practice 1e-15.
 TEST(Rod, MatchesAnIndependentImplementation) {
-  const SteadyState three = steady_state(condensed(rod(10)), 2.5, {}, {});
+  const SteadyState three = steady_state(condensed(rod(10)), 2.5, {}, {.harmonics = 3});
   ASSERT_EQ(three.status, Status::converged);
   EXPECT_NEAR(harmonic_amplitude(three, 1), 0.180214843944, 1e-12);
   EXPECT_NEAR(harmonic_amplitude(three, 3), 0.00343507318754, 1e-14);
@@ -28,7 +28,7 @@ TEST(Rod, MatchesAnIndependentImplementation) {
   ASSERT_EQ(seven.status, Status::converged);
   EXPECT_NEAR(harmonic_amplitude(seven, 1), 0.179869422188, 1e-12);
   EXPECT_NEAR(harmonic_amplitude(seven, 3), 0.00348405307794, 1e-14);
-  const SteadyState fine = steady_state(condensed(rod(100)), 2.5, {}, {});
+  const SteadyState fine = steady_state(condensed(rod(100)), 2.5, {}, {.harmonics = 3});
   ASSERT_EQ(fine.status, Status::converged);
   EXPECT_NEAR(harmonic_amplitude(fine, 1), 0.184913938551, 1e-12);
 }
