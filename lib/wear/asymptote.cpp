@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "wear/archard.hpp"
@@ -55,9 +54,16 @@ struct Direct {
 
 /// A node that an earlier pass wore deeper than the last one needs lost contact on the way; a history may have worn it
 /// before the load came back to others, and ends deeper.
-bool reloads(const Passes& passes, const Asymptote& result, double tolerance) {
-  return passes.deepest.size() > 0 &&
-         (passes.deepest - result.depth).maxCoeff() > tolerance * std::max(result.largest_depth, 0.0);
+bool reloads(const VectorXd& deepest, const VectorXd& depth, double tolerance) {
+  return deepest.size() > 0 && (deepest - depth).maxCoeff() > tolerance * depth.maxCoeff();
+}
+
+/// A node that touches at times only may wear to where it touches without slip, well before it touches nothing.
+bool lifts_off(const Passes& passes, const VectorXd& depth, double tolerance) {
+  const double least = tolerance * depth.maxCoeff();
+  for (std::size_t i = 0; i < passes.touching.size(); ++i)
+    if (passes.touching[i] && depth[static_cast<Index>(i)] > least) return true;
+  return false;
 }
 
 /// Solves once more with the worn gap and contact everywhere.
@@ -116,7 +122,9 @@ void arbitrate(const std::shared_ptr<const response::CondensedModel>& model, dou
   const VectorXd rate = past.rate.row(last).transpose();
   if (past.end == ImplicitEnd::worn_out && certified && same_depth(depth, result.depth, options.state_tolerance))
     return;
-  if (certified) result.other_states.push_back(other_state("release", contact, result.depth));
+  std::erase_if(result.other_states,
+                [&](const OtherState& state) { return same_depth(state.depth, depth, options.state_tolerance); });
+  if (certified) result.other_states.insert(result.other_states.begin(), other_state("release", contact, result.depth));
   set_depth(contact, depth, result);
   result.decided_by = "history";
   result.rate = rate;
@@ -198,27 +206,37 @@ Asymptote asymptote(const std::shared_ptr<const response::CondensedModel>& model
     if (options.certify) certify(release, fastest, options, result);
     if (result.verdict != Verdict::asymptote)
       direct.doubt = "certificate";
-    else if (reloads(passes, result, options.state_tolerance))
+    else if (reloads(passes.deepest, result.depth, options.state_tolerance))
       direct.doubt = "reload";
+    else if (lifts_off(passes, result.depth, options.state_tolerance))
+      direct.doubt = "lift_off";
   }
-  result.doubt = direct.doubt;
-  if (result.doubt.empty() && options.arbitration == "always") result.doubt = "always";
-  if (result.doubt.empty() || options.arbitration == "never") return finish();
-
   const int solves = release.solves();
   const int jacobians = release.jacobians();
-  if (options.arbitration == "always" && fastest > threshold) {
-    const std::optional<VectorXd> slow = release_worst_first(release, result.unworn, threshold);
-    if (slow && direct.settled && !same_depth(*slow, result.depth, options.state_tolerance))
-      result.other_states.push_back(other_state("worst_first", contact, *slow));
+  const auto count_arbitration = [&] {
+    result.arbitration_solves = release.solves() - solves;
+    result.arbitration_jacobians = release.jacobians() - jacobians;
+  };
+  const bool asked = options.arbitration == "always";
+  if (options.arbitration != "never" && passes.count > 0 && direct.settled && (direct.doubt.empty() || asked)) {
+    const SlowRelease slow = release_slowly(release, result.unworn, threshold, options.passes);
+    const bool elsewhere = !same_depth(slow.depth, result.depth, options.state_tolerance);
+    if (slow.settled && elsewhere) result.other_states.push_back(other_state("worst_first", contact, slow.depth));
+    if (direct.doubt.empty() &&
+        (!slow.settled || elsewhere || reloads(slow.deepest, slow.depth, options.state_tolerance)))
+      direct.doubt = "worst_first";
+  }
+  result.doubt = direct.doubt.empty() && asked ? "always" : direct.doubt;
+  if (result.doubt.empty() || options.arbitration == "never") {
+    count_arbitration();
+    return finish();
   }
   arbitrate(model, omega, release, fastest, steady, options, direct, control, result);
   if (result.decided_by == "history")
     for (std::size_t i = 0; i < passes.released.size(); ++i)
       passes.released[i] = result.depth[static_cast<Index>(i)] > release.start().wear_depth[static_cast<Index>(i)] &&
                            !result.steady.nodes[i].carries_load;
-  result.arbitration_solves = release.solves() - solves;
-  result.arbitration_jacobians = release.jacobians() - jacobians;
+  count_arbitration();
   return finish();
 }
 

@@ -81,7 +81,9 @@ struct Asymptote {
   /// Largest rate with gap g + W and contact everywhere over the largest unworn rate; NaN when not computed.
   double certificate = 0.0;
   /// Why the direct answer was in doubt: "" (not at all), nothing_holds (every loaded node slips), pass_failed,
-  /// certificate (above its limit), reload (a node worn off on the way did not need to) or always (asked for).
+  /// certificate (above its limit), lift_off (a worn node touched at times only), reload (a node worn off on the way
+  /// did not need to), worst_first (releasing the fastest nodes first does not end there, or reloads) or always (asked
+  /// for).
   std::string doubt;
   std::string decided_by = "release";    ///< release | history: what `depth` and `verdict` are from
   bool confirmed_by_history = false;     ///< the history was run to an end and has decided

@@ -1,9 +1,12 @@
 #include "wear/history.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 #include <vector>
 
 #include "wear/archard.hpp"
+#include "wear/finish.hpp"
 
 namespace dovetail::wear {
 
@@ -57,6 +60,8 @@ class Run {
     return solved;
   }
 
+  [[nodiscard]] const response::ContactCondition& condition() const { return condition_; }
+
   void accept(const VectorXd& depth, const response::SteadyState& state) {
     condition_.wear_depth = depth;
     if (options_.carry_slip) condition_.slip_origin = state.slip_end;
@@ -78,6 +83,14 @@ class Run {
   HistoryOptions options_;
   response::ResonanceOptions resonance_;
 };
+
+double largest_penetration(const response::CondensedModel& model, const response::SteadyState& state) {
+  double penetration = 0.0;
+  for (Index i = 0; i < model.nodes(); ++i)
+    penetration = std::max(penetration, state.nodes[static_cast<std::size_t>(i)].max_normal_force /
+                                            model.local_stiffness()[i * model.directions()]);
+  return penetration;
+}
 
 void store(const std::vector<Record>& records, Index nodes, History& result) {
   const auto count = static_cast<Index>(records.size());
@@ -116,9 +129,23 @@ std::string_view to_string(HistoryEnd end) {
   return "unknown";
 }
 
+Resumption resume(const History& stored, const response::ContactCondition& start, const HistoryOptions& options) {
+  const Index last = stored.cycles.size() - 1;
+  Resumption next{
+      .omega = stored.frequency.size() > 0 ? stored.frequency[last] : 0.0, .start = start, .options = options};
+  if (last < 0) return next;
+  next.start.wear_depth = stored.depth.row(last).transpose();
+  if (options.carry_slip) next.start.slip_origin = stored.steady.slip_end;
+  next.options.start_cycles = stored.cycles[last];
+  if (options.reference_rate == 0.0 && stored.rate.size() > 0)
+    next.options.reference_rate = stored.rate.row(0).maxCoeff();
+  return next;
+}
+
 History history(const std::shared_ptr<const response::CondensedModel>& model, double omega,
                 const response::ContactCondition& start, const response::SteadyOptions& steady,
-                const HistoryOptions& options, const response::ResonanceOptions& resonance, const Control& control) {
+                const HistoryOptions& options, const response::ResonanceOptions& resonance, const Control& control,
+                const StateObserver& observer) {
   if (std::vector<Violation> wrong = violations(options, "history"); !wrong.empty()) throw InputError(std::move(wrong));
 
   Run run(model, start, steady, options, resonance);
@@ -132,47 +159,78 @@ History history(const std::shared_ptr<const response::CondensedModel>& model, do
     result.end = end;
     result.status = status;
     store(records, model->nodes(), result);
+    result.final_depth = run.depth();
+    if (end == HistoryEnd::worn_out && options.finish && options.follow == "fixed" && records.size() > 1) {
+      constexpr double kClose = 0.05;
+      const Finish last = finish_by_release(model, omega, run.condition(), steady, result.steady, run.depth(),
+                                            records.back().cycles, kClose, control);
+      result.solves += last.solves;
+      result.jacobians += last.jacobians;
+      result.finished = last.done;
+      if (last.done) result.final_depth = last.depth;
+    }
+    result.final_volume = worn_volume(model->contact(), result.final_depth);
     return std::move(result);
+  };
+  const auto accept = [&](double cycles, const VectorXd& depth) {
+    run.accept(depth, result.steady);
+    records.push_back(run.record(cycles, result.steady));
+    if (observer) observer(static_cast<int>(records.size()) - 1, cycles, run.condition(), result.steady);
   };
 
   if (control.stopped()) return finish(HistoryEnd::interrupted, Status::interrupted);
   Solved current = run.solve(omega, run.depth(), {});
   count(current);
   if (current.status != Status::converged) return finish(HistoryEnd::failed, current.status);
-  run.accept(run.depth(), current.state);
   const double limit = options.cycles > 0.0 ? options.cycles : kInfinity;
-  double cycles = 0.0;
-  records.push_back(run.record(cycles, current.state));
-  result.steady = current.state;
-  const double worn_out = std::max(options.rate_threshold, options.rate_fraction * current.state.wear_rate.maxCoeff());
+  const VectorXd first_depth = run.depth();
+  double cycles = options.start_cycles;
+  result.steady = std::move(current.state);
+  accept(cycles, first_depth);
+  const double reference = options.reference_rate > 0.0 ? options.reference_rate : result.steady.wear_rate.maxCoeff();
+  const double worn_out = std::max(options.rate_threshold, options.rate_fraction * reference);
+  const double penetration = largest_penetration(*model, result.steady);
+  double longest = kInfinity;  // jump the error of the last step permits
 
   for (int step = 1; step <= options.steps; ++step) {
     const VectorXd rate = result.steady.wear_rate;
-    const double largest = rate.maxCoeff();
-    if (largest <= worn_out) return finish(HistoryEnd::worn_out, Status::converged);
+    if (rate.size() == 0 || rate.maxCoeff() <= worn_out) return finish(HistoryEnd::worn_out, Status::converged);
     const double remaining = limit - cycles;
     if (remaining <= 0.0) return finish(HistoryEnd::cycles, Status::converged);
-    double jump = std::min(cycle_jump(rate, options.increment), remaining);
+    double jump = std::min({cycle_jump(rate, options.increment), remaining, longest});
 
     Solved next;
-    for (int halving = 0;; ++halving, jump *= 0.5) {
+    VectorXd change;
+    for (int halving = 0;;) {
       if (control.stopped()) return finish(HistoryEnd::interrupted, Status::interrupted);
-      const VectorXd change = jump * rate;
+      change = jump * rate;
       MatrixXd guess = result.steady.displacement;
       if (options.predictor && result.steady.linearisation)
         guess += result.steady.linearisation->response_to_wear(change);
       next = run.solve(result.steady.omega, run.depth() + change, guess, result.steady.linearisation);
       count(next);
-      if (next.status == Status::converged) {
-        run.accept(run.depth() + change, next.state);
-        break;
+      if (next.status != Status::converged) {
+        ++result.rejected;
+        if (halving++ == options.halvings) return finish(HistoryEnd::failed, next.status);
+        jump *= 0.5;
+        continue;
       }
-      ++result.rejected;
-      if (halving == options.halvings) return finish(HistoryEnd::failed, next.status);
+      if (options.tolerance == 0.0) break;
+      const double scale = std::max(penetration, (run.depth() + change - first_depth).maxCoeff());
+      const double error = 0.5 * jump * (next.state.wear_rate - rate).cwiseAbs().maxCoeff() / scale;
+      const double factor = 0.9 * std::sqrt(options.tolerance / std::max(error, 1e-300));
+      constexpr double kLeast = 1e-3;  // of the increment: a jump of the rates cannot be resolved
+      if (error > options.tolerance && change.maxCoeff() > kLeast * options.increment) {
+        ++result.rejected;
+        jump *= std::clamp(factor, 0.1, 0.8);
+        continue;
+      }
+      longest = jump * std::clamp(factor, 0.5, 2.0);
+      break;
     }
     cycles = jump == remaining ? limit : cycles + jump;
     result.steady = std::move(next.state);
-    records.push_back(run.record(cycles, result.steady));
+    accept(cycles, run.depth() + change);
     control.report(step, records.back().volume, records.back().rate.maxCoeff());
   }
   const bool done = result.steady.wear_rate.maxCoeff() <= worn_out;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -17,6 +18,10 @@ namespace dovetail::wear {
 struct HistoryOptions {
   // > 0. Largest increase of depth per step, m (W_tot). The error of the worn state is first order in it.
   double increment = 1e-7;
+  // in [0, 0.5]. Local error per step, 1/2 dN |dW(next) - dW| in any node relative to the largest depth worn so far or,
+  // while that is less, to the largest local penetration of the first state: a step that errs more is repeated shorter.
+  // 0: increments are what `increment` says.
+  double tolerance = 0.0;
   // >= 1. Steps at most.
   int steps = 200;
   // >= 0. Cycles at most, 0: no limit; the last step is cut to end there exactly.
@@ -34,6 +39,13 @@ struct HistoryOptions {
   // Start each march from the slip left by the state before instead of the one given: stuck nodes then keep the
   // tractions of their own past. Off: every state is reached from the same preload, as the asymptote is.
   bool carry_slip = false;
+  // Finish a worn-out history at a fixed frequency by the direct method: `final_depth` then has no bias of the last
+  // rates.
+  bool finish = true;
+  // >= 0. Cycles that `start` has behind it, when a history is resumed.
+  double start_cycles = 0.0;
+  // >= 0. Largest rate of its first state, m per cycle, which rate_fraction refers to; 0: that of `start`.
+  double reference_rate = 0.0;
 };
 
 /// Why a history ended.
@@ -51,14 +63,31 @@ struct History {
   Eigen::VectorXd amplitude;     ///< [S] m, of the followed output at the exciting frequency
   Eigen::VectorXd frequency;     ///< [S] exciting omega, rad/s
   response::SteadyState steady;  ///< of the last accepted state
+  Eigen::VectorXd final_depth;   ///< [Nc] m, of the direct method when `finished`, otherwise the last depth
+  double final_volume = 0;       ///< m^3
+  bool finished = false;         ///< by the direct method
   int solves = 0;                ///< steady states computed, failed ones included
   int jacobians = 0;             ///< factorised Jacobians over all of them
-  int rejected = 0;              ///< steps that did not converge and were halved
+  int rejected = 0;              ///< steps that did not converge, or erred too much, and were shortened
 };
+
+/// Called for every accepted state, the first included, e.g. to store a response curve of the joint as worn:
+/// `condition` has its depth and slip origin.
+using StateObserver = std::function<void(int step, double cycles, const response::ContactCondition& condition,
+                                         const response::SteadyState& state)>;
+
+/// What continues a stored history: depth, slip and cycles of its last state.
+struct Resumption {
+  double omega = 0;  ///< rad/s
+  response::ContactCondition start;
+  HistoryOptions options;
+};
+[[nodiscard]] Resumption resume(const History& stored, const response::ContactCondition& start,
+                                const HistoryOptions& options);
 
 /// Wear history by cycle jumps of constant largest increment: with the rate dW of the state at W, N += dN,
 /// W += dN dW, dN = increment / max dW [Salles 2009, eq. 20-22]. A state that did not converge is never built on:
-/// the step is halved from the last converged one.
+/// the step is halved from the last converged one. With `tolerance` steps are shortened to their local error besides.
 ///
 /// @param omega      exciting frequency rad/s; with follow = resonance where the first search starts
 /// @param start      wear depth to start from and slip origin; nodes released in it never touch
@@ -67,7 +96,7 @@ struct History {
 [[nodiscard]] History history(const std::shared_ptr<const response::CondensedModel>& model, double omega,
                               const response::ContactCondition& start, const response::SteadyOptions& steady,
                               const HistoryOptions& options = {}, const response::ResonanceOptions& resonance = {},
-                              const Control& control = {});
+                              const Control& control = {}, const StateObserver& observer = {});
 
 }  // namespace dovetail::wear
 

@@ -89,12 +89,17 @@ Status ImplicitStage::solve(const VectorXd& base, const VectorXd& cycles, int ma
     all << state.residual.reshaped() / force, excess.cwiseQuotient(unit.tail(nodes));
     return all;
   };
+  Eigen::PartialPivLU<MatrixXd> rates_lu;
+  const response::Linearisation* factored = nullptr;
   const auto direction = [&](VectorXd& step) {
     const VectorXd free = linear_->solve(-state.residual.reshaped());
     const VectorXd driven = linear_->wear_rate_change(
         free.reshaped(point.displacement.rows(), point.displacement.cols()), VectorXd::Zero(nodes));
-    const MatrixXd matrix = MatrixXd::Identity(nodes, nodes) - cycles.asDiagonal() * slope_;
-    const VectorXd deeper = matrix.partialPivLu().solve(cycles.cwiseProduct(driven) - excess);
+    if (factored != linear_.get()) {
+      rates_lu.compute(MatrixXd::Identity(nodes, nodes) - cycles.asDiagonal() * slope_);
+      factored = linear_.get();
+    }
+    const VectorXd deeper = rates_lu.solve(cycles.cwiseProduct(driven) - excess);
     step.resize(unknowns + nodes);
     step << free + response_ * deeper, deeper;
     step = step.cwiseQuotient(unit).eval();

@@ -19,7 +19,7 @@ std::vector<bool> loaded_nodes(const response::SteadyState& state, const std::ve
 
 }  // namespace
 
-Passes::Passes(Index nodes) : released(static_cast<std::size_t>(nodes), false) {}
+Passes::Passes(Index nodes) : released(static_cast<std::size_t>(nodes), false), touching(released) {}
 
 Ending release_slipping(Release& release, double threshold, int limit, const Control& control, Passes& passes) {
   for (;; ++passes.count) {
@@ -45,6 +45,8 @@ Ending release_slipping(Release& release, double threshold, int limit, const Con
       passes.status = state.status;
       return held || state.status == Status::interrupted ? Ending::failed : Ending::nothing_holds;
     }
+    for (std::size_t i = 0; i < next.size(); ++i)
+      if (next[i] && !passes.released[i] && passes.state.nodes[i].separates) passes.touching[i] = true;
     passes.released = std::move(next);
     passes.state = std::move(state);
     const Eigen::VectorXd depth = release.depth(passes.released, passes.state);
@@ -53,22 +55,30 @@ Ending release_slipping(Release& release, double threshold, int limit, const Con
   }
 }
 
-std::optional<Eigen::VectorXd> release_worst_first(Release& release, const response::SteadyState& unworn,
-                                                   double threshold) {
+SlowRelease release_slowly(Release& release, const response::SteadyState& unworn, double threshold, int limit) {
+  constexpr double kShare = 0.5;
   response::SteadyState state = unworn;
   std::vector<bool> released(static_cast<std::size_t>(release.model().nodes()), false);
-  for (;;) {
+  SlowRelease slow;
+  slow.depth = slow.deepest = release.depth(released, state);
+  for (int pass = 0; pass <= limit; ++pass) {
     const std::vector<bool> loaded = loaded_nodes(state, released);
-    std::size_t worst = released.size();
-    for (std::size_t i = 0; i < released.size(); ++i) {
-      const auto rate = [&state](std::size_t node) { return state.wear_rate[static_cast<Index>(node)]; };
-      if (loaded[i] && rate(i) > threshold && (worst == released.size() || rate(i) > rate(worst))) worst = i;
+    double fastest = 0.0;
+    for (std::size_t i = 0; i < loaded.size(); ++i)
+      if (loaded[i]) fastest = std::max(fastest, state.wear_rate[static_cast<Index>(i)]);
+    if (fastest <= threshold) {
+      slow.settled = true;
+      return slow;
     }
-    if (worst == released.size()) return release.depth(released, state);
-    released[worst] = true;
+    for (std::size_t i = 0; i < loaded.size(); ++i)
+      if (loaded[i] && state.wear_rate[static_cast<Index>(i)] >= std::max(threshold, kShare * fastest))
+        released[i] = true;
     state = release.solve(released, state.displacement, true);
-    if (state.status != Status::converged) return std::nullopt;
+    if (state.status != Status::converged) return slow;
+    slow.depth = release.depth(released, state);
+    slow.deepest = slow.deepest.cwiseMax(slow.depth);
   }
+  return slow;
 }
 
 }  // namespace dovetail::wear

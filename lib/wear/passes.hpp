@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 #include <vector>
 
 #include "wear/release.hpp"
@@ -23,6 +22,7 @@ struct Passes {
   response::SteadyState state;  ///< with `released`
   int count = 0;                ///< passes done
   Eigen::VectorXd deepest;      ///< [Nc] largest depth that any pass asked for, m
+  std::vector<bool> touching;   ///< [Nc] carried load at times only when it was released
   Status status = Status::converged;
 };
 
@@ -31,10 +31,14 @@ struct Passes {
 [[nodiscard]] Ending release_slipping(Release& release, double threshold, int limit, const Control& control,
                                       Passes& passes);
 
-/// The other order: releases only the fastest loaded node of `unworn` and of every state after it, until none wears by
-/// more than `threshold`. Depth [Nc] of the state it ends in, or nothing when one could not be solved. One solve per
-/// worn node: a look for other states at rest, not a way to the physical one.
-[[nodiscard]] std::optional<Eigen::VectorXd> release_worst_first(Release& release, const response::SteadyState& unworn,
-                                                                 double threshold);
+/// The other order of release, towards the one of a history: only nodes at least half as fast as the fastest at each
+/// pass, until none wears by more than `threshold`.
+struct SlowRelease {
+  bool settled = false;
+  Eigen::VectorXd depth;    ///< [Nc] of the state it ends in, when settled
+  Eigen::VectorXd deepest;  ///< [Nc] largest depth that any pass asked for
+};
+[[nodiscard]] SlowRelease release_slowly(Release& release, const response::SteadyState& unworn, double threshold,
+                                         int limit);
 
 }  // namespace dovetail::wear

@@ -15,6 +15,10 @@ std::span<const Field<wear::HistoryOptions>> option_table<wear::HistoryOptions>(
                      .si_per_unit = 1e-6,
                      .range = kPositive,
                      .help = "largest increase of the wear depth per step; the error is first order in it"},
+      Field<Options>{.key = "tolerance",
+                     .member = &Options::tolerance,
+                     .range = {.lower = 0, .upper = 0.5},
+                     .help = "local error per step, relative to the largest depth; 0: not controlled"},
       Field<Options>{.key = "steps", .member = &Options::steps, .range = {.lower = 1}, .help = "steps at most"},
       Field<Options>{
           .key = "cycles", .member = &Options::cycles, .range = kNonNegative, .help = "cycles at most; 0: no limit"},
@@ -39,6 +43,17 @@ std::span<const Field<wear::HistoryOptions>> option_table<wear::HistoryOptions>(
       Field<Options>{.key = "carry_slip",
                      .member = &Options::carry_slip,
                      .help = "start each march from the slip of the state before"},
+      Field<Options>{
+          .key = "finish", .member = &Options::finish, .help = "finish a worn-out history by the direct method"},
+      Field<Options>{.key = "start_cycles",
+                     .member = &Options::start_cycles,
+                     .range = kNonNegative,
+                     .help = "cycles behind the start of a resumed history"},
+      Field<Options>{.key = "reference_rate_um_per_cycle",
+                     .member = &Options::reference_rate,
+                     .si_per_unit = 1e-6,
+                     .range = kNonNegative,
+                     .help = "largest rate of the first state of a resumed history; 0: that of the start"},
   };
   return fields;
 }
