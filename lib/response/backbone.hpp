@@ -53,7 +53,7 @@ struct Backbone {
 
 /// The resonance of one output tracked over `parameters`, in the order given. The first is searched from `omega_start`
 /// (rad/s) by resonance(); the others are found by Newton on (U, omega), started from the polynomial through the last
-/// (at most three) points, at about four Jacobians each where resonance() needs three or four times as many. eps is
+/// (at most three) points, at six to eight Jacobians each where resonance() takes about twice as many. eps is
 /// that of the first point. A parameter that fails has its status, and the next one starts from the last that did not.
 /// `progress` may return false to stop: the points left then carry Status::interrupted.
 [[nodiscard]] Backbone backbone(const BackboneFamily& family, std::span<const double> parameters, double omega_start,

@@ -54,7 +54,7 @@ class PeakSearch {
       Eigen::MatrixXd guess = guess_;
       if (now_.state.linearisation)
         guess = now_.state.displacement + (omega - now_.omega) * now_.state.linearisation->response_to_frequency();
-      SteadyState state = steady_state(model_, omega, condition_, options_, guess);
+      SteadyState state = steady_state(model_, omega, condition_, options_, guess, now_.state.linearisation);
       ++result_.solves;
       result_.jacobians += state.iterations;
       last_status_ = state.status;
