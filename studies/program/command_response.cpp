@@ -147,6 +147,15 @@ std::string failures(const ResponseCurve& curve) {
   return text;
 }
 
+/// Whether some node slips or separates in a state that converged.
+bool contact_changes(const ResponseCurve& curve) {
+  return std::ranges::any_of(curve.states, [](const response::SteadyState& state) {
+    return state.status == Status::converged && std::ranges::any_of(state.nodes, [](const response::NodeSummary& node) {
+             return node.slips || node.separates;
+           });
+  });
+}
+
 }  // namespace
 
 int run_response(const ResponseOptions& options, const Streams& streams) {
@@ -168,12 +177,17 @@ int run_response(const ResponseOptions& options, const Streams& streams) {
   deliver_json(options.json, response_json(curve), streams);
   if (options.json.empty()) streams.out << response_table(curve);
   if (interrupt.requested()) return kInterrupted;
+  if (!loaded.condensed->massless_contact() && contact_changes(curve))
+    streams.err << "dovetail: " << options.input
+                << ": remark: contact dofs carry mass and slip or lift off: the harmonics converge slowly there and "
+                   "lift-off has no unique answer; move that mass inward, or look at --error-bars\n";
 
   int status = kDone;
   if (const std::string failed = failures(curve); !failed.empty()) status = complain(failed);
   if (curve.branch && curve.branch->status != Status::converged && status == kDone)
     status = complain(fmt::format("the response was followed to {:.9g} Hz and not to its end: {}",
                                   curve.frequency_hz.back(), to_string(curve.branch->status)));
+  if (const std::string failed = analysis_failures(curve.analyses); !failed.empty()) status = complain(failed);
   if (automatic && *automatic != Status::converged && status == kDone)
     status = complain(truncation_complaint(*automatic, loaded.steady, options.solver));
   return status;

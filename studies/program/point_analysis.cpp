@@ -1,5 +1,9 @@
 #include "studies/program/point_analysis.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
 #include <utility>
 
 namespace dovetail::studies {
@@ -28,6 +32,42 @@ TractionRanges traction_ranges(const LoadedModel& loaded, const response::Steady
   return ranges;
 }
 
+/// Status of one kind of analysis at a point, or nothing when it was not made there.
+using StatusOf = std::optional<Status> (*)(const PointAnalysis&);
+
+std::optional<Status> of_bars(const PointAnalysis& at) {
+  return at.bars ? std::optional(at.bars->status) : std::nullopt;
+}
+
+std::optional<Status> of_sensitivity(const PointAnalysis& at) {
+  return at.sensitivity ? std::optional(at.sensitivity->status) : std::nullopt;
+}
+
+std::optional<Status> of_tractions(const PointAnalysis& at) {
+  if (!at.tractions) return std::nullopt;
+  std::vector<Status> all{at.tractions->friction_energy.status, at.tractions->wear_rate.status};
+  for (const response::TractionBounds& bounds : at.tractions->amplitudes) all.push_back(bounds.status);
+  const auto failed = std::ranges::find_if(all, [](Status status) { return status != Status::converged; });
+  return failed == all.end() ? Status::converged : *failed;
+}
+
+void describe_failures(const std::vector<PointAnalysis>& analyses, const char* what, StatusOf status_of,
+                       std::string& text) {
+  std::map<std::string_view, int> counts;
+  int made = 0, failed = 0;
+  for (const PointAnalysis& at : analyses) {
+    const std::optional<Status> status = status_of(at);
+    if (!status) continue;
+    ++made;
+    if (*status == Status::converged) continue;
+    ++failed;
+    ++counts[to_string(*status)];
+  }
+  if (failed == 0) return;
+  text += fmt::format("{}{} of {} {} did not converge:", text.empty() ? "" : "; ", failed, made, what);
+  for (const auto& [status, count] : counts) text += fmt::format(" {} {}", count, status);
+}
+
 }  // namespace
 
 PointAnalysis analyse(const LoadedModel& loaded, const response::SteadyState& state, const AnalysisChoice& choice) {
@@ -39,6 +79,14 @@ PointAnalysis analyse(const LoadedModel& loaded, const response::SteadyState& st
   if (choice.stability) result.stability = response::local_stability(loaded.model, linearised(loaded, state));
   if (choice.traction_bounds) result.tractions = traction_ranges(loaded, state);
   return result;
+}
+
+std::string analysis_failures(const std::vector<PointAnalysis>& analyses) {
+  std::string text;
+  describe_failures(analyses, "error bars", of_bars, text);
+  describe_failures(analyses, "pseudo-penalty sensitivities", of_sensitivity, text);
+  describe_failures(analyses, "searches over residual tractions", of_tractions, text);
+  return text;
 }
 
 }  // namespace dovetail::studies

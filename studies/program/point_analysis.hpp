@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "response/error_bars.hpp"
@@ -29,5 +30,8 @@ struct PointAnalysis {
 /// The analyses of `choice` for a state computed from `loaded`.
 [[nodiscard]] PointAnalysis analyse(const LoadedModel& loaded, const response::SteadyState& state,
                                     const AnalysisChoice& choice);
+
+/// "3 of 8 error bars are not known: 3 stalled; ..." for the analyses that did not converge; empty when all did.
+[[nodiscard]] std::string analysis_failures(const std::vector<PointAnalysis>& analyses);
 
 }  // namespace dovetail::studies
