@@ -1,0 +1,181 @@
+#include "wear/implicit_history.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "scenes.hpp"
+#include "wear/archard.hpp"
+#include "wear/asymptote.hpp"
+#include "wear/history.hpp"
+
+namespace dovetail::wear {
+namespace {
+
+const response::SteadyOptions kSteady{.harmonics = 3, .samples = 64};
+
+using Model = std::shared_ptr<const response::CondensedModel>;
+
+Model block(unsigned number) {
+  return std::make_shared<const response::CondensedModel>(scenes::block(scenes::random_block(number)));
+}
+
+Eigen::VectorXd last_depth(const ImplicitHistory& run) {
+  return run.depth.bottomRows(1).transpose();
+}
+
+AsymptoteOptions alone() {
+  AsymptoteOptions options;
+  options.rate_threshold = 0.0;
+  options.interpolate_edge = false;
+  options.arbitration = "never";
+  return options;
+}
+
+// Where the worn state is unique, the finished history lands on it exactly, at a tenth of the steps of explicit ones.
+TEST(ImplicitHistory, EndsInTheWornState) {
+  for (unsigned number : {1u, 2u, 3u, 4u, 5u}) {
+    const Model model = block(number);
+    const Asymptote direct = asymptote(model, 1.0, {}, kSteady, alone());
+    ASSERT_EQ(direct.verdict, Verdict::asymptote);
+    const ImplicitHistory run = implicit_history(model, 1.0, {}, kSteady, {.rate_threshold = 0.0});
+    ASSERT_EQ(run.end, ImplicitEnd::worn_out) << to_string(run.end);
+    EXPECT_TRUE(run.finished);
+    const double error = (last_depth(run) - direct.depth).cwiseAbs().maxCoeff() / direct.largest_depth;
+    RecordProperty("jacobians_" + std::to_string(number), run.jacobians);
+    // Both are W = max_t u_N - g of the same set of free nodes, solved to 1e-9 of the excitation.
+    EXPECT_LT(error, 1e-6) << number;
+    EXPECT_LE(run.jacobians, 60) << number;
+  }
+}
+
+// Where it depends on the way, the volumes converge with the tolerance of the steps, and to that of explicit histories,
+// whose error is first order in the increment: 0.4 % overshoot of single nodes.
+TEST(ImplicitHistory, FollowsThePathOfExplicitOnes) {
+  const Model model = block(0);
+  const auto volume = [&](double tolerance) {
+    const ImplicitHistory run =
+        implicit_history(model, 1.0, {}, kSteady, {.tolerance = tolerance, .rate_threshold = 0.0});
+    EXPECT_EQ(run.end, ImplicitEnd::worn_out);
+    return run.worn_volume[run.worn_volume.size() - 1];
+  };
+  const double fine = volume(2e-5);
+  EXPECT_NEAR(volume(2e-4), fine, 1e-3 * fine);
+  const History run =
+      history(model, 1.0, {}, kSteady,
+              {.increment = 0.004 * 3.04e-4, .steps = 3000, .rate_fraction = 1e-5, .rate_threshold = 0.0});
+  ASSERT_EQ(run.end, HistoryEnd::worn_out);
+  EXPECT_NEAR(run.final_volume, fine, 4e-3 * fine);
+}
+
+TEST(ImplicitHistory, NeverGivesDepthBack) {
+  const ImplicitHistory run = implicit_history(block(6), 1.0, {}, kSteady, {.rate_threshold = 0.0});
+  ASSERT_EQ(run.end, ImplicitEnd::worn_out);
+  for (Eigen::Index i = 1; i < run.depth.rows(); ++i) {
+    EXPECT_GE((run.depth.row(i) - run.depth.row(i - 1)).minCoeff(), 0.0) << i;
+    EXPECT_GE(run.rate.row(i).minCoeff(), 0.0) << i;
+    EXPECT_GT(run.cycles[i], run.cycles[i - 1]) << i;
+  }
+}
+
+// Closed form: p_N = N_0 - k_n W of a sliding node, W = N_0 / k_n at the end, and on the way p(n) as in
+// den_hartog_wear_test. A local error of 2e-4 over 20 to 40 steps leaves below one per cent.
+TEST(ImplicitHistory, UnloadsARubbingNode) {
+  const Model model = std::make_shared<const response::CondensedModel>(scenes::rubbing_oscillator(0.1, 2.0, 1.0, 0.05));
+  const ImplicitHistory run = implicit_history(model, 1.0, {}, kSteady, {.rate_threshold = 0.0});
+  ASSERT_EQ(run.end, ImplicitEnd::worn_out);
+  EXPECT_NEAR(last_depth(run)[0], 0.05, 1e-4 * 0.05);
+  const Eigen::Index half = run.cycles.size() / 2;
+  const History fine = history(model, 1.0, {}, kSteady,
+                               {.increment = 0.0005 * 0.05,
+                                .steps = 4000,
+                                .cycles = run.cycles[half],
+                                .rate_fraction = 0.0,
+                                .rate_threshold = 0});
+  ASSERT_EQ(fine.end, HistoryEnd::cycles);
+  EXPECT_NEAR(fine.final_depth[0], run.depth(half, 0), 5e-3 * 0.05);
+}
+
+TEST(ImplicitHistory, SaysThatItStoppedOrFailed) {
+  int asked = 0;
+  const Control control{.stop = [&asked] { return ++asked > 5; }};
+  const ImplicitHistory stopped =
+      implicit_history(block(1), 1.0, {}, kSteady, {.rate_threshold = 0.0}, nullptr, control);
+  EXPECT_EQ(stopped.end, ImplicitEnd::interrupted);
+  EXPECT_EQ(stopped.status, Status::interrupted);
+  EXPECT_GT(stopped.cycles.size(), 1);
+  response::SteadyOptions hasty = kSteady;
+  hasty.max_iterations = 1;
+  hasty.penalty_cascade = false;
+  const ImplicitHistory failed = implicit_history(block(1), 1.0, {}, hasty, {.rate_threshold = 0.0});
+  EXPECT_EQ(failed.end, ImplicitEnd::failed);
+  EXPECT_NE(failed.status, Status::converged);
+  EXPECT_THROW((void)implicit_history(block(1), 1.0, {}, kSteady, {.growth = 1.0}), InputError);
+  response::ContactCondition start;
+  start.released.assign(static_cast<std::size_t>(block(1)->nodes()), 1);
+  EXPECT_THROW((void)implicit_history(block(1), 1.0, start, kSteady), InputError);
+}
+
+// A history stopped after ten steps and resumed is the one that went on, to the accuracy of its states.
+TEST(History, IsResumed) {
+  const Model model = block(2);
+  const HistoryOptions options{.increment = 4e-6, .steps = 1000, .rate_fraction = 1e-3, .rate_threshold = 0.0};
+  const History whole = history(model, 1.0, {}, kSteady, options);
+  ASSERT_EQ(whole.end, HistoryEnd::worn_out);
+  HistoryOptions some = options;
+  some.steps = 10;
+  const History first = history(model, 1.0, {}, kSteady, some);
+  ASSERT_EQ(first.end, HistoryEnd::steps);
+  const Resumption next = resume(first, {}, options);
+  EXPECT_EQ(next.options.start_cycles, first.cycles[10]);
+  const History second = history(model, next.omega, next.start, kSteady, next.options);
+  EXPECT_EQ(second.end, HistoryEnd::worn_out);
+  EXPECT_EQ(second.cycles.size() + 10, whole.cycles.size());
+  EXPECT_NEAR(second.cycles[second.cycles.size() - 1], whole.cycles[whole.cycles.size() - 1],
+              1e-4 * whole.cycles[whole.cycles.size() - 1]);
+  EXPECT_NEAR(second.final_volume, whole.final_volume, 1e-5 * whole.final_volume);
+}
+
+// With the error controlled, coarse increments lose their overshoot.
+TEST(History, ControlsItsError) {
+  const Model model = block(3);
+  const Asymptote direct = asymptote(model, 1.0, {}, kSteady, alone());
+  const HistoryOptions coarse{
+      .increment = 0.2 * direct.largest_depth, .steps = 2000, .rate_fraction = 1e-3, .rate_threshold = 0.0};
+  HistoryOptions controlled = coarse;
+  controlled.tolerance = 2e-3;
+  const auto error = [&](const HistoryOptions& options) {
+    const History run = history(model, 1.0, {}, kSteady, options);
+    EXPECT_EQ(run.end, HistoryEnd::worn_out) << to_string(run.end);
+    return (run.final_depth - direct.depth).cwiseAbs().maxCoeff() / direct.largest_depth;
+  };
+  const double free = error(coarse);
+  const double held = error(controlled);
+  RecordProperty("free", std::to_string(free));
+  RecordProperty("held", std::to_string(held));
+  EXPECT_GT(free, 0.02);
+  // 1/2 dN |r_new - r| is half the overshoot of a node that loses its load within the step.
+  EXPECT_LT(held, 4.0 * controlled.tolerance);
+}
+
+TEST(History, ShowsItsStatesOnTheWay) {
+  int seen = 0;
+  double deepest = -1.0;
+  const StateObserver observer = [&](int step, double cycles, const response::ContactCondition& condition,
+                                     const response::SteadyState& state) {
+    EXPECT_EQ(step, seen++);
+    EXPECT_GE(cycles, 0.0);
+    EXPECT_EQ(state.status, Status::converged);
+    EXPECT_GT(condition.wear_depth.maxCoeff(), deepest);
+    deepest = condition.wear_depth.maxCoeff();
+  };
+  const History run =
+      history(block(2), 1.0, {}, kSteady, {.increment = 4e-6, .steps = 8, .rate_threshold = 0.0}, {}, {}, observer);
+  EXPECT_EQ(run.cycles.size(), seen);
+  EXPECT_EQ(seen, 9);
+  EXPECT_FALSE(run.finished);
+  EXPECT_EQ(run.final_volume, run.worn_volume[8]);
+}
+
+}  // namespace
+}  // namespace dovetail::wear
