@@ -12,6 +12,7 @@
 #include "optimizer/refinement.hpp"
 #include "optimizer/stopwatch.hpp"
 #include "wear/archard.hpp"
+#include "wear/follow.hpp"
 
 namespace dovetail::optimizer {
 
@@ -77,7 +78,17 @@ std::string dynamics(const Scene& scene, CandidateResult& result) {
   fillet_responses(scene, result);
   evaluation.timings_s["stress"] = watch.lap();
 
-  result.asymptote = wear::asymptote(model.condensed, result.unworn->omega, {}, steady, {}, &result.unworn->state);
+  double wear_omega = result.unworn->omega;
+  if (scene.loading.follow == "resonance") {
+    wear::FollowedAsymptote found =
+        wear::followed_asymptote(model.condensed, wear_omega, {}, steady, {}, {}, &result.unworn->state);
+    wear_omega = found.omegas.back();
+    result.asymptote = std::move(found.asymptote);
+    result.held = std::move(found.held);
+  } else {
+    result.asymptote = wear::asymptote(model.condensed, wear_omega, {}, steady, {}, &result.unworn->state);
+  }
+  evaluation.model["wear_frequency_hz"] = hertz(wear_omega);
   evaluation.timings_s["asymptote"] = watch.lap();
   const wear::Asymptote& asymptote = *result.asymptote;
   if (asymptote.verdict != wear::Verdict::asymptote)
@@ -86,7 +97,8 @@ std::string dynamics(const Scene& scene, CandidateResult& result) {
                                            : wear::to_string(asymptote.verdict));
   evaluation.model["wear_certificate"] = asymptote.certificate;
   evaluation.model["nodal_wear_volume_m3"] = asymptote.worn_volume;
-  responses["initial_wear_rate_m3_per_cycle"] = wear::worn_volume(model.reduction.model.contact, asymptote.unworn_rate);
+  responses["initial_wear_rate_m3_per_cycle"] =
+      wear::worn_volume(model.reduction.model.contact, result.held ? result.held->unworn_rate : asymptote.unworn_rate);
   responses["asymptotic_wear_volume_m3"] = asymptote.interpolated_volume;
   responses["asymptotic_wear_depth_max_m"] = asymptote.interpolated_largest_depth;
 

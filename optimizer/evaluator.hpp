@@ -20,6 +20,7 @@ struct CandidateResult {
   CandidateModel model;
   std::optional<response::Resonance> unworn, worn;
   std::optional<wear::Asymptote> asymptote;
+  std::optional<wear::Asymptote> held;  ///< where the resonance was followed: the one at the unworn resonance
   std::optional<FilletStress> blade_fillet, disk_fillet;
 };
 

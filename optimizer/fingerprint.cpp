@@ -42,7 +42,8 @@ std::string fingerprint(const Problem& problem, const OptimizerOptions& options,
   }
   text += ";options";
   for (const Field<OptimizerOptions>& field : option_table<OptimizerOptions>()) {
-    if (field.key == "max_evaluations" || field.key == "restarts" || field.key == "threads") continue;
+    if (field.key == "max_evaluations" || field.key == "restarts" || field.key == "threads" || field.key == "verify")
+      continue;
     word(field.key);
     if (const auto* member = std::get_if<std::string OptimizerOptions::*>(&field.member))
       word(options.*(*member));

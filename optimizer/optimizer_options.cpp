@@ -82,6 +82,10 @@ dovetail::option_table<dovetail::optimizer::OptimizerOptions>() {
        .member = &O::threads,
        .range = {.lower = 1},
        .help = "Candidates evaluated at once where several are known; does not change the result."},
+      {.key = "verify",
+       .member = &O::verify,
+       .range = {.lower = 0, .upper = 100},
+       .help = "Best designs whose wear `run` verifies by the full history at finer settings after the search."},
   };
   return table;
 }

@@ -37,9 +37,11 @@ ResonanceChange resonance_change(const CandidateModel& model, const response::Re
           .friction_energy = std::abs(shift.state.friction_energy - at.state.friction_energy)};
 }
 
+/// Of the asymptote at the unworn resonance; where the resonance was followed its bars stand, in proportion, for those
+/// of the last one.
 void wear_bars(const CandidateResult& result, const response::SteadyOptions& finer,
                std::map<std::string, double>& bars) {
-  const wear::Asymptote& asymptote = *result.asymptote;
+  const wear::Asymptote& asymptote = result.held ? *result.held : *result.asymptote;
   double& volume = bars["asymptotic_wear_volume_m3"];
   double& depth = bars["asymptotic_wear_depth_max_m"];
   volume = depth = 0;
@@ -71,6 +73,9 @@ void wear_bars(const CandidateResult& result, const response::SteadyOptions& fin
           kEdge * std::abs(asymptote.largest_depth - asymptote.interpolated_largest_depth);
   if (asymptote.interpolated_volume > 0)
     depth += kEdge * bracket / asymptote.interpolated_volume * asymptote.interpolated_largest_depth / 2;
+  if (!result.held) return;
+  volume *= result.asymptote->interpolated_volume / asymptote.interpolated_volume;
+  depth *= result.asymptote->interpolated_largest_depth / asymptote.interpolated_largest_depth;
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ std::span<const Field<optimizer::ContactProperties>> option_table<optimizer::Con
 template <>
 std::span<const Field<optimizer::Loading>> option_table<optimizer::Loading>() {
   using L = optimizer::Loading;
-  static const std::array<Field<L>, 5> table{
+  static const std::array<Field<L>, 6> table{
       Field<L>{.key = "speed_rpm",
                .member = &L::speed,
                .si_per_unit = std::numbers::pi / 30,
@@ -65,7 +65,11 @@ std::span<const Field<optimizer::Loading>> option_table<optimizer::Loading>() {
       Field<L>{.key = "damping_ratio",
                .member = &L::damping_ratio,
                .range = {.lower = 0, .upper = 1, .lower_open = true, .upper_open = true},
-               .help = "modal damping ratio, friction not counted"}};
+               .help = "modal damping ratio, friction not counted"},
+      Field<L>{.key = "follow",
+               .member = &L::follow,
+               .help = "what drives the wear; fixed: the unworn resonance, resonance: that of the joint as it wears",
+               .choices = {"fixed", "resonance"}}};
   return table;
 }
 

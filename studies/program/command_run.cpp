@@ -12,6 +12,7 @@
 #include "studies/program/interrupt.hpp"
 #include "studies/program/progress.hpp"
 #include "studies/program/run_output.hpp"
+#include "studies/program/run_verification.hpp"
 #include "studies/program/version.hpp"
 
 namespace dovetail::studies {
@@ -62,6 +63,14 @@ std::string conclusion(const Study& study, const OptimizationResult& result, con
   return text + fmt::format("written to {}\n", directory.string());
 }
 
+std::string verified(const std::vector<report::VerificationRecord>& verifications) {
+  std::string text;
+  for (const report::VerificationRecord& v : verifications)
+    text += fmt::format("evaluation {} by its wear history: {:.6g} m^3, directly {:.6g} m^3 ({})\n", v.evaluation + 1,
+                        v.history_volume_m3, v.direct_volume_m3, v.status);
+  return text;
+}
+
 }  // namespace
 
 int run_study(const RunOptions& options, const Streams& streams, const RunEngineFactory& make_engine) {
@@ -88,11 +97,15 @@ int run_study(const RunOptions& options, const Streams& streams, const RunEngine
     result = optimizer::run_optimization(study.problem, engine.evaluate, study.optimizer, hooks);
   }
 
+  std::vector<report::VerificationRecord> verifications;
+  if (!interrupt.requested())
+    verifications = verify_best(study, result, engine, fingerprint, directory, interrupt, streams.err);
+
   if (interrupt.requested())
     streams.err << "dovetail: interrupted; writing what is finished (Ctrl-C again ends at once)" << std::endl;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  write_run(study, result, engine, seconds, directory, streams.err);
-  streams.out << conclusion(study, result, directory);
+  write_run(study, result, engine, seconds, verifications, directory, streams.err);
+  streams.out << conclusion(study, result, directory) << verified(verifications);
   if (interrupt.requested()) {
     streams.err << "dovetail: everything finished is kept; go on with --resume\n";
     return kInterrupted;

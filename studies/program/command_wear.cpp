@@ -5,6 +5,7 @@
 #include <numbers>
 #include <optional>
 #include <ostream>
+#include <utility>
 
 #include "response/resonance.hpp"
 #include "response/truncation.hpp"
@@ -14,14 +15,11 @@
 #include "studies/program/json.hpp"
 #include "studies/program/progress.hpp"
 #include "studies/program/truncation_choice.hpp"
+#include "studies/program/wear_methods.hpp"
+#include "wear/spread.hpp"
 
 namespace dovetail::studies {
 namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
-/// Successive asymptotes at most while the resonance is followed, and the change of frequency that ends them.
-constexpr int kFollowPasses = 30;
-constexpr double kFollowTolerance = 1e-7;
 
 void validate(const WearOptions& options) {
   std::vector<Violation> found;
@@ -35,88 +33,28 @@ void validate(const WearOptions& options) {
   if (options.increment_m && !kPositive.contains(*options.increment_m))
     bad("--increment", shortest(*options.increment_m), kPositive.phrase());
   if (options.steps && *options.steps < 1) bad("--steps", std::to_string(*options.steps), "must be >= 1");
+  const bool band = options.follow == "band";
+  for (const auto& [option, hz] :
+       {std::pair{"--band-from", options.band_from_hz}, std::pair{"--band-to", options.band_to_hz}}) {
+    if (hz && !kFrequencies.contains(*hz)) bad(option, shortest(*hz), kFrequencies.phrase());
+    if (!band && hz) bad(option, "", "only has a meaning with --follow band");
+    if (band && !hz) bad(option, "", "is needed with --follow band");
+  }
+  if (options.band_points < 1) bad("--band-points", std::to_string(options.band_points), "must be >= 1");
+  if (band && options.frequency_hz) bad("--frequency", "", "has no meaning with --follow band");
   if (options.method != "history" && (options.cycles || options.steps || options.increment_m))
     bad("--cycles, --steps, --increment", "", "only have a meaning with --method history");
   if (!found.empty()) throw InputError(std::move(found));
-}
-
-struct Start {
-  double hz = 0;  ///< exactly as asked for
-  double omega = 0;
-  std::optional<response::Resonance> resonance;
-};
-
-/// The frequency asked for, or the unworn resonance.
-Start start(const WearOptions& options, const LoadedModel& loaded) {
-  Start at;
-  if (options.frequency_hz) {
-    at.hz = *options.frequency_hz;
-    at.omega = kTurn * at.hz;
-    return at;
-  }
-  if (loaded.glued_omega <= 0)
-    throw InputError(Violation{.file = {},
-                               .key = options.input,
-                               .value = {},
-                               .allowed = "has no natural frequency to start from; give --frequency HZ"});
-  if (loaded.model.output_names.empty())
-    throw InputError(Violation{.file = {},
-                               .key = options.input,
-                               .value = {},
-                               .allowed = "has no output whose resonance could be found; give --frequency HZ"});
-  at.resonance = response::resonance(loaded.condensed, loaded.glued_omega, {}, loaded.steady);
-  at.omega = at.resonance->omega;
-  at.hz = at.omega / kTurn;
-  return at;
-}
-
-struct FollowedAsymptote {
-  wear::Asymptote asymptote;
-  std::vector<double> frequencies_hz;
-  int solves = 0;
-};
-
-/// The asymptote at the start's frequency and, when the resonance is followed, on from there at the resonance of the
-/// worn joint until that stays.
-FollowedAsymptote asymptote(const WearOptions& options, const LoadedModel& loaded, const Start& at,
-                            const wear::Control& control) {
-  FollowedAsymptote result;
-  const response::SteadyState* initial = at.resonance ? &at.resonance->state : nullptr;
-  result.solves = at.resonance ? at.resonance->solves : 0;
-  result.asymptote = wear::asymptote(loaded.condensed, at.omega, {}, loaded.steady, {}, initial, control);
-  result.frequencies_hz = {at.hz};
-  result.solves += result.asymptote.solves;
-  if (options.follow == "fixed") return result;
-
-  double omega = at.omega;
-  for (int pass = 0; pass < kFollowPasses && result.asymptote.verdict == wear::Verdict::asymptote; ++pass) {
-    response::ContactCondition condition;
-    condition.wear_depth = result.asymptote.depth;
-    const response::Resonance worn = response::resonance(loaded.condensed, omega, condition, loaded.steady);
-    result.solves += worn.solves;
-    if (worn.status != Status::converged) {
-      result.asymptote.verdict = wear::Verdict::not_converged;
-      result.asymptote.status = worn.status;
-      return result;
-    }
-    const bool stays = std::abs(worn.omega / omega - 1) < kFollowTolerance;
-    omega = worn.omega;
-    if (stays) return result;
-    result.asymptote = wear::asymptote(loaded.condensed, omega, condition, loaded.steady, {}, nullptr, control);
-    result.solves += result.asymptote.solves;
-    result.frequencies_hz.push_back(omega / kTurn);
-  }
-  if (result.asymptote.verdict == wear::Verdict::asymptote) {
-    result.asymptote.verdict = wear::Verdict::not_converged;
-    result.asymptote.status = Status::iteration_limit;
-  }
-  return result;
 }
 
 /// What is left of a worn state for its error bars; NaN where wear did not come to an end.
 struct WornState {
   double volume = std::nan(""), depth = std::nan("");
 };
+
+WornState worn_state(const WearAnswer& answer) {
+  return answer.worn_out() ? WornState{.volume = answer.volume, .depth = answer.largest_depth()} : WornState{};
+}
 
 /// Error bars of a worn state: it is computed again from the start at the settings of response::error_bars.
 WearBars worn_bars(const LoadedModel& loaded, const WornState& nominal,
@@ -148,80 +86,92 @@ WearBars worn_bars(const LoadedModel& loaded, const WornState& nominal,
   return {.worn_volume = bar(&WornState::volume), .largest_depth = bar(&WornState::depth)};
 }
 
-std::string summary(const std::string& status, double hz, const std::string& follow, double volume, double depth,
-                    int solves) {
-  return fmt::format(
-      "status          {}\nfrequency_hz    {:.9g} ({})\nworn_volume_m3  {:.6g}\nlargest_depth_m {:.6g}\nsolves         "
-      " {}\n",
-      status, hz, follow == "fixed" ? "held" : "following the resonance", volume, depth, solves);
+/// What the spread and the bars see of an answer: the edges of worn zones between nodes where they are placed.
+wear::WornEnd worn_end(const WearAnswer& answer) {
+  wear::WornEnd end{.status = answer.solver, .volume = answer.volume, .depth = answer.depth, .solves = answer.solves};
+  end.verdict = answer.worn_out()                 ? wear::Verdict::asymptote
+                : answer.status == "no_asymptote" ? wear::Verdict::no_asymptote
+                                                  : wear::Verdict::not_converged;
+  if (answer.asymptote && answer.worn_out()) {
+    end.volume = answer.asymptote->interpolated_volume;
+    end.depth = answer.asymptote->interpolated_depth;
+  }
+  return end;
 }
 
-double largest(const Eigen::VectorXd& depth) {
-  return depth.size() > 0 ? depth.maxCoeff() : 0;
+/// Every member is computed as the answer was: at the frequency given, or at its own resonance.
+wear::Spread spread_of(const WearOptions& options, const LoadedModel& loaded, const WearStart& at,
+                       const WearAnswer& answer, const wear::Control& control) {
+  std::optional<response::SteadyState> unworn;
+  if (at.resonance)
+    unworn = at.resonance->state;
+  else
+    unworn = response::steady_state(loaded.condensed, at.omega, {}, loaded.steady);
+  const auto compute = [&](const std::shared_ptr<const response::CondensedModel>& model,
+                           const response::ContactCondition& condition) {
+    wear::WornEnd failed;
+    failed.status = Status::interrupted;
+    if (control.stopped()) return failed;
+    LoadedModel changed = loaded;
+    changed.condensed = model;
+    WearStart from = at;
+    if (at.resonance) {
+      from.resonance =
+          response::resonance(model, at.omega, condition, loaded.steady, {}, at.resonance->state.displacement);
+      if (!from.found()) {
+        failed.status = from.resonance->status;
+        failed.solves = from.resonance->solves;
+        return failed;
+      }
+      from.omega = from.resonance->omega;
+      from.hz = from.omega / (2 * std::numbers::pi);
+    }
+    return worn_end(wear_answer(options, changed, from, condition, control));
+  };
+  const bool solved = unworn->status == Status::converged;
+  return wear::spread(loaded.condensed, {}, worn_end(answer), compute, solved ? &*unworn : nullptr);
 }
 
-int verdict(const std::string& input, const std::string& status, Status solver, bool interrupted,
-            const Streams& streams) {
+std::string follow_words(const std::string& follow) {
+  if (follow == "band") return "the worst of the band";
+  return follow == "resonance" ? "at first; following the resonance" : "held";
+}
+
+std::string summary(const WearQuestion& question, const WearAnswer& answer) {
+  std::string text = fmt::format("status          {}\nfrequency_hz    {:.9g} ({})\nworn_volume_m3  {:.6g}\n",
+                                 answer.status, question.frequency_hz, follow_words(question.follow), answer.volume);
+  if (answer.asymptote && answer.worn_out())
+    text += fmt::format("  edges between nodes {:.6g}\n", answer.asymptote->interpolated_volume);
+  text += fmt::format("largest_depth_m {:.6g}\nsolves          {}\n", answer.largest_depth(), answer.solves);
+  if (!question.spread) return text;
+  for (const wear::SpreadRange& range : question.spread->ranges)
+    text += fmt::format("spread {:<18} volume {:.4g} to {:.4g} m^3, depth {:.4g} to {:.4g} m ({}{})\n", range.source,
+                        range.lowest_volume, range.highest_volume, range.lowest_depth, range.highest_depth,
+                        wear::to_string(range.verdict),
+                        range.failed > 0 ? fmt::format(", {} of {} failed", range.failed, range.members) : "");
+  return text;
+}
+
+int verdict(const std::string& input, const WearAnswer& answer, bool interrupted, const Streams& streams) {
   if (interrupted) return kInterrupted;
-  if (status != "not_converged") return kDone;
-  streams.err << fmt::format("dovetail: {}: the worn state did not converge: {}\n", input, to_string(solver));
+  if (answer.status != "not_converged") return kDone;
+  streams.err << fmt::format("dovetail: {}: the worn state did not converge: {}\n", input, to_string(answer.solver));
   return kNotConverged;
 }
 
-/// The two methods behind one face.
-struct Answer {
-  std::string json, status;
-  Status solver = Status::converged;
-  WornState worn;
-  double volume = 0, depth = 0;  ///< of the last state, worn out or not
-  int solves = 0;
-};
-
-using JsonQuestion = std::function<WearQuestion(const WornState&)>;
-
-Answer by_history(const WearOptions& options, const LoadedModel& loaded, const Start& at, const wear::Control& control,
-                  const JsonQuestion& question) {
-  wear::HistoryOptions settings;
-  settings.follow = options.follow;
-  settings.cycles = options.cycles.value_or(settings.cycles);
-  settings.steps = options.steps.value_or(settings.steps);
-  settings.increment = options.increment_m.value_or(settings.increment);
-  wear::History history = wear::history(loaded.condensed, at.omega, {}, loaded.steady, settings, {}, control);
-  if (at.resonance) history.solves += at.resonance->solves;
-  Answer answer;
-  answer.status = wear_status(history);
-  answer.solver = history.end == wear::HistoryEnd::steps ? Status::iteration_limit : history.status;
-  answer.solves = history.solves;
-  if (const Eigen::Index last = history.depth.rows() - 1; last >= 0) {
-    answer.volume = history.worn_volume[last];
-    answer.depth = largest(history.depth.row(last).transpose());
-    if (answer.status != "not_converged") answer.worn = {.volume = answer.volume, .depth = answer.depth};
-  }
-  if (question) answer.json = history_json(question(answer.worn), history);
-  return answer;
-}
-
-Answer by_asymptote(const WearOptions& options, const LoadedModel& loaded, const Start& at,
-                    const wear::Control& control, const JsonQuestion& question) {
-  const FollowedAsymptote found = asymptote(options, loaded, at, control);
-  Answer answer;
-  answer.status = std::string(wear::to_string(found.asymptote.verdict));
-  answer.solver = found.asymptote.status;
-  answer.solves = found.solves;
-  answer.volume = found.asymptote.worn_volume;
-  answer.depth = largest(found.asymptote.depth);
-  if (answer.status == "asymptote") answer.worn = {.volume = answer.volume, .depth = answer.depth};
-  if (question)
-    answer.json = asymptote_json(question(answer.worn), found.asymptote, found.frequencies_hz, found.solves);
-  return answer;
+/// The choice of the command line, or else of the study.
+WearOptions with_follow(WearOptions options, const LoadedModel& loaded) {
+  if (options.follow.empty()) options.follow = loaded.follow;
+  return options;
 }
 
 }  // namespace
 
-int run_wear(const WearOptions& options, const Streams& streams) {
-  validate(options);
-  check_accuracy(options.solver);
-  LoadedModel loaded = load_model(options.input, options.overrides, options.solver);
+int run_wear(const WearOptions& given, const Streams& streams) {
+  validate(given);
+  check_accuracy(given.solver);
+  LoadedModel loaded = load_model(given.input, given.overrides, given.solver);
+  const WearOptions options = with_follow(given, loaded);
   const auto failed = [&](const std::string& why) {
     streams.err << "dovetail: " << options.input << ": " << why << "\n";
     return static_cast<int>(kNotConverged);
@@ -230,14 +180,17 @@ int run_wear(const WearOptions& options, const Streams& streams) {
   if (loaded.model.contact.count() == 0)
     throw InputError(
         Violation{.file = {}, .key = options.input, .value = {}, .allowed = "has no contact nodes: nothing can wear"});
-  Start at = start(options, loaded);
-  const auto found = [&] { return !at.resonance || at.resonance->status == Status::converged; };
+  const bool over_band = options.follow == "band";
+  const auto begin = [&](const LoadedModel& model) {
+    return over_band ? wear_start_at((*options.band_from_hz + *options.band_to_hz) / 2) : wear_start(options, model);
+  };
+  WearStart at = begin(loaded);
   std::optional<Status> automatic;
-  if (found() && options.solver.automatic()) {
+  if (at.found() && options.solver.automatic()) {
     automatic = choose_truncation(loaded, {at.hz}, options.solver);
-    at = start(options, loaded);
+    at = begin(loaded);
   }
-  if (!found())
+  if (!at.found())
     return failed("not converged: unworn resonance: " + std::string(to_string(at.resonance->status)) +
                   "; give --frequency HZ");
 
@@ -251,29 +204,36 @@ int run_wear(const WearOptions& options, const Streams& streams) {
                                  volume, rate)
                   << std::flush;
     };
-  const auto compute = [&](const LoadedModel& model, const Start& from, const JsonQuestion& question) {
-    return options.method == "history" ? by_history(options, model, from, control, question)
-                                       : by_asymptote(options, model, from, control, question);
-  };
+  WearQuestion question{.frequency_hz = at.hz, .follow = options.follow, .settings = loaded.steady};
+  std::optional<WearBand> band;
+  WearAnswer answer;
+  if (over_band) {
+    band = wear_band(options, loaded, control);
+    answer = band->answer;
+    question.band = &*band;
+    if (!band->frequencies_hz.empty()) question.frequency_hz = band->frequencies_hz[band->worst];
+    at = wear_start_at(question.frequency_hz);
+  } else {
+    answer = wear_answer(options, loaded, at, {}, control);
+  }
   const auto again = [&](const LoadedModel& model) {
     if (interrupt.requested()) return WornState{};
-    const Start from = start(options, model);
-    if (from.resonance && from.resonance->status != Status::converged) return WornState{};
-    return compute(model, from, {}).worn;
+    const WearStart from = over_band ? at : wear_start(options, model);
+    if (!from.found()) return WornState{};
+    return worn_state(wear_answer(options, model, from, {}, control));
   };
-  const Answer answer = compute(loaded, at, [&](const WornState& worn) {
-    WearQuestion question{.frequency_hz = at.hz, .follow = options.follow, .settings = loaded.steady};
-    if (automatic) question.automatic = WearQuestion::Automatic{*automatic, accuracy(options.solver)};
-    if (options.error_bars) question.bars = worn_bars(loaded, worn, again);
-    return question;
-  });
+  if (automatic) question.automatic = WearQuestion::Automatic{*automatic, accuracy(options.solver)};
+  if (options.error_bars) question.bars = worn_bars(loaded, worn_state(answer), again);
+  if (options.spread) question.spread = spread_of(options, loaded, at, answer, control);
   if (terminal) streams.err << "\r\033[K" << std::flush;
-  deliver_json(options.json, answer.json, streams);
-  if (options.json.empty())
-    streams.out << summary(answer.status, at.hz, options.follow, answer.volume, answer.depth, answer.solves);
-  const int end = verdict(options.input, answer.status, answer.solver, interrupt.requested(), streams);
+  if (!options.json.empty()) deliver_json(options.json, wear_json(question, answer), streams);
+  if (options.json.empty()) streams.out << summary(question, answer);
+  const int end = verdict(options.input, answer, interrupt.requested(), streams);
   if (end == kDone && automatic && *automatic != Status::converged)
     return failed(truncation_complaint(*automatic, loaded.steady, options.solver));
+  if (end == kDone && question.spread && !question.spread->ranges.empty() && question.spread->ranges.back().failed > 0)
+    return failed(fmt::format("{} of {} members of the spread did not converge", question.spread->ranges.back().failed,
+                              question.spread->ranges.back().members));
   return end;
 }
 

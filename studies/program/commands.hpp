@@ -104,12 +104,15 @@ struct WearOptions {
   std::vector<Override> overrides;
   SolverOverrides solver;
   std::string method = "asymptote";
-  std::string follow = "fixed";
+  std::string follow;                  ///< fixed | resonance | band; empty: as the study says, or fixed
   std::optional<double> frequency_hz;  ///< absent: the unworn resonance
-  std::optional<double> cycles;        ///< history
-  std::optional<int> steps;            ///< history
-  std::optional<double> increment_m;   ///< history
+  std::optional<double> band_from_hz, band_to_hz;
+  int band_points = 11;
+  std::optional<double> cycles;       ///< history
+  std::optional<int> steps;           ///< history
+  std::optional<double> increment_m;  ///< history
   bool error_bars = false;
+  bool spread = false;
   std::string json;
 };
 int run_wear(const WearOptions& options, const Streams& streams);

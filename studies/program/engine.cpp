@@ -39,6 +39,10 @@ RunEngine study_engine(const Study& study) {
   engine.describe = [evaluator](const Scene& scene) {
     return report::make_design_record(scene, evaluator->evaluate(scene));
   };
+  engine.verify = [evaluator](const Scene& scene, const wear::Control& control) {
+    const optimizer::Verification verification = optimizer::verify(*evaluator, scene, {}, control);
+    return report::make_verification_record(verification, verification.model);
+  };
   return engine;
 }
 
@@ -85,6 +89,7 @@ LoadedModel from_study(const std::string& file, const std::vector<Override>& ove
   if (candidate.status == "infeasible") throw infeasible(file, candidate.messages);
   LoadedModel loaded;
   loaded.steady = optimizer::steady_options(study.scene.solver);
+  loaded.follow = study.scene.loading.follow;
   if (!candidate.converged()) {
     loaded.failure = candidate.status;
     return loaded;

@@ -28,8 +28,9 @@ struct LoadedModel {
   reduction::ReducedModel model;
   std::shared_ptr<const response::CondensedModel> condensed;  ///< of that model
   response::SteadyOptions steady;
-  double glued_omega = 0;  ///< rad/s, of the followed mode (a file: the lowest); 0 when the model has none
-  std::string failure;     ///< not empty: the candidate's model did not converge, and why
+  double glued_omega = 0;        ///< rad/s, of the followed mode (a file: the lowest); 0 when the model has none
+  std::string follow = "fixed";  ///< the study's choice of what drives the wear
+  std::string failure;           ///< not empty: the candidate's model did not converge, and why
 };
 
 /// Whether the file is HDF5 rather than a text: by its first bytes, or its ending when it cannot be read.

@@ -8,8 +8,12 @@
 #include "response/options.hpp"
 #include "wear/asymptote.hpp"
 #include "wear/history.hpp"
+#include "wear/spread.hpp"
 
 namespace dovetail::studies {
+
+struct WearAnswer;
+struct WearBand;
 
 /// JSON texts of the commands, ending with a newline; SI but for `parameters`, which are in the units their keys name.
 /// Doubles are written with the shortest text that reads back to the same value. A number that does not exist is null:
@@ -25,10 +29,10 @@ struct WearBars {
   double largest_depth = 0;  ///< m
 };
 
-/// How a wear computation was asked for.
+/// How a wear computation was asked for, and what was computed besides.
 struct WearQuestion {
   double frequency_hz = 0;       ///< excitation, at the start
-  std::string follow = "fixed";  ///< fixed, or tracking the resonance
+  std::string follow = "fixed";  ///< fixed, tracking the resonance, or the worst of a band
   response::SteadyOptions settings = {};
   struct Automatic {
     Status status;
@@ -36,19 +40,19 @@ struct WearQuestion {
   };
   std::optional<Automatic> automatic = {};  ///< of harmonics and samples, when asked for
   std::optional<WearBars> bars = {};        ///< when asked for
+  std::optional<wear::Spread> spread = {};  ///< when asked for
+  const WearBand* band = nullptr;           ///< when asked for
 };
 
-/// {"method", "status", "follow", "frequency_hz", "frequencies_hz":[S], "ended", "cycles":[S], "worn_volume_m3":[S],
+/// {"method", "status", "follow", "frequency_hz", "frequencies_hz":[S], "cycles":[S], "worn_volume_m3":[S],
 /// "depth_m":[Nc], "final_wear_rate_m_per_cycle":[Nc], "solves", "settings":{"harmonics", "samples", "tolerance",
-/// "solver"
-/// [,"automatic"]}[, "error_bars":{"worn_volume_m3", "largest_depth_m"}]}
-[[nodiscard]] std::string history_json(const WearQuestion& question, const wear::History& history);
-
-/// The same with S = 1 and cycles [null]; besides, the volume with the worn zone's edge between nodes and its bracket,
-/// "interpolated_volume_m3" and "volume_bracket_m3":[2]. `frequencies_hz` are those of the successive asymptotes when
-/// the resonance is followed.
-[[nodiscard]] std::string asymptote_json(const WearQuestion& question, const wear::Asymptote& asymptote,
-                                         const std::vector<double>& frequencies_hz, int solves);
+/// "solver"[, "automatic"]}[, "error_bars":{"worn_volume_m3", "largest_depth_m"}][, "spread"][, "band"]}.
+/// A history adds "ended", "finished" (depth_m is then the direct method's, from the history's end) and
+/// "final_worn_volume_m3". An asymptote has S = 1 and cycles [null] and adds "interpolated_volume_m3" and
+/// "interpolated_depth_m":[Nc] with the worn zones' edges between nodes, "volume_bracket_m3":[2], "certificate",
+/// "decided_by", "doubt", "confirmed_by_history" and "other_states"; its `frequencies_hz` are those of the successive
+/// asymptotes when the resonance is followed.
+[[nodiscard]] std::string wear_json(const WearQuestion& question, const WearAnswer& answer);
 
 /// "asymptote" | "no_asymptote" | "not_converged": a history that ended at the cycles asked for is "no_asymptote".
 [[nodiscard]] std::string wear_status(const wear::History& history);

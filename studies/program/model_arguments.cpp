@@ -83,15 +83,21 @@ void define_model_commands(CLI::App& app, Arguments& a) {
 
   CLI::App* wear = app.add_subcommand("wear", "Worn state of a model or a study's design");
   wear->footer(
-      "`asymptote` computes the shape at which wear comes to rest directly, `history` goes there cycle by cycle. With\n"
-      "`--follow resonance` the excitation tracks the moving resonance (the asymptote: held until wear rests, then\n"
-      "retuned, until the resonance stays); the worn volume may differ by tens of per cent. JSON: {\"method\", "
-      "\"status\",\n"
-      "\"follow\", \"frequency_hz\", \"frequencies_hz\", \"cycles\", \"worn_volume_m3\", \"depth_m\",\n"
-      "\"final_wear_rate_m_per_cycle\", \"solves\", \"settings\"[, \"error_bars\"]}. A history that reached --cycles "
-      "while still wearing has the "
-      "status\n"
-      "no_asymptote, one that used up --steps not_converged.");
+      "`asymptote` computes the shape at which wear comes to rest directly, `history` goes there cycle by cycle. What\n"
+      "drives the wear is --follow: a frequency that is held; the resonance, tracked as the joint wears (asymptote: "
+      "held\n"
+      "until wear rests, then retuned, until the resonance stays; the worn volume may differ by tens of per cent); or "
+      "a\n"
+      "band of held frequencies, of which the answer is the one with the largest worn volume. JSON: {\"method\",\n"
+      "\"status\", \"follow\", \"frequency_hz\", \"frequencies_hz\", \"cycles\", \"worn_volume_m3\", \"depth_m\",\n"
+      "\"final_wear_rate_m_per_cycle\", \"solves\", \"settings\"[, \"error_bars\", \"spread\", \"band\"]}; an "
+      "asymptote adds\n"
+      "\"interpolated_volume_m3\", \"interpolated_depth_m\", \"volume_bracket_m3\", \"certificate\" and "
+      "\"other_states\".\n"
+      "\"spread\" holds, per source, \"status\", \"nominal\", \"low\", \"high\", \"profile_change\" and every member. "
+      "A history "
+      "that\n"
+      "reached --cycles while still wearing has the status no_asymptote, one that used up --steps not_converged.");
   wear->add_option("INPUT", a.wear.input, kInput)->required()->type_name("");
   wear->add_option("--method", a.wear.method, "history or asymptote")
       ->required()
@@ -101,9 +107,13 @@ void define_model_commands(CLI::App& app, Arguments& a) {
                    "Excitation frequency (default: the unworn resonance of the study's mode, of a model's lowest)")
       ->type_name("HZ");
   wear->add_option("--follow", a.wear.follow,
-                   "fixed: the frequency stays; resonance: it tracks the moving resonance (default: fixed)")
+                   "fixed: the frequency stays; resonance: it tracks the moving resonance; band: the worst of several "
+                   "held ones (default: loading.follow of a study, fixed for a model)")
       ->type_name("WHAT")
-      ->check(CLI::IsMember({"fixed", "resonance"}));
+      ->check(CLI::IsMember({"fixed", "resonance", "band"}));
+  wear->add_option("--band-from", a.wear.band_from_hz, "First frequency of the band")->type_name("HZ");
+  wear->add_option("--band-to", a.wear.band_to_hz, "Last frequency of the band")->type_name("HZ");
+  wear->add_option("--band-points", a.wear.band_points, "Frequencies of the band (default: 11)")->type_name("N");
   wear->add_option("--cycles", a.wear.cycles, "history: end after so many cycles")->type_name("N");
   wear->add_option("--steps", a.wear.steps, "history: steps at most (default: 200)")->type_name("N");
   wear->add_option("--increment", a.wear.increment_m, "history: largest increase of depth per step, m (default: 1e-7)")
@@ -111,6 +121,10 @@ void define_model_commands(CLI::App& app, Arguments& a) {
   wear->add_flag(
       "--error-bars", a.wear.error_bars,
       "How far harmonics, samples and pseudo-penalty may have moved volume and depth: four computations more");
+  wear->add_flag(
+      "--spread", a.wear.spread,
+      "How the worn state depends on what is not known: wear coefficient +-50 %, friction +-20 %, excitation "
+      "+-10 %, residual tractions of stuck nodes, and all together: ten to fifteen computations more");
   add_set(*wear, a);
   add_solver(*wear, a);
   add_json(*wear, a.wear.json);

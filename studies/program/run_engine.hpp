@@ -6,6 +6,7 @@
 #include "optimizer/scene.hpp"
 #include "studies/program/study.hpp"
 #include "studies/report/run_record.hpp"
+#include "wear/control.hpp"
 
 namespace dovetail::studies {
 
@@ -14,6 +15,8 @@ struct RunEngine {
   optimizer::Evaluator evaluate;  ///< design variables in, evaluation out
   /// The design with the curves and fields its results and report show; empty: they show none.
   std::function<report::DesignRecord(const optimizer::Scene&)> describe;
+  /// The design's wear by the full history; empty: designs are not verified.
+  std::function<report::VerificationRecord(const optimizer::Scene&, const wear::Control&)> verify = {};
 };
 
 /// Makes the engine of a study.

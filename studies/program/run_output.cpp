@@ -23,13 +23,13 @@ std::map<std::string, double> variable_values(const Study& study, const optimize
   return values;
 }
 
-namespace {
-
 Scene scene_of(const Study& study, const optimizer::Candidate& candidate) {
   Scene scene = study.scene;
   for (const auto& [key, value] : variable_values(study, candidate)) optimizer::set_parameter(scene, key, value);
   return scene;
 }
+
+namespace {
 
 report::RunRecord record_of(const Study& study, const OptimizationResult& result, const RunEngine& engine,
                             double seconds) {
@@ -49,14 +49,16 @@ report::RunRecord record_of(const Study& study, const OptimizationResult& result
 }  // namespace
 
 void write_run(const Study& study, const OptimizationResult& result, const RunEngine& engine, double seconds,
-               const std::filesystem::path& directory, std::ostream& err) {
+               const std::vector<report::VerificationRecord>& verifications, const std::filesystem::path& directory,
+               std::ostream& err) {
   // The design first: it costs nothing and must not be lost when describing it is cut short.
   if (result.best) {
     const optimizer::Candidate& best = result.evaluations[*result.best];
     replace_file(directory / "best.toml",
                  with_values(parse_document(study.text, study.file), variable_values(study, best)));
   }
-  const report::RunRecord record = record_of(study, result, engine, seconds);
+  report::RunRecord record = record_of(study, result, engine, seconds);
+  record.verifications = verifications;
   report::write_results(directory / "results.h5", record);
   report::write_report(directory / "report.html", record);
   if (!result.best) return;

@@ -13,7 +13,11 @@ namespace dovetail::studies {
 /// Writes what a run came to into its directory, finished or interrupted: best.toml and the exports the study asks for
 /// (when there is a feasible design), results.h5 and report.html. Each file whole or not at all.
 void write_run(const Study& study, const optimizer::OptimizationResult& result, const RunEngine& engine, double seconds,
-               const std::filesystem::path& directory, std::ostream& err);
+               const std::vector<report::VerificationRecord>& verifications, const std::filesystem::path& directory,
+               std::ostream& err);
+
+/// The study's scene with the candidate's variables.
+[[nodiscard]] optimizer::Scene scene_of(const Study& study, const optimizer::Candidate& candidate);
 
 /// The variables' values of a candidate by key, file units.
 [[nodiscard]] std::map<std::string, double> variable_values(const Study& study, const optimizer::Candidate& candidate);

@@ -28,10 +28,11 @@ Numbers list(const Eigen::Ref<const Eigen::VectorXd>& values) {
   return {values.data(), values.data() + values.size()};
 }
 
-ContactRecord contact_record(const CandidateResult& result) {
-  const fem::ContactSurface& surface = result.model.system.contact;
+/// Where the contact nodes are.
+ContactRecord contact_places(const CandidateModel& model) {
+  const fem::ContactSurface& surface = model.system.contact;
   ContactRecord record;
-  for (const fem::Flank& flank : result.model.mesh.sector.flanks) record.flank_names.push_back(flank.name);
+  for (const fem::Flank& flank : model.mesh.sector.flanks) record.flank_names.push_back(flank.name);
   Eigen::Vector2d start = Eigen::Vector2d::Zero();
   for (Eigen::Index i = 0; i < surface.count(); ++i) {
     if (i == 0 || surface.flank(i) != surface.flank(i - 1)) start = surface.position.col(i);
@@ -40,6 +41,12 @@ ContactRecord contact_record(const CandidateResult& result) {
     record.x_m.push_back(surface.position(0, i));
     record.y_m.push_back(surface.position(1, i));
   }
+  return record;
+}
+
+ContactRecord contact_record(const CandidateResult& result) {
+  const fem::ContactSurface& surface = result.model.system.contact;
+  ContactRecord record = contact_places(result.model);
   record.area_m2 = list(surface.area);
   record.gap_m = list(surface.gap);
   record.preload_pressure_pa = list(result.model.preload.pressure);
@@ -256,6 +263,36 @@ DesignRecord make_design_record(const Scene& scene, const CandidateResult& resul
   add_curves(scene, result, options, record);
   add_nodal_diameters(model, options, record);
   add_history(scene, result, options, record);
+  return record;
+}
+
+VerificationRecord make_verification_record(const optimizer::Verification& v, const CandidateModel& model) {
+  VerificationRecord record;
+  record.status = v.status;
+  record.follow = v.follow;
+  record.harmonics = v.harmonics;
+  record.samples = v.samples;
+  record.direct_solves = v.direct_solves;
+  record.history_solves = v.history_solves;
+  record.frequency_hz = v.frequency_hz;
+  record.search_volume_m3 = v.search_volume;
+  record.search_bar_m3 = v.search_bar;
+  record.search_depth_m = v.search_depth;
+  record.direct_volume_m3 = v.direct_volume;
+  record.direct_depth_m = v.direct_depth;
+  record.history_volume_m3 = v.history_volume;
+  record.history_depth_m = v.history_depth;
+  record.profile_difference = v.profile_difference;
+  record.cycles = v.cycles;
+  record.seconds = v.seconds;
+  if (!model.converged()) return record;
+  const ContactRecord places = contact_places(model);
+  record.flank_names = places.flank_names;
+  record.flank = places.flank;
+  record.along_m = places.along_m;
+  record.search_profile_m = list(v.search_profile);
+  record.direct_profile_m = list(v.direct_profile);
+  record.history_profile_m = list(v.history_profile);
   return record;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "optimizer/evaluator.hpp"
+#include "optimizer/verification.hpp"
 #include "studies/report/run_record.hpp"
 
 namespace dovetail::report {
@@ -22,5 +23,9 @@ struct DesignRecordOptions {
 /// diameter, and history_steps steady states.
 [[nodiscard]] DesignRecord make_design_record(const optimizer::Scene& scene, const optimizer::CandidateResult& result,
                                               const DesignRecordOptions& options = {});
+
+/// A verification with the places of its nodes, for the record.
+[[nodiscard]] VerificationRecord make_verification_record(const optimizer::Verification& verification,
+                                                          const optimizer::CandidateModel& model);
 
 }  // namespace dovetail::report

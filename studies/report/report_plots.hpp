@@ -32,6 +32,9 @@ struct Comparison {
 [[nodiscard]] Plot history_amplitude_plot(const DesignRecord& design);
 [[nodiscard]] Plot history_profile_plot(const DesignRecord& design);
 
+/// Worn profiles of a verified design over each other: history, direct method, search.
+[[nodiscard]] Plot verification_plot(const VerificationRecord& record);
+
 /// Objective over evaluations: feasible, infeasible and best so far.
 [[nodiscard]] Plot objective_plot(const RunRecord& record);
 /// One plot for each response that has limits: its value over evaluations with the limits as lines.

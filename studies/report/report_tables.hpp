@@ -24,4 +24,7 @@ namespace dovetail::report {
 /// Versions, options and the study's text.
 [[nodiscard]] std::string provenance_section(const RunRecord& record);
 
+/// The verified designs: worn volume and depth by the direct method and by the history.
+[[nodiscard]] std::string verification_table(const RunRecord& record);
+
 }  // namespace dovetail::report

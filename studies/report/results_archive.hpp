@@ -95,4 +95,8 @@ void read_evaluations(const Reader& reader, RunRecord& record);
 void exchange(Writer& writer, const std::string& group, const DesignRecord& design);
 void exchange(const Reader& reader, const std::string& group, DesignRecord& design);
 
+/// A verification below `group`, both ways.
+void exchange(Writer& writer, const std::string& group, const VerificationRecord& record);
+void exchange(const Reader& reader, const std::string& group, VerificationRecord& record);
+
 }  // namespace dovetail::report

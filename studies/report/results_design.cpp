@@ -82,6 +82,35 @@ void pieces(Archive& archive, const std::string& group, Design& design) {
   archive.texts(group + "/notes", design.notes);
 }
 
+template <class Archive, class Record>
+void verification(Archive& archive, const std::string& group, Record& record) {
+  archive.group(group);
+  archive.texts(group + "/flank_names", record.flank_names);
+  archive.wholes(group + "/flank", record.flank);
+  archive.numbers(group + "/along_m", record.along_m);
+  archive.numbers(group + "/search_profile_m", record.search_profile_m);
+  archive.numbers(group + "/direct_profile_m", record.direct_profile_m);
+  archive.numbers(group + "/history_profile_m", record.history_profile_m);
+  archive.text(group, "status", record.status);
+  archive.text(group, "follow", record.follow);
+  archive.whole(group, "evaluation", record.evaluation);
+  archive.whole(group, "harmonics", record.harmonics);
+  archive.whole(group, "samples", record.samples);
+  archive.whole(group, "direct_solves", record.direct_solves);
+  archive.whole(group, "history_solves", record.history_solves);
+  archive.number(group, "frequency_hz", record.frequency_hz);
+  archive.number(group, "search_volume_m3", record.search_volume_m3);
+  archive.number(group, "search_bar_m3", record.search_bar_m3);
+  archive.number(group, "search_depth_m", record.search_depth_m);
+  archive.number(group, "direct_volume_m3", record.direct_volume_m3);
+  archive.number(group, "direct_depth_m", record.direct_depth_m);
+  archive.number(group, "history_volume_m3", record.history_volume_m3);
+  archive.number(group, "history_depth_m", record.history_depth_m);
+  archive.number(group, "profile_difference", record.profile_difference);
+  archive.number(group, "cycles", record.cycles);
+  archive.number(group, "seconds", record.seconds);
+}
+
 /// A list of the design that may be empty but not of another length.
 void require_list(const Reader& reader, const std::string& path, std::size_t found, std::size_t expected) {
   if (found != 0) reader.require_size(path, found, expected);
@@ -118,6 +147,21 @@ void exchange(Writer& writer, const std::string& group, const DesignRecord& desi
 void exchange(const Reader& reader, const std::string& group, DesignRecord& design) {
   pieces(reader, group, design);
   require_consistent(reader, group, design);
+}
+
+void exchange(Writer& writer, const std::string& group, const VerificationRecord& record) {
+  verification(writer, group, record);
+}
+
+void exchange(const Reader& reader, const std::string& group, VerificationRecord& record) {
+  verification(reader, group, record);
+  const std::size_t nodes = record.flank.size();
+  reader.require_size(group + "/along_m", record.along_m.size(), nodes);
+  for (const Numbers* list : {&record.search_profile_m, &record.direct_profile_m, &record.history_profile_m})
+    require_list(reader, group, list->size(), nodes);
+  for (const std::int64_t flank : record.flank)
+    if (flank < 0 || flank >= static_cast<std::int64_t>(record.flank_names.size()))
+      reader.refuse(group + "/flank", std::to_string(flank), "must be indices of flank_names");
 }
 
 }  // namespace dovetail::report

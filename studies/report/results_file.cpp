@@ -8,6 +8,7 @@ namespace {
 
 constexpr const char* kFormat = "dovetail-results";
 constexpr std::int64_t kVersion = 1;
+constexpr const char* kVerifications = "/verifications";
 
 std::int64_t index_of(const std::optional<std::size_t>& index) {
   return index ? static_cast<std::int64_t>(*index) : -1;
@@ -95,6 +96,8 @@ void write_results(const std::filesystem::path& path, const RunRecord& record) {
     w.optional("/best", record.best_design, [&](const DesignRecord& design) { exchange(w, "/best", design); });
     w.optional("/baseline", record.baseline_design,
                [&](const DesignRecord& design) { exchange(w, "/baseline", design); });
+    w.records(kVerifications, record.verifications,
+              [&](const std::string& group, const VerificationRecord& v) { exchange(w, group, v); });
   });
 }
 
@@ -116,6 +119,14 @@ RunRecord read_results(const std::filesystem::path& path) {
   read_index(r, "baseline", record.evaluations.size(), record.baseline);
   r.optional("/best", record.best_design, [&](DesignRecord& design) { exchange(r, "/best", design); });
   r.optional("/baseline", record.baseline_design, [&](DesignRecord& design) { exchange(r, "/baseline", design); });
+  // Files of runs without verification, and of versions before it, have none.
+  if (file.exists(kVerifications))
+    r.records(kVerifications, record.verifications,
+              [&](const std::string& group, VerificationRecord& v) { exchange(r, group, v); });
+  for (const VerificationRecord& v : record.verifications)
+    if (v.evaluation < 0 || v.evaluation >= static_cast<std::int64_t>(record.evaluations.size()))
+      r.refuse(std::string(kVerifications) + ", evaluation", std::to_string(v.evaluation),
+               "must be the index of an evaluation");
   return record;
 }
 

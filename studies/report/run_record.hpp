@@ -102,6 +102,20 @@ struct EvaluationRecord {
   std::vector<std::string> messages;
 };
 
+/// One of the best designs with its wear by the full history at finer settings; see optimizer::Verification.
+struct VerificationRecord {
+  std::int64_t evaluation = 0;  ///< index of the candidate
+  std::string status, follow;
+  std::int64_t harmonics = 0, samples = 0, direct_solves = 0, history_solves = 0;
+  double frequency_hz = 0, search_volume_m3 = 0, search_bar_m3 = 0, search_depth_m = 0;
+  double direct_volume_m3 = 0, direct_depth_m = 0, history_volume_m3 = 0, history_depth_m = 0;
+  double profile_difference = 0, cycles = 0, seconds = 0;
+  std::vector<std::string> flank_names;
+  std::vector<std::int64_t> flank;                                ///< [Nc]
+  Numbers along_m;                                                ///< [Nc]
+  Numbers search_profile_m, direct_profile_m, history_profile_m;  ///< [Nc] or empty
+};
+
 /// With what the results were made.
 struct Provenance {
   std::string program_version;
@@ -124,6 +138,7 @@ struct RunRecord {
   std::optional<std::size_t> least_broken;  ///< without `best`
   std::optional<std::size_t> baseline;      ///< index of the start
   std::optional<DesignRecord> best_design, baseline_design;
+  std::vector<VerificationRecord> verifications;  ///< of the best designs, best first
   Provenance provenance;
 };
 

@@ -167,9 +167,21 @@ void expect_same(const Provenance& a, const Provenance& b) {
   EXPECT_EQ(a5, b5);
   EXPECT_EQ(a7, b7);
 }
+void expect_same(const VerificationRecord& a, const VerificationRecord& b) {
+  const auto& [a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15, a16, a17, a18, a19, a20, a21, a22, a23,
+               a24] = a;
+  const auto& [b1, b2, b3, b4, b5, b6, b7, b8, b9, b10, b11, b12, b13, b14, b15, b16, b17, b18, b19, b20, b21, b22, b23,
+               b24] = b;
+  EXPECT_TRUE(a1 == b1 && a2 == b2 && a3 == b3 && a4 == b4 && a5 == b5 && a6 == b6 && a7 == b7);
+  EXPECT_TRUE(same(a8, b8) && same(a9, b9) && same(a10, b10) && same(a11, b11) && same(a12, b12) && same(a13, b13));
+  EXPECT_TRUE(same(a14, b14) && same(a15, b15) && same(a16, b16) && same(a17, b17) && same(a18, b18));
+  EXPECT_EQ(a19, b19);
+  EXPECT_EQ(a20, b20);
+  EXPECT_TRUE(all_same(a21, b21) && all_same(a22, b22) && all_same(a23, b23) && all_same(a24, b24));
+}
 void expect_same(const RunRecord& a, const RunRecord& b) {
-  const auto& [a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13] = a;
-  const auto& [b1, b2, b3, b4, b5, b6, b7, b8, b9, b10, b11, b12, b13] = b;
+  const auto& [a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14] = a;
+  const auto& [b1, b2, b3, b4, b5, b6, b7, b8, b9, b10, b11, b12, b13, b14] = b;
   EXPECT_TRUE(a1 == b1 && a2 == b2 && a3 == b3 && a4 == b4);
   EXPECT_TRUE(same(a5, b5));
   EXPECT_TRUE(all_same(a6.space.variables(), b6.space.variables()));
@@ -183,7 +195,9 @@ void expect_same(const RunRecord& a, const RunRecord& b) {
   if (a11) expect_same(*a11, *b11);
   ASSERT_EQ(a12.has_value(), b12.has_value());
   if (a12) expect_same(*a12, *b12);
-  expect_same(a13, b13);
+  ASSERT_EQ(a13.size(), b13.size());
+  for (std::size_t i = 0; i < a13.size(); ++i) expect_same(a13[i], b13[i]);
+  expect_same(a14, b14);
 }
 
 TEST_F(ResultsFile, ReadsBackEveryBit) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -9,6 +10,8 @@
 #include "core/replace_file.hpp"
 #include "optimizer/journal.hpp"
 #include "studies/program/commands.hpp"
+#include "studies/program/interrupt.hpp"
+#include "studies/report/results_file.hpp"
 #include "tests/unit/studies/sample_study.hpp"
 
 namespace dovetail::studies {
@@ -120,6 +123,60 @@ TEST_F(Run, ResumesWithoutComputingAgain) {
   ASSERT_EQ(run(false, counted(whole)), kDone);
   EXPECT_EQ(14 + second, whole);
   EXPECT_THAT(resumed, HasSubstr("14 of them stored before"));
+}
+
+/// The bowl, with a verification that counts its calls and, at `stop_at`, is interrupted in the middle.
+RunEngineFactory verified(int& calls, int stop_at = 0) {
+  return [&calls, stop_at](const Study&) {
+    RunEngine engine{.evaluate = bowl, .describe = {}};
+    engine.verify = [&calls, stop_at](const optimizer::Scene& scene, const wear::Control& control) {
+      if (++calls == stop_at) std::raise(SIGINT);
+      report::VerificationRecord record;
+      record.status = control.stopped() ? "interrupted" : "converged";
+      record.search_volume_m3 = 1 + optimizer::parameter(scene, "geometry.neck_width_mm");
+      record.search_bar_m3 = kInfinity;
+      return record;
+    };
+    return engine;
+  };
+}
+
+TEST_F(Run, VerifiesTheBestDesignsOnce) {
+  int calls = 0;
+  ASSERT_EQ(run(false, verified(calls)), kDone) << err_.str();
+  EXPECT_EQ(calls, 3);
+  EXPECT_THAT(out_.str(), HasSubstr("by its wear history"));
+  const report::RunRecord first = report::read_results(results() / "results.h5");
+  ASSERT_EQ(first.verifications.size(), 3U);
+  EXPECT_EQ(first.verifications.front().evaluation, static_cast<std::int64_t>(*first.best));
+  for (std::size_t i = 1; i < 3; ++i) {
+    const auto objective = [&](std::size_t k) {
+      return first.evaluations[static_cast<std::size_t>(first.verifications[k].evaluation)].objective;
+    };
+    EXPECT_LE(objective(i - 1), objective(i));
+  }
+  ASSERT_EQ(run(true, verified(calls)), kDone) << err_.str();
+  EXPECT_EQ(calls, 3) << "resumed runs verify again";
+  const report::RunRecord again = report::read_results(results() / "results.h5");
+  ASSERT_EQ(again.verifications.size(), 3U);
+  EXPECT_EQ(again.verifications[2].search_volume_m3, first.verifications[2].search_volume_m3);
+  EXPECT_EQ(again.verifications[2].search_bar_m3, kInfinity);
+}
+
+TEST_F(Run, AnInterruptedVerificationGoesOnWhenResumed) {
+  install_interrupt_handler();
+  int calls = 0;
+  ASSERT_EQ(run(false, verified(calls, 2)), kInterrupted) << err_.str();
+  EXPECT_EQ(report::read_results(results() / "results.h5").verifications.size(), 1U);
+  // A line that the end of the process cut short counts for nothing.
+  std::ofstream(results() / "verification.jsonl", std::ios::app) << R"({"fingerprint":"12)";
+  calls = 0;
+  ASSERT_EQ(run(true, verified(calls)), kDone) << err_.str();
+  EXPECT_EQ(calls, 2);
+  EXPECT_EQ(report::read_results(results() / "results.h5").verifications.size(), 3U);
+  calls = 0;
+  ASSERT_EQ(run(true, verified(calls)), kDone) << err_.str();
+  EXPECT_EQ(calls, 0);
 }
 
 TEST_F(Run, ResumingAnotherStudyIsRefused) {

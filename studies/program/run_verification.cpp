@@ -1,0 +1,163 @@
+#include "studies/program/run_verification.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <ostream>
+#include <system_error>
+
+#include "studies/program/json_values.hpp"
+#include "studies/program/run_output.hpp"
+
+namespace dovetail::studies {
+namespace {
+
+namespace fs = std::filesystem;
+using report::VerificationRecord;
+
+/// Distances below this fraction of the ranges make the same design.
+constexpr double kSame = 0.02;
+
+bool alike(const optimizer::DesignSpace& space, const std::vector<double>& a, const std::vector<double>& b) {
+  const std::vector<optimizer::DesignVariable>& variables = space.variables();
+  for (std::size_t i = 0; i < variables.size(); ++i)
+    if (std::abs(a[i] - b[i]) > kSame * (variables[i].upper - variables[i].lower)) return false;
+  return true;
+}
+
+/// Every number of a record by its name, for both ways.
+template <class Record, class Visitor>
+void visit(Record& r, Visitor&& v) {
+  v("status", r.status);
+  v("follow", r.follow);
+  v("harmonics", r.harmonics);
+  v("samples", r.samples);
+  v("direct_solves", r.direct_solves);
+  v("history_solves", r.history_solves);
+  v("frequency_hz", r.frequency_hz);
+  v("search_volume_m3", r.search_volume_m3);
+  v("search_bar_m3", r.search_bar_m3);
+  v("search_depth_m", r.search_depth_m);
+  v("direct_volume_m3", r.direct_volume_m3);
+  v("direct_depth_m", r.direct_depth_m);
+  v("history_volume_m3", r.history_volume_m3);
+  v("history_depth_m", r.history_depth_m);
+  v("profile_difference", r.profile_difference);
+  v("cycles", r.cycles);
+  v("seconds", r.seconds);
+  v("flank_names", r.flank_names);
+  v("flank", r.flank);
+  v("along_m", r.along_m);
+  v("search_profile_m", r.search_profile_m);
+  v("direct_profile_m", r.direct_profile_m);
+  v("history_profile_m", r.history_profile_m);
+}
+
+struct Kept {
+  std::vector<double> x;
+  VerificationRecord record;
+};
+
+/// A bar that is not known is no number in JSON: null.
+template <class T>
+void read(const Json& json, T& value) {
+  if constexpr (std::is_same_v<T, double>)
+    value = json.is_null() ? kInfinity : json.get<double>();
+  else
+    value = json.get<T>();
+}
+
+std::string line_of(const std::string& fingerprint, const Kept& kept) {
+  Json json{{"fingerprint", fingerprint}, {"x", kept.x}};
+  visit(kept.record, [&](const char* name, const auto& value) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>)
+      json[name] = number(value);
+    else
+      json[name] = value;
+  });
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::vector<Kept> kept_before(const fs::path& file, const std::string& fingerprint) {
+  std::vector<Kept> all;
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line);) try {
+      const Json json = Json::parse(line);
+      if (json.at("fingerprint") != fingerprint) continue;
+      Kept kept{.x = json.at("x").get<std::vector<double>>(), .record = {}};
+      visit(kept.record, [&](const char* name, auto& value) { read(json.at(name), value); });
+      all.push_back(std::move(kept));
+    } catch (const Json::exception&) {
+      // Cut short when the program was ended: it is computed again.
+    }
+  return all;
+}
+
+void keep(const fs::path& file, const std::string& line) {
+  // Behind a line that was cut short, on a line of its own.
+  bool torn = false;
+  if (std::ifstream before(file, std::ios::binary | std::ios::ate); before && before.tellg() > 0) {
+    before.seekg(-1, std::ios::end);
+    torn = before.get() != '\n';
+  }
+  std::ofstream stream(file, std::ios::app);
+  stream << (torn ? "\n" : "") << line << "\n" << std::flush;
+  if (!stream) throw std::system_error(errno, std::generic_category(), file.string());
+}
+
+}  // namespace
+
+std::vector<std::size_t> best_designs(const optimizer::Problem& problem, const optimizer::OptimizationResult& result,
+                                      int count) {
+  const std::vector<optimizer::Candidate>& all = result.evaluations;
+  std::vector<std::size_t> order, chosen;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (all[i].judgement.feasible) order.push_back(i);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return all[a].judgement.objective < all[b].judgement.objective;
+  });
+  for (const std::size_t i : order) {
+    if (static_cast<int>(chosen.size()) >= count) break;
+    if (std::none_of(chosen.begin(), chosen.end(),
+                     [&](std::size_t better) { return alike(problem.space, all[i].x, all[better].x); }))
+      chosen.push_back(i);
+  }
+  return chosen;
+}
+
+std::vector<VerificationRecord> verify_best(const Study& study, const optimizer::OptimizationResult& result,
+                                            const RunEngine& engine, const std::string& fingerprint,
+                                            const fs::path& directory, const OrderlyInterrupt& interrupt,
+                                            std::ostream& err) {
+  std::vector<VerificationRecord> records;
+  if (!engine.verify) return records;
+  const fs::path file = directory / "verification.jsonl";
+  const std::vector<Kept> before = kept_before(file, fingerprint);
+  const std::vector<std::size_t> chosen = best_designs(study.problem, result, study.optimizer.verify);
+  wear::Control control;
+  control.stop = [&] { return interrupt.requested(); };
+  for (const std::size_t index : chosen) {
+    const optimizer::Candidate& candidate = result.evaluations[index];
+    const auto known =
+        std::find_if(before.begin(), before.end(), [&](const Kept& kept) { return kept.x == candidate.x; });
+    VerificationRecord record;
+    if (known != before.end()) {
+      record = known->record;
+    } else {
+      if (interrupt.requested()) break;
+      err << fmt::format("dovetail: verifying evaluation {} by its wear history ({} of {})\n", index + 1,
+                         records.size() + 1, chosen.size())
+          << std::flush;
+      record = engine.verify(scene_of(study, candidate), control);
+      if (interrupt.requested()) break;  // not finished: computed again when resumed
+      keep(file, line_of(fingerprint, {.x = candidate.x, .record = record}));
+    }
+    record.evaluation = static_cast<std::int64_t>(index);
+    records.push_back(std::move(record));
+  }
+  return records;
+}
+
+}  // namespace dovetail::studies

@@ -1,0 +1,129 @@
+// The answer of the command wear as JSON.
+#include "studies/program/json.hpp"
+#include "studies/program/json_values.hpp"
+#include "studies/program/wear_methods.hpp"
+
+namespace dovetail::studies {
+namespace {
+
+Json question_json(const WearQuestion& question) {
+  Json settings;
+  settings["harmonics"] = question.settings.harmonics;
+  settings["samples"] = question.settings.samples;
+  settings["tolerance"] = number(question.settings.tolerance);
+  settings["solver"] = question.settings.solver;
+  if (question.automatic)
+    settings["automatic"] = Json{{"status", std::string(to_string(question.automatic->status))},
+                                 {"accuracy", number(question.automatic->accuracy)}};
+  return settings;
+}
+
+Json worn(double volume, double depth) {
+  return Json{{"worn_volume_m3", number(volume)}, {"largest_depth_m", number(depth)}};
+}
+
+/// "spread": {SOURCE: {"status", "nominal", "low", "high", "profile_change", "members"}}.
+Json spread_json(const wear::Spread& spread) {
+  Json json = Json::object();
+  for (const wear::SpreadRange& range : spread.ranges) {
+    Json& source = json[range.source];
+    source["status"] = std::string(wear::to_string(range.verdict));
+    source["nominal"] = worn(spread.nominal.volume, spread.nominal.largest_depth());
+    source["low"] = worn(range.lowest_volume, range.lowest_depth);
+    source["high"] = worn(range.highest_volume, range.highest_depth);
+    source["profile_change"] = number(range.profile_change);
+    source["members"] = Json::array();
+    for (const wear::SpreadMember& member : spread.members) {
+      if (member.source != range.source) continue;
+      const bool known = member.end.verdict == wear::Verdict::asymptote;
+      Json entry{{"change", member.change}, {"status", std::string(wear::to_string(member.end.verdict))}};
+      if (member.end.verdict == wear::Verdict::not_converged)
+        entry["reason"] = std::string(to_string(member.end.status));
+      entry["worn_volume_m3"] = known ? number(member.end.volume) : Json(nullptr);
+      entry["largest_depth_m"] = known ? number(member.end.largest_depth()) : Json(nullptr);
+      source["members"].push_back(std::move(entry));
+    }
+  }
+  return json;
+}
+
+Json band_json(const WearBand& band) {
+  Json json;
+  json["frequency_hz"] = numbers(band.frequencies_hz);
+  json["status"] = band.status;
+  json["worn_volume_m3"] = numbers(band.volume);
+  json["largest_depth_m"] = numbers(band.largest_depth);
+  json["worst_frequency_hz"] = band.frequencies_hz.empty() ? Json(nullptr) : number(band.frequencies_hz[band.worst]);
+  json["envelope_depth_m"] = numbers(band.envelope);
+  return json;
+}
+
+void add_history(const wear::History& history, Json& json) {
+  const Eigen::Index last = history.depth.rows() - 1;
+  json["ended"] = std::string(wear::to_string(history.end));
+  json["cycles"] = numbers(history.cycles);
+  json["worn_volume_m3"] = numbers(history.worn_volume);
+  json["depth_m"] = numbers(history.final_depth);
+  json["final_worn_volume_m3"] = number(history.final_volume);
+  json["finished"] = history.finished;
+  json["final_wear_rate_m_per_cycle"] =
+      last < 0 ? Json::array() : numbers(Eigen::VectorXd(history.rate.row(last).transpose()));
+}
+
+/// States at rest where the history does not go.
+Json other_states(const wear::Asymptote& asymptote) {
+  Json list = Json::array();
+  for (const wear::OtherState& other : asymptote.other_states)
+    list.push_back(Json{{"found_by", other.found_by},
+                        {"worn_volume_m3", number(other.worn_volume)},
+                        {"largest_depth_m", number(other.largest_depth)},
+                        {"depth_m", numbers(other.depth)}});
+  return list;
+}
+
+void add_asymptote(const wear::Asymptote& asymptote, Json& json) {
+  json["cycles"] = Json::array({nullptr});
+  json["worn_volume_m3"] = Json::array({number(asymptote.worn_volume)});
+  json["interpolated_volume_m3"] = number(asymptote.interpolated_volume);
+  json["volume_bracket_m3"] = Json::array({number(asymptote.volume_bracket[0]), number(asymptote.volume_bracket[1])});
+  json["depth_m"] = numbers(asymptote.depth);
+  json["interpolated_depth_m"] = numbers(asymptote.interpolated_depth);
+  json["final_wear_rate_m_per_cycle"] = numbers(asymptote.rate);
+  json["certificate"] = number(asymptote.certificate);
+  json["decided_by"] = asymptote.decided_by;
+  json["doubt"] = asymptote.doubt;
+  json["confirmed_by_history"] = asymptote.confirmed_by_history;
+  json["other_states"] = other_states(asymptote);
+}
+
+}  // namespace
+
+std::string wear_status(const wear::History& history) {
+  switch (history.end) {
+    case wear::HistoryEnd::worn_out:
+      return "asymptote";
+    case wear::HistoryEnd::cycles:
+      return "no_asymptote";
+    default:
+      return "not_converged";
+  }
+}
+
+std::string wear_json(const WearQuestion& question, const WearAnswer& answer) {
+  Json json;
+  json["method"] = answer.history ? "history" : "asymptote";
+  json["status"] = answer.status;
+  json["follow"] = question.follow;
+  json["frequency_hz"] = number(question.frequency_hz);
+  json["frequencies_hz"] = numbers(answer.frequencies_hz);
+  if (answer.history) add_history(*answer.history, json);
+  if (answer.asymptote) add_asymptote(*answer.asymptote, json);
+  json["solves"] = answer.solves;
+  json["settings"] = question_json(question);
+  if (question.bars) json["error_bars"] = worn(question.bars->worn_volume, question.bars->largest_depth);
+  if (question.spread) json["spread"] = spread_json(*question.spread);
+  if (question.band) json["band"] = band_json(*question.band);
+  return text(json);
+}
+
+}  // namespace dovetail::studies

@@ -1,0 +1,118 @@
+#include "studies/program/wear_methods.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "studies/program/json.hpp"
+#include "wear/follow.hpp"
+
+namespace dovetail::studies {
+
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+
+WearAnswer by_history(const WearOptions& options, const LoadedModel& loaded, const WearStart& at,
+                      const response::ContactCondition& condition, const wear::Control& control) {
+  wear::HistoryOptions settings;
+  settings.follow = options.follow == "resonance" ? "resonance" : "fixed";
+  settings.cycles = options.cycles.value_or(settings.cycles);
+  settings.steps = options.steps.value_or(settings.steps);
+  settings.increment = options.increment_m.value_or(settings.increment);
+  WearAnswer answer;
+  answer.history = wear::history(loaded.condensed, at.omega, condition, loaded.steady, settings, {}, control);
+  wear::History& history = *answer.history;
+  if (at.resonance) history.solves += at.resonance->solves;
+  answer.status = wear_status(history);
+  answer.solver = history.end == wear::HistoryEnd::steps ? Status::iteration_limit : history.status;
+  answer.solves = history.solves;
+  for (const double omega : history.frequency)
+    answer.frequencies_hz.push_back(settings.follow == "fixed" ? at.hz : omega / kTurn);
+  answer.volume = history.final_volume;
+  answer.depth = history.final_depth;
+  return answer;
+}
+
+WearAnswer by_asymptote(const WearOptions& options, const LoadedModel& loaded, const WearStart& at,
+                        const response::ContactCondition& condition, const wear::Control& control) {
+  const bool unchanged = condition.slip_origin.size() == 0 && condition.wear_depth.size() == 0;
+  const response::SteadyState* initial = at.resonance && unchanged ? &at.resonance->state : nullptr;
+  WearAnswer answer;
+  answer.frequencies_hz = {at.hz};
+  if (options.follow == "resonance") {
+    wear::FollowedAsymptote found =
+        wear::followed_asymptote(loaded.condensed, at.omega, condition, loaded.steady, {}, {}, initial, control);
+    for (std::size_t i = 1; i < found.omegas.size(); ++i) answer.frequencies_hz.push_back(found.omegas[i] / kTurn);
+    answer.solves = found.solves;
+    answer.asymptote = std::move(found.asymptote);
+  } else {
+    answer.asymptote = wear::asymptote(loaded.condensed, at.omega, condition, loaded.steady, {}, initial, control);
+    answer.solves = answer.asymptote->solves;
+  }
+  if (at.resonance) answer.solves += at.resonance->solves;
+  answer.status = std::string(wear::to_string(answer.asymptote->verdict));
+  answer.solver = answer.asymptote->status;
+  answer.volume = answer.asymptote->worn_volume;
+  answer.depth = answer.asymptote->depth;
+  return answer;
+}
+
+}  // namespace
+
+WearStart wear_start_at(double hz) {
+  return {.hz = hz, .omega = kTurn * hz, .resonance = {}};
+}
+
+WearStart wear_start(const WearOptions& options, const LoadedModel& loaded) {
+  if (options.frequency_hz) return wear_start_at(*options.frequency_hz);
+  const auto refuse = [&](const std::string& why) {
+    throw InputError(
+        Violation{.file = {}, .key = options.input, .value = {}, .allowed = why + "; give --frequency HZ"});
+  };
+  if (loaded.glued_omega <= 0) refuse("has no natural frequency to start from");
+  if (loaded.model.output_names.empty()) refuse("has no output whose resonance could be found");
+  WearStart at;
+  at.resonance = response::resonance(loaded.condensed, loaded.glued_omega, {}, loaded.steady);
+  at.omega = at.resonance->omega;
+  at.hz = at.omega / kTurn;
+  return at;
+}
+
+WearAnswer wear_answer(const WearOptions& options, const LoadedModel& loaded, const WearStart& at,
+                       const response::ContactCondition& condition, const wear::Control& control) {
+  return options.method == "history" ? by_history(options, loaded, at, condition, control)
+                                     : by_asymptote(options, loaded, at, condition, control);
+}
+
+WearBand wear_band(const WearOptions& options, const LoadedModel& loaded, const wear::Control& control) {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  WearBand band;
+  double worst = -1;
+  for (int i = 0; i < options.band_points && !control.stopped(); ++i) {
+    const double part = options.band_points == 1 ? 0 : static_cast<double>(i) / (options.band_points - 1);
+    const double hz = *options.band_from_hz + part * (*options.band_to_hz - *options.band_from_hz);
+    WearAnswer answer = wear_answer(options, loaded, wear_start_at(hz), {}, control);
+    band.solves += answer.solves;
+    band.frequencies_hz.push_back(hz);
+    band.status.push_back(answer.status);
+    band.volume.push_back(answer.worn_out() ? answer.volume : kUnknown);
+    band.largest_depth.push_back(answer.worn_out() ? answer.largest_depth() : kUnknown);
+    if (answer.status == "not_converged") ++band.failed;
+    if (answer.worn_out())
+      band.envelope = band.envelope.size() > 0 ? band.envelope.cwiseMax(answer.depth).eval() : answer.depth;
+    // Endless wear is worse than any volume; a failed one is only shown when there is nothing else.
+    const double badness = answer.worn_out() ? answer.volume : answer.status == "no_asymptote" ? kInfinity : -0.5;
+    if (badness > worst) {
+      worst = badness;
+      band.worst = band.status.size() - 1;
+      band.answer = std::move(answer);
+    }
+  }
+  band.answer.solves = band.solves;
+  // Where some frequencies are not known, which one is the worst is not known either.
+  if (band.failed > 0 && band.answer.worn_out()) band.answer.status = "not_converged";
+  return band;
+}
+
+}  // namespace dovetail::studies

@@ -1,0 +1,119 @@
+#include "wear/spread.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/errors.hpp"
+#include "response/condensed_model.hpp"
+#include "tests/verification/wear/scenes.hpp"
+#include "wear/follow.hpp"
+
+namespace dovetail::wear {
+namespace {
+
+using Model = std::shared_ptr<const response::CondensedModel>;
+
+response::SteadyOptions settings() {
+  return {.harmonics = 3, .samples = 128};
+}
+
+WornEnd worn(const Model& model, const response::ContactCondition& condition) {
+  const Asymptote found = asymptote(model, 1.0, condition, settings());
+  return {.verdict = found.verdict,
+          .status = found.status,
+          .volume = found.worn_volume,
+          .depth = found.depth,
+          .solves = found.solves};
+}
+
+const SpreadRange& range_of(const Spread& spread, const std::string& source) {
+  return *std::find_if(spread.ranges.begin(), spread.ranges.end(),
+                       [&](const SpreadRange& range) { return range.source == source; });
+}
+
+class PunchSpread : public testing::Test {
+ protected:
+  Model model_ = std::make_shared<const response::CondensedModel>(scenes::punch({.nodes = 41}));
+  response::SteadyState unworn_ = response::steady_state(model_, 1.0, {}, settings());
+  Spread spread_ = spread(model_, {}, worn(model_, {}), worn, &unworn_);
+};
+
+TEST_F(PunchSpread, ShapeDoesNotDependOnTheWearCoefficient) {
+  const SpreadRange& range = range_of(spread_, "wear_coefficient");
+  EXPECT_EQ(range.verdict, Verdict::asymptote);
+  EXPECT_EQ(range.members, 2);
+  // The states are the same to the solver's tolerance, 1e-9 of the forces, amplified by the release of nodes.
+  EXPECT_LT(range.profile_change, 1e-6);
+}
+
+TEST_F(PunchSpread, LessFrictionAndMoreLoadWearMore) {
+  // In partial slip of the punch the stick zone is c/a = sqrt(1 - Q/(mu P)): what slips grows with Q / mu.
+  const auto volume = [&](const std::string& source, const std::string& change) {
+    for (const SpreadMember& member : spread_.members)
+      if (member.source == source && member.change == change) return member.end.volume;
+    ADD_FAILURE() << source << change;
+    return 0.0;
+  };
+  EXPECT_GT(volume("friction", "x 0.8"), volume("friction", "x 1.2"));
+  EXPECT_GT(volume("load", "x 1.1"), volume("load", "x 0.9"));
+  const SpreadRange& friction = range_of(spread_, "friction");
+  EXPECT_EQ(friction.highest_volume, volume("friction", "x 0.8"));
+  EXPECT_EQ(friction.lowest_volume, volume("friction", "x 1.2"));
+  const SpreadRange& all = range_of(spread_, "combined");
+  EXPECT_GT(all.highest_volume, friction.highest_volume);
+  EXPECT_LT(all.lowest_volume, friction.lowest_volume);
+  EXPECT_GT(all.highest_depth, friction.highest_depth);
+}
+
+TEST_F(PunchSpread, TriesResidualTractionsOfStuckNodes) {
+  const SpreadRange& range = range_of(spread_, "residual_tractions");
+  EXPECT_EQ(range.members, 4);
+  EXPECT_LE(range.lowest_volume, spread_.nominal.volume);
+  EXPECT_GE(range.highest_volume, spread_.nominal.volume);
+}
+
+TEST(Spread, FailedMembersAreCountedAndKept) {
+  const Model model = std::make_shared<const response::CondensedModel>(scenes::punch({.nodes = 21}));
+  const double friction = model->contact().friction(0);
+  const WornEnd nominal{.verdict = Verdict::asymptote, .volume = 1, .depth = Eigen::VectorXd::Ones(21)};
+  const auto compute = [&](const Model& changed, const response::ContactCondition&) {
+    WornEnd end = nominal;
+    if (changed->contact().friction(0) < friction) {
+      end.verdict = Verdict::not_converged;
+      end.status = Status::stalled;
+    }
+    return end;
+  };
+  const Spread result = spread(model, {}, nominal, compute);
+  const SpreadRange& range = range_of(result, "friction");
+  EXPECT_EQ(range.verdict, Verdict::not_converged);
+  EXPECT_EQ(range.members, 2);
+  EXPECT_EQ(range.failed, 1);
+  EXPECT_EQ(range_of(result, "load").verdict, Verdict::asymptote);
+  EXPECT_EQ(range_of(result, "combined").verdict, Verdict::not_converged);
+  EXPECT_TRUE(std::any_of(result.members.begin(), result.members.end(),
+                          [](const SpreadMember& member) { return member.end.status == Status::stalled; }));
+  SpreadOptions wrong;
+  wrong.friction = 1;
+  EXPECT_THROW((void)spread(model, {}, nominal, compute, nullptr, wrong), InputError);
+}
+
+TEST(FollowedAsymptote, EndsAtTheResonanceOfItsOwnWornState) {
+  const Model model = std::make_shared<const response::CondensedModel>(scenes::rubbing_oscillator(0.3, 1.0, 0.5, 0.02));
+  const response::Resonance unworn = response::resonance(model, 1.2, {}, settings());
+  ASSERT_EQ(unworn.status, Status::converged);
+  const FollowedAsymptote found = followed_asymptote(model, unworn.omega, {}, settings());
+  ASSERT_EQ(found.held.verdict, Verdict::asymptote);
+  ASSERT_EQ(found.asymptote.verdict, Verdict::asymptote);
+  response::ContactCondition condition;
+  condition.wear_depth = found.asymptote.depth;
+  const response::Resonance worn = response::resonance(model, found.omegas.back(), condition, settings());
+  ASSERT_EQ(worn.status, Status::converged);
+  // The loop ends at a change below 1e-7; the searches themselves are good to 1e-7.
+  EXPECT_NEAR(worn.omega / found.omegas.back(), 1, 3e-7);
+  EXPECT_GE(found.omegas.size(), 2U);
+}
+
+}  // namespace
+}  // namespace dovetail::wear
