@@ -1,0 +1,285 @@
+#include "studies/paper_section/figures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "studies/paper_section/findings.hpp"
+#include "studies/report/report_plots.hpp"
+#include "studies/report/units.hpp"
+
+namespace dovetail::paper_section {
+namespace {
+
+using report::Plot;
+using report::PlotLine;
+using report::Role;
+using report::scaled;
+using report::significant;
+using report::Stroke;
+using report::Unit;
+
+/// Colours and strokes of lines that stand for a sequence or for nodes.
+constexpr std::array<std::pair<Role, Stroke>, 6> kLooks{{{Role::after, Stroke::solid},
+                                                         {Role::bad, Stroke::solid},
+                                                         {Role::before, Stroke::solid},
+                                                         {Role::after, Stroke::dashed},
+                                                         {Role::bad, Stroke::dashed},
+                                                         {Role::before, Stroke::dashed}}};
+
+report::PlotAxis cycle_axis() {
+  return {.label = "load cycles", .logarithmic = true, .tight = true};
+}
+
+Numbers relative_frequency(const Results& r) {
+  return scaled(r.frequency_hz, r.resonance_hz);
+}
+
+/// Both flanks of the contact nodes; one line where the flanks are alike.
+std::vector<PlotLine> flank_lines(const report::ContactRecord& contact, const Numbers& values, double si) {
+  const Numbers left = of_flank(contact, values, 0), right = of_flank(contact, values, 1);
+  const double most = report::largest(values);
+  const bool alike = std::equal(left.begin(), left.end(), right.begin(), right.end(),
+                                [&](double a, double b) { return std::abs(a - b) < 0.01 * most; });
+  PlotLine first{.name = alike ? "both flanks" : "left flank",
+                 .x = scaled(of_flank(contact, contact.along_m, 0), 1e-3),
+                 .y = scaled(left, si)};
+  first.dots = true;
+  if (alike) return {first};
+  PlotLine second{.name = "right flank",
+                  .x = scaled(of_flank(contact, contact.along_m, 1), 1e-3),
+                  .y = scaled(right, si),
+                  .role = Role::bad,
+                  .stroke = Stroke::dashed};
+  return {first, second};
+}
+
+Plot along_flank(const Results& r, const Numbers& values, const Unit& unit, Plot plot) {
+  plot.x = {.label = "along the flank, from its neck side", .unit = "mm"};
+  plot.y.unit = unit.symbol;
+  plot.y.from_zero = true;
+  plot.lines = flank_lines(r.design.contact, values, unit.si);
+  return plot;
+}
+
+/// Up to five nodes of the left flank, evenly over those that wear.
+std::vector<std::size_t> shown_nodes(const Results& r) {
+  std::vector<std::size_t> worn;
+  if (r.history.depth_m.empty()) return worn;
+  const Numbers& last = r.history.depth_m.back();
+  const double deepest = largest_of(last).value;
+  for (std::size_t i = 0; i < last.size(); ++i)
+    if (r.design.contact.flank[i] == 0 && last[i] > 0.01 * deepest) worn.push_back(i);
+  constexpr std::size_t kShown = 5;
+  if (worn.size() <= kShown) return worn;
+  std::vector<std::size_t> shown;
+  for (std::size_t k = 0; k < kShown; ++k) shown.push_back(worn[k * (worn.size() - 1) / (kShown - 1)]);
+  return shown;
+}
+
+/// Depths or rates of the shown nodes over cycles; the unworn state stands at half the cycles of the first step.
+Plot courses(const Results& r, const std::vector<Numbers>& values, double si, Plot plot) {
+  plot.x = cycle_axis();
+  plot.y.from_zero = true;
+  Numbers cycles = r.history.cycles;
+  if (cycles.size() > 1) cycles.front() = 0.5 * cycles[1];
+  const std::vector<std::size_t> nodes = shown_nodes(r);
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    PlotLine line{.name = significant(r.design.contact.along_m[nodes[k]] / 1e-3, 2) + " mm",
+                  .x = cycles,
+                  .role = kLooks[k].first,
+                  .stroke = kLooks[k].second};
+    for (const Numbers& state : values) line.y.push_back(state[nodes[k]] / si);
+    plot.lines.push_back(std::move(line));
+  }
+  return plot;
+}
+
+std::string cycles_words(double cycles) {
+  if (cycles == 0) return "new";
+  return std::isfinite(cycles) ? significant(cycles, 2) + " cycles" : "at rest";
+}
+
+/// Cycles of the states on a logarithmic axis: the unworn one before, the asymptote after all others.
+Numbers state_cycles(const Results& r) {
+  Numbers cycles;
+  for (const WornState& state : r.states)
+    cycles.push_back(state.cycles == 0             ? 0.5 * (r.history.cycles.size() > 1 ? r.history.cycles[1] : 1)
+                     : std::isfinite(state.cycles) ? state.cycles
+                                                   : 2 * (r.history.cycles.empty() ? 1 : r.history.cycles.back()));
+  return cycles;
+}
+
+PlotLine curve_line(const Results& r, const WornState& state, std::size_t place) {
+  const bool first = place == 0, last = place + 1 == r.states.size();
+  return {.name = first || last || place == r.states.size() / 2 ? cycles_words(state.cycles) : "",
+          .x = relative_frequency(r),
+          .y = scaled(state.curve.amplitude_m, 1e-3),
+          .role = last    ? Role::after
+                  : first ? Role::bad
+                          : Role::before,
+          .stroke = Stroke::solid};
+}
+
+}  // namespace
+
+Figure nodal_diameter_figure(const Results& r) {
+  return {"nodal_diameters", report::nodal_diameter_plot(r.design)};
+}
+
+Figure pressure_figure(const Results& r) {
+  const Numbers& pressure = r.design.contact.preload_pressure_pa;
+  return {"preload_pressure",
+          along_flank(r, pressure, report::readable_unit("Pa", report::largest(pressure)),
+                      {.title = "Pressure after spin-up",
+                       .description = "Under the centrifugal load alone. The last node stands for a sharp edge, whose "
+                                      "pressure grows as the mesh gets finer.",
+                       .y = {.label = "pressure"}})};
+}
+
+Figure damping_figure(const Results& r) {
+  Plot plot{.title = "Response with friction against glued flanks",
+            .description = "Amplitude of the aerofoil's tip; frequency over that of the unworn resonance.",
+            .x = {.label = "frequency / resonance"},
+            .y = {.label = "amplitude", .unit = "mm", .from_zero = true}};
+  plot.lines.push_back({.name = "glued, without friction",
+                        .x = relative_frequency(r),
+                        .y = scaled(r.glued_amplitude_m, 1e-3),
+                        .role = Role::before,
+                        .stroke = Stroke::dashed});
+  if (!r.states.empty())
+    plot.lines.push_back(
+        {.name = "with friction", .x = relative_frequency(r), .y = scaled(r.states[0].curve.amplitude_m, 1e-3)});
+  return {"response", plot};
+}
+
+Figure power_figure(const Results& r) {
+  Plot plot{.title = "Power dissipated by friction",
+            .description = "Average over a period; of both flanks of one sector.",
+            .x = {.label = "frequency / resonance"},
+            .y = {.label = "power", .unit = "W", .from_zero = true}};
+  if (!r.states.empty()) {
+    plot.lines.push_back({.name = "new", .x = relative_frequency(r), .y = r.states.front().curve.power_w});
+    plot.lines.push_back({.name = "at rest",
+                          .x = relative_frequency(r),
+                          .y = r.states.back().curve.power_w,
+                          .role = Role::before,
+                          .stroke = Stroke::dashed});
+  }
+  return {"dissipated_power", plot};
+}
+
+Figure first_rate_figure(const Results& r) {
+  const Numbers& rate = r.design.contact.wear_rate_m_per_cycle;
+  const Unit relative{.symbol = "", .si = std::max(report::largest(rate), 1e-300)};
+  return {"first_cycle_rates",
+          along_flank(r, rate, relative,
+                      {.title = "Wear rates of the first cycle",
+                       .description = fmt::format("Over the largest of both flanks, {} nm per million cycles.",
+                                                  significant(report::largest(rate) * 1e15, 3)),
+                       .y = {.label = "rate / largest rate"}})};
+}
+
+Figure depth_course_figure(const Results& r) {
+  return {"depths_over_cycles",
+          courses(r, r.history.depth_m, 1e-6,
+                  {.title = "Wear depths over cycles",
+                   .description = "Of some nodes of one flank, named by their distance from its neck side.",
+                   .y = {.label = "worn depth", .unit = "\u00b5m"}})};
+}
+
+Figure rate_course_figure(const Results& r) {
+  const double first = r.history.rate_m_per_cycle.empty() ? 1 : report::largest(r.history.rate_m_per_cycle.front());
+  return {"rates_over_cycles", courses(r, r.history.rate_m_per_cycle, first,
+                                       {.title = "Wear rates over cycles",
+                                        .description = "Of the same nodes, over the largest rate of the first cycle.",
+                                        .y = {.label = "rate / largest first rate"}})};
+}
+
+Figure profile_figure(const Results& r) {
+  const Numbers& depth = r.design.contact.interpolated_depth_m;
+  Plot plot =
+      along_flank(r, depth, {.symbol = "\u00b5m", .si = 1e-6},
+                  {.title = "Final worn profile",
+                   .description = "Depth off both surfaces together when wear has come to rest, found directly; "
+                                  "dashed: where the history ended.",
+                   .y = {.label = "worn depth"}});
+  if (!r.history.depth_m.empty()) {
+    std::vector<PlotLine> ended = flank_lines(r.design.contact, r.history.depth_m.back(), 1e-6);
+    for (PlotLine& line : ended) {
+      line.name = "history" + (ended.size() > 1 ? ", " + line.name : "");
+      line.role = Role::before;
+      line.stroke = Stroke::dashed;
+      line.dots = false;
+      plot.lines.push_back(line);
+    }
+  }
+  return {"final_profiles", plot};
+}
+
+Figure volume_figure(const Results& r) {
+  Plot plot{.title = "Worn volume over cycles",
+            .description = "Of both flanks; dashed: the state at rest, found directly.",
+            .x = cycle_axis(),
+            .y = {.label = "worn volume", .unit = "mm\u00b3", .from_zero = true}};
+  if (r.history.cycles.size() < 2) return {"volume_over_cycles", plot};
+  plot.lines.push_back({.name = "history", .x = r.history.cycles, .y = scaled(r.history.volume_m3, 1e-9)});
+  plot.lines.push_back({.name = "at rest",
+                        .x = {r.history.cycles[1], r.history.cycles.back()},
+                        .y = Numbers(2, r.asymptote_volume_m3 / 1e-9),
+                        .role = Role::before,
+                        .stroke = Stroke::dashed});
+  return {"volume_over_cycles", plot};
+}
+
+Figure wearing_response_figure(const Results& r) {
+  Plot plot{.title = "Response as the joint wears",
+            .description = "From new to at rest, states by equal shares of the volume worn in the end.",
+            .x = {.label = "frequency / unworn resonance"},
+            .y = {.label = "amplitude", .unit = "mm", .from_zero = true}};
+  for (std::size_t i = 0; i < r.states.size(); ++i) plot.lines.push_back(curve_line(r, r.states[i], i));
+  return {"responses_while_wearing", plot};
+}
+
+Figure amplitude_course_figure(const Results& r) {
+  Plot plot{.title = "Amplitude while the joint wears",
+            .description =
+                "Excited at the unworn resonance, and at the resonance of the joint as worn then. First and "
+                "last points: new, and at rest.",
+            .x = cycle_axis(),
+            .y = {.label = "amplitude", .unit = "mm"}};
+  PlotLine held{.name = "at the unworn resonance", .x = state_cycles(r)};
+  PlotLine peak{.name = "at the resonance that moves", .x = held.x, .role = Role::bad, .stroke = Stroke::dashed};
+  held.dots = peak.dots = true;
+  for (const WornState& state : r.states) {
+    held.y.push_back(state.amplitude_m / 1e-3);
+    peak.y.push_back(state.peak_found ? state.peak_m / 1e-3 : std::nan(""));
+  }
+  plot.lines = {held, peak};
+  return {"amplitude_while_wearing", plot};
+}
+
+Figure drift_figure(const Results& r) {
+  Plot plot{
+      .title = "Resonance while the joint wears",
+      .description = "Frequency of the peak over that of the unworn joint. First and last points: new, and at rest.",
+      .x = cycle_axis(),
+      .y = {.label = "change of frequency", .unit = "10\u207b\u2074"}};
+  PlotLine line{.name = {}, .x = state_cycles(r)};
+  line.dots = true;
+  for (const WornState& state : r.states)
+    line.y.push_back(state.peak_found ? 1e4 * (state.peak_hz / r.resonance_hz - 1) : std::nan(""));
+  plot.lines.push_back(line);
+  return {"resonance_while_wearing", plot};
+}
+
+std::vector<Figure> figures(const Results& r) {
+  return {nodal_diameter_figure(r), pressure_figure(r),         damping_figure(r),          power_figure(r),
+          first_rate_figure(r),     depth_course_figure(r),     rate_course_figure(r),      volume_figure(r),
+          profile_figure(r),        wearing_response_figure(r), amplitude_course_figure(r), drift_figure(r)};
+}
+
+}  // namespace dovetail::paper_section

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "studies/paper_section/results.hpp"
+#include "studies/report/svg_plot.hpp"
+
+namespace dovetail::paper_section {
+
+/// A figure and the name of the file with its numbers.
+struct Figure {
+  std::string key;
+  report::Plot plot;
+};
+
+[[nodiscard]] Figure nodal_diameter_figure(const Results& results);
+[[nodiscard]] Figure pressure_figure(const Results& results);
+[[nodiscard]] Figure damping_figure(const Results& results);
+[[nodiscard]] Figure power_figure(const Results& results);
+[[nodiscard]] Figure first_rate_figure(const Results& results);
+[[nodiscard]] Figure depth_course_figure(const Results& results);
+[[nodiscard]] Figure rate_course_figure(const Results& results);
+[[nodiscard]] Figure profile_figure(const Results& results);
+[[nodiscard]] Figure volume_figure(const Results& results);
+[[nodiscard]] Figure wearing_response_figure(const Results& results);
+[[nodiscard]] Figure amplitude_course_figure(const Results& results);
+[[nodiscard]] Figure drift_figure(const Results& results);
+
+/// All of them in the reference's order.
+[[nodiscard]] std::vector<Figure> figures(const Results& results);
+
+}  // namespace dovetail::paper_section

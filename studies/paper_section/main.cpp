@@ -1,0 +1,55 @@
+// The sequence of the reference in a plane section, as figures, tables and a page: studies/paper_section/run runs it.
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <string>
+
+#include "core/errors.hpp"
+#include "numerics/dense_lu.hpp"
+#include "studies/paper_section/compute.hpp"
+#include "studies/paper_section/page.hpp"
+#include "studies/program/study.hpp"
+
+int main(int argc, char** argv) {
+  using namespace dovetail;
+  CLI::App app{"Vibration and fretting wear of a bladed disk in a plane section, figure by figure."};
+  std::string folder, study_file, commit = "unknown";
+  bool quick = false;
+  app.add_option("folder", folder, "Folder of report.html, the CSV files and the JSON files")->required();
+  app.add_option("--study", study_file, "Study file of the scene")->required();
+  app.add_option("--commit", commit, "Commit of the sources, to be recorded");
+  app.add_flag("--quick", quick, "A coarse mesh and few steps, in seconds: a look at the page");
+  CLI11_PARSE(app, argc, argv);
+  const auto begin = std::chrono::steady_clock::now();
+  const auto passed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(); };
+  paper_section::ComputeOptions options;
+  options.progress = [&](const std::string& what) {
+    std::printf("%6.1f s  %s\n", passed(), what.c_str());
+    std::fflush(stdout);
+  };
+  try {
+    numerics::set_blas_threads(1);
+    studies::Study study = studies::load_study(study_file);
+    if (quick) {
+      study.scene.mesh.flank_elements = 16;
+      study.scene.mesh.aerofoil_elements = 12;
+      study.scene.mesh.bulk_size *= 1.6;
+      options.curve_points = 21;
+      options.history_steps = 16;
+      options.curve_states = 4;
+      options.nodal_diameter_modes = 2;
+    }
+    paper_section::Results results = paper_section::compute(study.scene, options);
+    results.quick = quick;
+    results.study_text = study.text;
+    results.commit = commit;
+    results.seconds = passed();
+    paper_section::write(folder, results);
+    options.progress("done: " + folder + "/report.html");
+    for (const std::string& failure : results.failures) std::fprintf(stderr, "%s\n", failure.c_str());
+    return results.failures.empty() ? 0 : 3;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+}
