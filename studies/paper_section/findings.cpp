@@ -115,12 +115,14 @@ Finding asymmetry(const Results& r) {
   for (std::size_t i = 0; i < std::min(left.size(), right.size()); ++i)
     apart = std::max(apart, std::abs(left[i] - right[i]));
   apart /= std::max(largest_of(left).value, largest_of(right).value);
+  const std::string between =
+      apart < 1e-4 ? "both flanks wear alike"
+                   : fmt::format("the flanks differ by {}\u00a0% of the largest depth", significant(100 * apart, 2));
   Finding f{
       .key = "profiles_asymmetric",
       .paper = "The final profiles are very asymmetric (fig. 11).",
-      .here = fmt::format("Along a flank: {}\u00a0% of the volume is worn off its neck-side half. Between the flanks: "
-                          "they differ by {}\u00a0% of the largest depth.",
-                          significant(100 * share, 3), significant(100 * apart, 2)),
+      .here = fmt::format("Along a flank: {}\u00a0% of the volume is worn off its neck-side half. Between them: {}.",
+                          significant(100 * share, 3), between),
       .verdict = std::abs(share - 0.5) < 0.2 ? Verdict::fails
                  : apart > 0.05              ? Verdict::holds
                                              : Verdict::partly};
@@ -128,9 +130,10 @@ Finding asymmetry(const Results& r) {
       "The plane section is its own mirror image and the force reverses every half period, so both flanks wear "
       "alike; the reference's blade is curved and its two sides are not.";
   if (r.unequal_flanks_volume_m3.size() == 2 && r.unequal_flanks_volume_m3[1] > 0)
-    f.why += fmt::format(" With a left flank {} degree flatter, {} times as much wears on the left as on the right.",
-                         significant(r.unequal_flanks_degrees, 1),
-                         significant(r.unequal_flanks_volume_m3[0] / r.unequal_flanks_volume_m3[1], 3));
+    f.why += fmt::format(
+        " With the angle of the left flank {}\u00a0degree larger, {} times as much wears on the left as on the right.",
+        significant(r.unequal_flanks_degrees, 1),
+        significant(r.unequal_flanks_volume_m3[0] / r.unequal_flanks_volume_m3[1], 3));
   return f;
 }
 

@@ -90,14 +90,19 @@ std::string pressure_text(const Results& r) {
     area += contact.area_m2[i];
     if (!(contact.preload_pressure_pa[i] > 0)) ++open;
   }
+  const std::string where =
+      open == 0 ? fmt::format(
+                      "All {} contact nodes touch; on the neck side, where the hoop growth of the disk opens the "
+                      "slot, they are pressed least.",
+                      contact.flank.size())
+                : fmt::format(
+                      "{} of {} contact nodes do not touch: the hoop growth of the disk opens the slot on the "
+                      "neck side.",
+                      open, contact.flank.size());
   return fmt::format(
-      "The mean pressure is {} MPa, the largest {} MPa at the flank\u2019s root-side end; {} of {} contact nodes do "
-      "not "
-      "touch: the hoop growth of the disk opens the slot on the neck side. Both flanks are alike, as the section is "
-      "its "
-      "own mirror image.",
-      significant(force / area / 1e6, 3), significant(largest_of(contact.preload_pressure_pa).value / 1e6, 3), open,
-      contact.flank.size());
+      "The mean pressure is {}\u00a0MPa, the largest {}\u00a0MPa at the flank\u2019s root-side end. {} Both flanks are "
+      "alike, as the section is its own mirror image.",
+      significant(force / area / 1e6, 3), significant(largest_of(contact.preload_pressure_pa).value / 1e6, 3), where);
 }
 
 std::string frequency_text(const Results& r) {
@@ -118,8 +123,8 @@ std::string first_rate_text(const Results& r) {
   const double most = largest_of(rate).value;
   const auto wearing = std::count_if(rate.begin(), rate.end(), [&](double v) { return v > 0.01 * most; });
   return fmt::format(
-      "{} of {} contact nodes wear by more than a hundredth of the largest rate, next to the part of the "
-      "flank that does not touch; the others stick.",
+      "{} of {} contact nodes wear by more than a hundredth of the largest rate, all next to the neck-side "
+      "ends of the flanks; the others stick.",
       wearing, rate.size());
 }
 
