@@ -176,6 +176,10 @@ ImplicitHistory implicit_history(const std::shared_ptr<const response::Condensed
   constexpr int kRecovery = 3;
   constexpr double kSlowGrowth = 1.5;
   int recovering = 0;
+  // Shortest step, relative to the depth, and how many of them a jump to another branch is long.
+  constexpr double kSmallest = 1e-5;
+  constexpr double kLeap = 100.0;
+  constexpr int kJumps = 20;
   Status failure = Status::iteration_limit;
   for (int i = 0; i < options.steps; ++i) {
     if (control.stopped()) return leave(ImplicitEnd::interrupted, Status::interrupted);
@@ -190,9 +194,28 @@ ImplicitHistory implicit_history(const std::shared_ptr<const response::Condensed
       constexpr double kCut = 0.25;
       jump *= failure == Status::converged ? std::clamp(0.9 / std::cbrt(ratio), 0.1, 0.7) : kCut;
       if (failure != Status::converged) recovering = kRecovery;
-      constexpr double kSmallest = 1e-7;
-      if (jump * point.rate.maxCoeff() < kSmallest * scale / options.tolerance)
+      const double smallest = kSmallest * scale / options.tolerance;
+      if (jump * point.rate.maxCoeff() >= smallest) continue;
+      // The branch turns back in W, as where an amplitude jumps: a short explicit step looks for where it goes on.
+      const double leap = cycle_jump(point.rate, kLeap * smallest);
+      response::ContactCondition beyond = start;
+      beyond.wear_depth = point.depth + leap * point.rate;
+      response::SteadyState found;
+      if (result.jumps < kJumps) {
+        found = response::steady_state(model, omega, beyond, settings, point.displacement);
+        ++result.solves;
+        result.jacobians += found.iterations;
+        result.evaluations += found.evaluations;
+      }
+      if (result.jumps == kJumps || found.status != Status::converged)
         return leave(ImplicitEnd::failed, failure == Status::converged ? Status::stalled : failure);
+      ++result.jumps;
+      count();
+      stage = ImplicitStage(model, start, settings, found);
+      point = {.displacement = found.displacement, .depth = beyond.wear_depth, .rate = found.wear_rate};
+      cycles += leap;
+      jump = leap;
+      records.push_back({.cycles = cycles, .depth = point.depth, .rate = point.rate});
       continue;
     }
     point = std::move(next);

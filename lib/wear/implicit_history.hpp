@@ -59,6 +59,7 @@ struct ImplicitHistory {
   bool finished = false;             ///< the last state is that of the direct method
   double finish_change = 0.0;        ///< largest change of depth by finishing, m
   double largest_penetration = 0.0;  ///< of the unworn contact, m
+  int jumps = 0;                     ///< short explicit steps across folds, where the branch followed ends
   int rejected = 0;                  ///< steps cut because they failed or erred too much
   int solves = 0;                    ///< steady states and stages solved, failed ones included
   int jacobians = 0;                 ///< factorised Jacobians over all of them
@@ -70,7 +71,8 @@ struct ImplicitHistory {
 /// by the factorised Jacobian, one factorisation per iteration,
 ///   dU = -J^-1 (f + J_W dW), (I - c R) dW = -(g - c r_U J^-1 f), g = W - B - c r, R = dr/dW along f = 0,
 /// over the nodes that wear. Steps grow while the local error permits and end where nothing wears any more; a step
-/// that does not converge is cut and never built on. No node loses depth, and none is worn past the load that wears it.
+/// that does not converge is cut and never built on. Where none converges however short, as at a fold, one explicit
+/// step goes to the state that the joint has there. No node loses depth, and none is worn past the load that wears it.
 ///
 /// @param omega   excitation frequency rad/s, held
 /// @param start   wear depth to start from and slip origin; it must release no node
