@@ -78,15 +78,17 @@ std::string dynamics(const Scene& scene, CandidateResult& result) {
   fillet_responses(scene, result);
   evaluation.timings_s["stress"] = watch.lap();
 
+  // Where release settles it decides: smooth in the design, and cheap. Finished runs ask the history.
+  const wear::AsymptoteOptions direct{.arbitration = "unsettled"};
   double wear_omega = result.unworn->omega;
   if (scene.loading.follow == "resonance") {
     wear::FollowedAsymptote found =
-        wear::followed_asymptote(model.condensed, wear_omega, {}, steady, {}, {}, &result.unworn->state);
+        wear::followed_asymptote(model.condensed, wear_omega, {}, steady, direct, {}, &result.unworn->state);
     wear_omega = found.omegas.back();
     result.asymptote = std::move(found.asymptote);
     result.held = std::move(found.held);
   } else {
-    result.asymptote = wear::asymptote(model.condensed, wear_omega, {}, steady, {}, &result.unworn->state);
+    result.asymptote = wear::asymptote(model.condensed, wear_omega, {}, steady, direct, &result.unworn->state);
   }
   evaluation.model["wear_frequency_hz"] = hertz(wear_omega);
   evaluation.timings_s["asymptote"] = watch.lap();
@@ -96,6 +98,7 @@ std::string dynamics(const Scene& scene, CandidateResult& result) {
                                            ? to_string(asymptote.status)
                                            : wear::to_string(asymptote.verdict));
   evaluation.model["wear_certificate"] = asymptote.certificate;
+  evaluation.model["wear_history_may_differ"] = asymptote.doubt.empty() ? 0 : 1;
   evaluation.model["nodal_wear_volume_m3"] = asymptote.worn_volume;
   responses["initial_wear_rate_m3_per_cycle"] =
       wear::worn_volume(model.reduction.model.contact, result.held ? result.held->unworn_rate : asymptote.unworn_rate);

@@ -218,7 +218,8 @@ Asymptote asymptote(const std::shared_ptr<const response::CondensedModel>& model
     result.arbitration_jacobians = release.jacobians() - jacobians;
   };
   const bool asked = options.arbitration == "always";
-  if (options.arbitration != "never" && passes.count > 0 && direct.settled && (direct.doubt.empty() || asked)) {
+  const bool looks_further = asked || options.arbitration == "auto";
+  if (looks_further && passes.count > 0 && direct.settled && (direct.doubt.empty() || asked)) {
     const SlowRelease slow = release_slowly(release, result.unworn, threshold, options.passes);
     const bool elsewhere = !same_depth(slow.depth, result.depth, options.state_tolerance);
     if (slow.settled && elsewhere) result.other_states.push_back(other_state("worst_first", contact, slow.depth));
@@ -227,7 +228,8 @@ Asymptote asymptote(const std::shared_ptr<const response::CondensedModel>& model
       direct.doubt = "worst_first";
   }
   result.doubt = direct.doubt.empty() && asked ? "always" : direct.doubt;
-  if (result.doubt.empty() || options.arbitration == "never") {
+  const bool stands = direct.settled && result.verdict == Verdict::asymptote;
+  if (result.doubt.empty() || options.arbitration == "never" || (options.arbitration == "unsettled" && stands)) {
     count_arbitration();
     return finish();
   }

@@ -33,8 +33,9 @@ struct AsymptoteOptions {
   double relative_threshold = 1e-4;
   // >= 1. Passes of release; each releases every loaded node that slips.
   int passes = 60;
-  // auto | never | always. Whether the implicit history has the last word: where the direct answer is in doubt, never
-  // (then "no asymptote" is not confirmed either), or every time.
+  // auto | unsettled | never | always. Whether the implicit history has the last word: where the direct answer is in
+  // doubt, only where release did not come to a certified end, never (then "no asymptote" is not confirmed either), or
+  // every time.
   std::string arbitration = "auto";
   // > 0. Two worn states are the same when their depths differ by less than this, relative to the largest depth.
   double state_tolerance = 1e-2;

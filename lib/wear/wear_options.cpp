@@ -75,7 +75,7 @@ std::span<const Field<wear::AsymptoteOptions>> option_table<wear::AsymptoteOptio
       Field<Options>{.key = "arbitration",
                      .member = &Options::arbitration,
                      .help = "when the implicit history has the last word: in doubt, never or always",
-                     .choices = {"auto", "never", "always"}},
+                     .choices = {"auto", "unsettled", "never", "always"}},
       Field<Options>{.key = "state_tolerance",
                      .member = &Options::state_tolerance,
                      .range = kPositive,
