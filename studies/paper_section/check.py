@@ -13,7 +13,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 PROGRAM = ""
 FIGURES = ("nodal_diameters", "preload_pressure", "response", "dissipated_power", "first_cycle_rates",
            "depths_over_cycles", "rates_over_cycles", "volume_over_cycles", "final_profiles",
-           "responses_while_wearing", "amplitude_while_wearing", "resonance_while_wearing")
+           "responses_while_wearing", "power_while_wearing", "amplitude_while_wearing", "resonance_while_wearing")
 # On the coarse mesh as on the fine one; the symmetry of the section keeps the profiles from holding in full.
 HOLDING = ("friction_damps", "power_peaks_at_resonance", "wear_comes_to_rest", "amplitude_falls_at_unworn_resonance",
            "peak_moves_down", "peak_grows")

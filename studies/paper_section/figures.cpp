@@ -113,15 +113,19 @@ Numbers state_cycles(const Results& r) {
   return cycles;
 }
 
-PlotLine curve_line(const Results& r, const WornState& state, std::size_t place) {
-  const bool first = place == 0, last = place + 1 == r.states.size();
-  return {.name = first || last || place == r.states.size() / 2 ? cycles_words(state.cycles) : "",
-          .x = relative_frequency(r),
-          .y = scaled(state.curve.amplitude_m, 1e-3),
-          .role = last    ? Role::after
-                  : first ? Role::bad
-                          : Role::before,
-          .stroke = Stroke::solid};
+/// A line for each state over the frequencies; of those between new and at rest the middle one is named.
+std::vector<PlotLine> state_lines(const Results& r, Numbers Curve::*quantity, double si) {
+  std::vector<PlotLine> lines;
+  for (std::size_t i = 0; i < r.states.size(); ++i) {
+    const bool first = i == 0, last = i + 1 == r.states.size();
+    lines.push_back({.name = first || last || i == r.states.size() / 2 ? cycles_words(r.states[i].cycles) : "",
+                     .x = relative_frequency(r),
+                     .y = scaled(r.states[i].curve.*quantity, si),
+                     .role = last    ? Role::after
+                             : first ? Role::bad
+                                     : Role::before});
+  }
+  return lines;
 }
 
 }  // namespace
@@ -161,14 +165,8 @@ Figure power_figure(const Results& r) {
             .description = "Average over a period; of both flanks of one sector.",
             .x = {.label = "frequency / resonance"},
             .y = {.label = "power", .unit = "W", .from_zero = true}};
-  if (!r.states.empty()) {
-    plot.lines.push_back({.name = "new", .x = relative_frequency(r), .y = r.states.front().curve.power_w});
-    plot.lines.push_back({.name = "at rest",
-                          .x = relative_frequency(r),
-                          .y = r.states.back().curve.power_w,
-                          .role = Role::before,
-                          .stroke = Stroke::dashed});
-  }
+  if (!r.states.empty())
+    plot.lines.push_back({.name = {}, .x = relative_frequency(r), .y = r.states.front().curve.power_w});
   return {"dissipated_power", plot};
 }
 
@@ -240,8 +238,17 @@ Figure wearing_response_figure(const Results& r) {
             .description = "From new to at rest, states by equal shares of the volume worn in the end.",
             .x = {.label = "frequency / unworn resonance"},
             .y = {.label = "amplitude", .unit = "mm", .from_zero = true}};
-  for (std::size_t i = 0; i < r.states.size(); ++i) plot.lines.push_back(curve_line(r, r.states[i], i));
+  plot.lines = state_lines(r, &Curve::amplitude_m, 1e-3);
   return {"responses_while_wearing", plot};
+}
+
+Figure wearing_power_figure(const Results& r) {
+  Plot plot{.title = "Power dissipated as the joint wears",
+            .description = "Of the same states.",
+            .x = {.label = "frequency / unworn resonance"},
+            .y = {.label = "power", .unit = "W", .from_zero = true}};
+  plot.lines = state_lines(r, &Curve::power_w, 1);
+  return {"power_while_wearing", plot};
 }
 
 Figure amplitude_course_figure(const Results& r) {
@@ -251,12 +258,15 @@ Figure amplitude_course_figure(const Results& r) {
                 "last points: new, and at rest.",
             .x = cycle_axis(),
             .y = {.label = "amplitude", .unit = "mm"}};
-  PlotLine held{.name = "at the unworn resonance", .x = state_cycles(r)};
-  PlotLine peak{.name = "at the resonance that moves", .x = held.x, .role = Role::bad, .stroke = Stroke::dashed};
-  held.dots = peak.dots = true;
-  for (const WornState& state : r.states) {
-    held.y.push_back(state.amplitude_m / 1e-3);
-    peak.y.push_back(state.peak_found ? state.peak_m / 1e-3 : std::nan(""));
+  PlotLine held{.name = "at the unworn resonance", .x = r.history.cycles, .y = scaled(r.history.amplitude_m, 1e-3)};
+  PlotLine peak{
+      .name = "at the resonance that moves", .x = state_cycles(r), .role = Role::bad, .stroke = Stroke::dashed};
+  peak.dots = true;
+  for (const WornState& state : r.states) peak.y.push_back(state.peak_found ? state.peak_m / 1e-3 : std::nan(""));
+  if (!r.states.empty() && !held.x.empty()) {
+    held.x.front() = peak.x.front();
+    held.x.push_back(peak.x.back());
+    held.y.push_back(r.states.back().amplitude_m / 1e-3);
   }
   plot.lines = {held, peak};
   return {"amplitude_while_wearing", plot};
@@ -277,9 +287,10 @@ Figure drift_figure(const Results& r) {
 }
 
 std::vector<Figure> figures(const Results& r) {
-  return {nodal_diameter_figure(r), pressure_figure(r),         damping_figure(r),          power_figure(r),
-          first_rate_figure(r),     depth_course_figure(r),     rate_course_figure(r),      volume_figure(r),
-          profile_figure(r),        wearing_response_figure(r), amplitude_course_figure(r), drift_figure(r)};
+  return {nodal_diameter_figure(r), pressure_figure(r),         damping_figure(r),       power_figure(r),
+          first_rate_figure(r),     depth_course_figure(r),     rate_course_figure(r),   volume_figure(r),
+          profile_figure(r),        wearing_response_figure(r), wearing_power_figure(r), amplitude_course_figure(r),
+          drift_figure(r)};
 }
 
 }  // namespace dovetail::paper_section

@@ -24,6 +24,7 @@ struct Figure {
 [[nodiscard]] Figure profile_figure(const Results& results);
 [[nodiscard]] Figure volume_figure(const Results& results);
 [[nodiscard]] Figure wearing_response_figure(const Results& results);
+[[nodiscard]] Figure wearing_power_figure(const Results& results);
 [[nodiscard]] Figure amplitude_course_figure(const Results& results);
 [[nodiscard]] Figure drift_figure(const Results& results);
 

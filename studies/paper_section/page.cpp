@@ -29,6 +29,16 @@ table.findings td:first-child{width:30%}table.findings td:last-child,table.findi
 table.findings thead{display:none}table.findings td{border:0;padding:.1rem 0}table.findings tr{border-bottom:1px solid var(--hair);padding:.4rem 0}}
 )";
 
+constexpr const char* kDifferences =
+    "<section><h2>Where the two differ</h2>\n<ul>\n"
+    "<li>The reference is a model in space; this is a plane section, uniform along the slot.</li>\n"
+    "<li>Its wear history stops at a number of cycles; here the state at rest is also found directly.</li>\n"
+    "<li>Contact nodes carry no mass here, and wear follows from the slip between samples instead of the velocity of "
+    "the "
+    "truncated series: stuck nodes do not wear.</li>\n"
+    "<li>Its axes are normalised and its dimensions are not given, so magnitudes are not compared.</li>\n"
+    "</ul>\n</section>\n";
+
 const char* style_class(Verdict verdict) {
   return verdict == Verdict::holds ? "holds" : verdict == Verdict::partly ? "partly" : "fails";
 }
@@ -193,20 +203,13 @@ std::string page_html(const Results& r) {
     text += "<section><h2>The final shape</h2>\n" + beside(all, {"depths_of_microns", "profiles_asymmetric"}) +
             "<div class=\"grid2\">\n" + report::plot_figure(profile_figure(r).plot) +
             report::joint_figure(r.design, nullptr) + "</div>\n</section>\n";
-    text += "<section><h2>Vibration as the joint wears</h2>\n" +
-            beside(all, {"amplitude_falls_at_unworn_resonance", "peak_moves_down", "peak_grows"}) +
-            figures_of({wearing_response_figure(r), amplitude_course_figure(r), drift_figure(r)}) + "</section>\n";
+    text +=
+        "<section><h2>Vibration as the joint wears</h2>\n" +
+        beside(all, {"amplitude_falls_at_unworn_resonance", "peak_moves_down", "peak_grows"}) +
+        figures_of({wearing_response_figure(r), wearing_power_figure(r), amplitude_course_figure(r), drift_figure(r)}) +
+        "</section>\n";
   }
-  text +=
-      "<section><h2>Where the two differ</h2>\n<ul>\n<li>The reference is a model in space, with a skewed slot and a "
-      "twisted blade; this is a plane section that is uniform along the slot.</li>\n<li>Its wear history stops at a "
-      "number "
-      "of cycles; here the state at rest is also found directly, without the history.</li>\n<li>Contact nodes carry no "
-      "mass "
-      "here, and wear is integrated from the slip of each sample instead of the spectral velocity: stuck nodes do not "
-      "wear.</li>\n<li>Its axes are normalised and its scan does not tell every number, so magnitudes are not "
-      "compared.</li>\n</ul>\n</section>\n";
-  return text + provenance(r) + "</main></body></html>\n";
+  return text + kDifferences + provenance(r) + "</main></body></html>\n";
 }
 
 }  // namespace dovetail::paper_section
