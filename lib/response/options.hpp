@@ -17,7 +17,7 @@ struct SteadyOptions {
   double tangential_penalty = 0;     ///< eps_T of all nodes, N/m; 0: local contact stiffness
   double penalty_scale = 1;          ///< multiplies both, > 0
   bool penalty_cascade = true;       ///< try other ratios when a solve fails
-  int max_rescue_iterations = 1200;  ///< Jacobians spent on neighbouring problems when auto has failed, >= 0
+  int max_rescue_iterations = 5000;  ///< Jacobians spent on neighbouring problems when auto has failed, >= 0
   std::string slip_return = "first_order";  ///< first_order | second_order
   int max_periods = 2000;                   ///< marched before a node counts as not periodic, >= 2
   double periodic_tolerance = 1e-10;        ///< of the slip state, relative to the largest limit force, > 0

@@ -62,8 +62,10 @@ class Search {
       return;
     }
     if (options_.solver != "auto" || attempt(1, {}, Method::powell)) return;
-    if (options_.max_rescue_iterations > 0)
-      keep(rescue(model_, system_, condition_, options_, options_.max_rescue_iterations), 1);
+    if (options_.max_rescue_iterations > 0) {
+      Rescued rescued = rescue(model_, system_, condition_, options_, options_.max_rescue_iterations);
+      keep(std::move(rescued.attempt), rescued.penalty_ratio);
+    }
   }
 
   [[nodiscard]] SteadyState result() const {

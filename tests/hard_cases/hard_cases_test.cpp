@@ -25,7 +25,7 @@ TEST_P(HardCases, AreSolvedOrClassified) {
   if (outcomes.front().has_answer) {
     const auto converged =
         std::count_if(outcomes.begin(), outcomes.end(), [](const Outcome& o) { return o.converged(); });
-    EXPECT_GE(converged, family.count * 9 / 10);
+    EXPECT_GE(converged, outcomes.front().contact_mass ? family.count * 9 / 10 : family.count * 98 / 100);
   }
   std::cout << table(outcomes) << failures(outcomes);
 }
