@@ -35,6 +35,7 @@ FollowedAsymptote followed_asymptote(const std::shared_ptr<const response::Conde
     if (pass == kPasses) return fail(Status::iteration_limit);
     if (control.stopped()) return fail(Status::interrupted);
     response::ContactCondition condition = start;
+    // Whole nodes: edges that bear in part would wear anew at every frequency.
     condition.wear_depth = last.depth;
     const response::Resonance worn =
         response::resonance(model, omega, condition, steady, near, last.steady.displacement);

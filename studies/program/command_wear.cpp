@@ -93,8 +93,8 @@ wear::WornEnd worn_end(const WearAnswer& answer) {
                 : answer.status == "no_asymptote" ? wear::Verdict::no_asymptote
                                                   : wear::Verdict::not_converged;
   if (answer.asymptote && answer.worn_out()) {
-    end.volume = answer.asymptote->interpolated_volume;
-    end.depth = answer.asymptote->interpolated_depth;
+    end.volume = answer.comparable_volume();
+    end.depth = answer.comparable_depth();
   }
   return end;
 }

@@ -38,6 +38,12 @@ struct WearAnswer {
   Eigen::VectorXd depth;  ///< [Nc] m, of the last state
   int solves = 0;
 
+  /// With the edges of worn zones between nodes where they are placed: what may be compared.
+  [[nodiscard]] double comparable_volume() const { return asymptote ? asymptote->interpolated_volume : volume; }
+  [[nodiscard]] const Eigen::VectorXd& comparable_depth() const {
+    return asymptote ? asymptote->interpolated_depth : depth;
+  }
+
   [[nodiscard]] bool worn_out() const { return status == "asymptote"; }
   [[nodiscard]] double largest_depth() const { return depth.size() > 0 ? depth.maxCoeff() : 0; }
 };
@@ -50,7 +56,7 @@ struct WearAnswer {
 struct WearBand {
   std::vector<double> frequencies_hz;
   std::vector<std::string> status;
-  std::vector<double> volume, largest_depth;  ///< NaN where not known
+  std::vector<double> volume, largest_depth;  ///< with edges between nodes where placed; NaN where not known
   std::size_t worst = 0;                      ///< index of the largest volume; one that keeps wearing is worse than any
   Eigen::VectorXd envelope;                   ///< [Nc] m, largest depth of each node over the band
   WearAnswer answer;                          ///< of the worst frequency

@@ -53,10 +53,19 @@ expect 0 wear m.h5 --method asymptote --json -; is_json; same out study.json
 expect 0 wear m.h5 --method history --frequency 480 --cycles 1000 --json -; is_json
 grep -q '"frequency_hz": 480.0' out || fail "the frequency asked for is not the one answered"
 expect 3 wear m.h5 --method history --steps 1 --json -; is_json
+expect 0 wear m.h5 --method asymptote --spread --json -; is_json
+for key in wear_coefficient friction load combined members profile_change; do
+  grep -q "\"$key\"" out || fail "the spread has no $key"
+done
+expect 0 wear m.h5 --method asymptote --follow band --band-from 470 --band-to 490 --band-points 3 --json -; is_json
+for key in worst_frequency_hz envelope_depth_m; do grep -q "\"$key\"" out || fail "the band has no $key"; done
+expect 0 wear s.toml --method asymptote --follow resonance --json -; is_json; cp out study.json
+expect 0 wear s.toml --method asymptote --set loading.follow=resonance --json -; is_json; same out study.json
+grep -q '"follow": "resonance"' out || fail "the answer does not say what drives the wear"
 expect 2 reduce s.toml -o missing/m.h5
 
 expect 0 run s.toml -o o
-for file in journal.jsonl best.toml results.h5 report.html best.dxf best.svg best.vtu study.toml; do
+for file in journal.jsonl verification.jsonl best.toml results.h5 report.html best.dxf best.svg best.vtu study.toml; do
   [ -s "o/$file" ] || fail "no o/$file"
 done
 expect 0 check o/best.toml

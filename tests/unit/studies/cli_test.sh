@@ -44,6 +44,8 @@ expect 2 response x.toml --from 1 --to 2 --points many; lines 1
 expect 2 response x.toml --from nan --to 2 --points 2; lines 1; says "--from = nan: must be > 0"
 expect 2 response x.toml --from 1 --to -2 --points 0; lines 2; says "--to = -2: must be > 0"; says "--points = 0"
 expect 2 response x.toml --from 1e308 --to 2 --points 2; lines 1; says "--from = 1e+308: must be > 0 and <= 1e+09"
+expect 2 wear x.toml --method asymptote --follow band; lines 2; says "--band-from: is needed with --follow band"
+expect 2 wear x.toml --method asymptote --band-from 1; lines 1; says "only has a meaning with --follow band"
 expect 2 wear x.toml --method asymptote --frequency 0; lines 1; says "--frequency = 0: must be > 0"
 
 # A new study is valid and not overwritten

@@ -86,7 +86,7 @@ TEST(Report, ShowsTheHistoryBesideTheDirectMethod) {
   const std::string page = report_html(record);
   EXPECT_THAT(page, HasSubstr("Verification by the full history"));
   EXPECT_THAT(page, HasSubstr("11 harmonics, 256 samples"));
-  EXPECT_THAT(page, HasSubstr("+0.5\u00a0%"));  // 1.206 over 1.2
+  EXPECT_THAT(page, HasSubstr("+0.50\u00a0%"));  // 1.206 over 1.2
   EXPECT_THAT(page, HasSubstr("Worn profile of evaluation 2"));
   record.verifications.front().status = "history: stalled";
   EXPECT_THAT(report_html(record), HasSubstr("history: stalled"));
