@@ -155,7 +155,7 @@ class Study {
     Numbers omega;
     for (int i = 0; i < options_.curve_points; ++i) {
       const double t = 2.0 * i / (options_.curve_points - 1) - 1;
-      omega.push_back(candidate_.unworn->omega * (1 + options_.range * (0.1 * t + 0.9 * t * t * t)));
+      omega.push_back(candidate_.unworn->omega * (1 + options_.range * (0.3 * t + 0.7 * t * t * t)));
     }
     for (const double w : omega) {
       results_.frequency_hz.push_back(w / kTurn);

@@ -7,7 +7,7 @@
 namespace dovetail::paper_section {
 
 struct ComputeOptions {
-  int curve_points = 61;   ///< >= 3, of each response curve
+  int curve_points = 81;   ///< >= 3, of each response curve
   int history_steps = 80;  ///< >= 1, largest increment of depth = asymptotic depth / history_steps
   int curve_states = 6;    ///< >= 2, states with response curves, first and last included
   int nodal_diameter_modes = 5;

@@ -137,12 +137,30 @@ Finding asymmetry(const Results& r) {
   return f;
 }
 
+/// Of the unworn peak, Hz; between the points of the curve.
+double half_power_width(const Results& r) {
+  const Numbers& amplitude = r.states.front().curve.amplitude_m;
+  double lower = r.resonance_hz, upper = r.resonance_hz;
+  for (std::size_t i = 0; i < amplitude.size(); ++i) {
+    if (!(amplitude[i] > r.resonance_m / std::sqrt(2.0))) continue;
+    lower = std::min(lower, r.frequency_hz[i]);
+    upper = std::max(upper, r.frequency_hz[i]);
+  }
+  return upper - lower;
+}
+
 Finding held(const Results& r) {
   const WornState& last = r.states.back();
+  const double most = largest_of(r.history.amplitude_m).value;
+  const std::string first = most > 1.002 * r.resonance_m ? fmt::format(", after it first rose by {}\u00a0%",
+                                                                       significant(100 * (most / r.resonance_m - 1), 2))
+                                                         : "";
   return {.key = "amplitude_falls_at_unworn_resonance",
           .paper = "Excited at the unworn resonance, the amplitude falls as the joint wears (fig. 13).",
-          .here = fmt::format("It ends {} than it began.", change(r.resonance_m, last.amplitude_m, "higher", "lower")),
-          .why = "How far follows from the drift of the peak against its width.",
+          .here = fmt::format("It ends {} than it began{}.", change(r.resonance_m, last.amplitude_m, "higher", "lower"),
+                              first),
+          .why = fmt::format("The peak moves by {} of its width at half power.",
+                             significant(std::abs(last.peak_hz - r.resonance_hz) / half_power_width(r), 2)),
           .verdict = when(last.amplitude_m < r.resonance_m)};
 }
 
