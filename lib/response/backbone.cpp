@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "response/peak.hpp"
+#include "response/peak_sweep.hpp"
 
 namespace dovetail::response {
 namespace {
@@ -21,11 +22,30 @@ class Tracker {
       : family_(family), options_(options), backbone_(backbone) {}
 
   BackbonePoint first(double parameter, double omega_start) {
-    return searched(parameter, omega_start, {}, backbone_.resonance);
+    omega_start_ = omega_start;
+    BackbonePoint found = searched(parameter, omega_start, {}, backbone_.resonance);
+    check(found, omega_start);
+    return found;
   }
 
-  // Newton from the predictor, over intermediate parameters when the way is too far, then resonance() as a last resort.
+  // Followed from the point before, then held against the others.
   BackbonePoint next(double parameter) {
+    const double before = supports_.back().point.omega;
+    BackbonePoint found = followed(parameter);
+    check(found, before);
+    if (found.status == Status::converged || !backbone_.search || backbone_.check_range == 0) return found;
+    BackbonePoint anew = searched(parameter, omega_start_, {}, backbone_.resonance);
+    anew.jacobians += found.jacobians;
+    anew.checking = found.checking;
+    anew.jumped = anew.status == Status::converged;
+    return anew;
+  }
+
+  [[nodiscard]] bool started() const { return !supports_.empty(); }
+
+ private:
+  // Newton from the predictor, over intermediate parameters when the way is too far, then resonance() as a last resort.
+  BackbonePoint followed(double parameter) {
     BackbonePoint result{.parameter = parameter, .state = {}};
     double target = parameter;
     int halvings = 0, jacobians = 0;
@@ -60,9 +80,35 @@ class Tracker {
     return found;
   }
 
-  [[nodiscard]] bool started() const { return !supports_.empty(); }
+  // Takes the highest peak of the branch around `point` instead of it, when that is higher or the point failed.
+  void check(BackbonePoint& point, double near, int rounds = 3) {
+    if (backbone_.check_range == 0) return;
+    const bool known = point.status == Status::converged;
+    const double middle = known ? point.omega : near;
+    const double low = middle * (1 - backbone_.check_range), high = middle * (1 + backbone_.check_range);
+    // Downwards, upwards when the start is not found there, and far out when there is no peak to be held against.
+    std::vector<std::pair<double, double>> ways{{high, low}, {low, high}};
+    if (!known && backbone_.search) ways.emplace_back(kFar * high, low / kFar);
+    const BackboneCase problem = family_(point.parameter);
+    Resonance swept;
+    for (const auto& [from, to] : ways) {
+      swept = peak_sweep(problem.model, from, to, problem.condition, options_, backbone_.resonance);
+      point.checking += swept.jacobians;
+      if (swept.status == Status::converged) break;
+    }
+    if (swept.status != Status::converged) return;
+    point.checked = true;
+    // Maxima of the sampled equations lie about one peak, that much different in height.
+    const double noise = 1.0 / options_.samples;
+    if (known && swept.amplitude <= point.amplitude * (1 + noise)) return;
+    point.status = Status::converged;
+    point.searched = point.jumped = true;
+    adopt(std::move(swept), point);
+    // Elsewhere the range contains others.
+    constexpr double kMoved = 0.05;
+    if (rounds > 1 && std::abs(point.omega / middle - 1) > kMoved) check(point, point.omega, rounds - 1);
+  }
 
- private:
   BackbonePoint searched(double parameter, double omega_start, const Eigen::MatrixXd& guess,
                          const ResonanceOptions& search) {
     const BackboneCase problem = family_(parameter);
@@ -71,19 +117,29 @@ class Tracker {
                         .status = found.status,
                         .omega = found.omega,
                         .amplitude = found.amplitude,
-                        .error = search.frequency_tolerance,
                         .searched = true,
                         .jacobians = found.jacobians,
-                        .state = std::move(found.state)};
-    if (point.status != Status::converged) return point;
-    if (!started()) penalty_ratio_ = point.state.penalty_ratio;
-    keep({.parameter = parameter, .point = {.displacement = point.state.displacement, .omega = point.omega}});
+                        .state = {}};
+    if (point.status == Status::converged) adopt(std::move(found), point);
+    return point;
+  }
+
+  void adopt(Resonance found, BackbonePoint& point) {
+    point.omega = found.omega;
+    point.amplitude = found.amplitude;
+    point.error = backbone_.resonance.frequency_tolerance;
+    point.state = std::move(found.state);
+    // A polynomial through the points of another peak, or at another eps, predicts nothing.
+    if (!started() || point.jumped) {
+      supports_.clear();
+      penalty_ratio_ = point.state.penalty_ratio;
+    }
+    keep({.parameter = point.parameter, .point = {.displacement = point.state.displacement, .omega = point.omega}});
     last_state_ = point.state;
     last_state_.linearisation.reset();
     curvature_ = kLinear;
-    width_ = peak_width(point.state, search.output);
+    width_ = peak_width(point.state, backbone_.resonance.output);
     if (!options_.linearise) point.state.linearisation.reset();
-    return point;
   }
 
   BackbonePoint newton(double parameter) {
@@ -150,6 +206,7 @@ class Tracker {
     if (supports_.size() > kSupports) supports_.erase(supports_.begin());
   }
 
+  static constexpr double kFar = 2;
   static constexpr double kLinear = -0.5;  // the curvature of a linear peak in its metric
 
   const BackboneFamily& family_;
@@ -157,34 +214,10 @@ class Tracker {
   const BackboneOptions& backbone_;
   std::vector<Support> supports_;
   SteadyState last_state_;
-  double penalty_ratio_ = 1, curvature_ = kLinear, width_ = 0;
+  double penalty_ratio_ = 1, curvature_ = kLinear, width_ = 0, omega_start_ = 0;
 };
 
 }  // namespace
-
-BackboneFamily excitation_levels(const std::shared_ptr<const CondensedModel>& model,
-                                 const ContactCondition& condition) {
-  return [model, condition](double level) {
-    auto scaled = std::make_shared<CondensedModel>(*model);
-    scaled->scale_excitation(level);
-    return BackboneCase{.model = std::move(scaled), .condition = condition};
-  };
-}
-
-BackboneFamily wear_levels(const std::shared_ptr<const CondensedModel>& model, const Eigen::VectorXd& growth,
-                           const ContactCondition& condition) {
-  if (growth.size() != model->nodes())
-    throw InputError({.file = {},
-                      .key = "growth",
-                      .value = "size " + std::to_string(growth.size()),
-                      .allowed = "must have size " + std::to_string(model->nodes())});
-  return [model, growth, condition](double level) {
-    BackboneCase worn{.model = model, .condition = condition};
-    if (worn.condition.wear_depth.size() == 0) worn.condition.wear_depth = Eigen::VectorXd::Zero(growth.size());
-    worn.condition.wear_depth += level * growth;
-    return worn;
-  };
-}
 
 Backbone backbone(const BackboneFamily& family, std::span<const double> parameters, double omega_start,
                   const SteadyOptions& options, const BackboneOptions& backbone_options,
@@ -200,6 +233,11 @@ Backbone backbone(const BackboneFamily& family, std::span<const double> paramete
                      .key = "halvings",
                      .value = std::to_string(backbone_options.halvings),
                      .allowed = kNonNegative.phrase()});
+  if (!(backbone_options.check_range >= 0 && backbone_options.check_range < 1))
+    found.push_back({.file = {},
+                     .key = "check_range",
+                     .value = shortest(backbone_options.check_range),
+                     .allowed = "must be >= 0 and < 1"});
   if (!found.empty()) throw InputError(std::move(found));
   validate(options);
   Tracker tracker(family, options, backbone_options);
@@ -212,7 +250,7 @@ Backbone backbone(const BackboneFamily& family, std::span<const double> paramete
     }
     result.points.push_back(tracker.started() ? tracker.next(parameter) : tracker.first(parameter, omega_start));
     const BackbonePoint& point = result.points.back();
-    result.jacobians += point.jacobians;
+    result.jacobians += point.jacobians + point.checking;
     if (point.status != Status::converged) result.status = point.status;
     stopped = progress && !progress(point);
   }

@@ -17,6 +17,7 @@ struct ContinuationOptions {
   double largest_turn = 0.5;             ///< between the tangents of neighbouring points, rad, > 0
   double initial_step = 0.02;            ///< first step, arc length, > 0
   double smallest_step = 1e-8;           ///< arc length at which the branch is given up, > 0
+  double smallest_turn = 1e-3;           ///< reversal of the frequency that counts, fraction of the interval, [0, 1]
   int max_corrections = 12;              ///< Jacobians per point tried, >= 2
   int max_points = 2000;                 ///< >= 2
   bool locate_turns = true;              ///< put a point on every turning point of the frequency
@@ -28,7 +29,7 @@ struct ContinuationPoint {
   double arc_length = 0;  ///< along the branch from its start
   double direction = 1;   ///< (d omega / ds) > 0, in units in which the tangent has length 1; changes sign at a turn
   int turns = 0;          ///< turning points of the frequency passed so far; odd: the branch runs backwards
-  bool is_turn = false;   ///< this point was placed on a turning point
+  bool is_turn = false;   ///< the extreme of the frequency at a turn that counts
 };
 
 struct Branch {
@@ -47,11 +48,17 @@ struct Branch {
 /// either order). The last point stands exactly at the end the branch left by: omega_to, or omega_from when it came
 /// back.
 ///
-/// Predictor: the tangent t, J dU + df/dw dw = 0, oriented along the way come. Corrector: Newton on (U, omega) with
-/// f = 0 and t.(x - x_predicted) = 0 by one factorisation of J, two right-hand sides and refinement against the
-/// bordered system, which is regular at a turning point where J is singular. The step follows the number of
-/// corrections, the turn of the tangent and the change of the outputs; a step that fails, e.g. over a kink where
-/// contact opens, is halved.
+/// Predictor: the tangent t, J dU + df/dw dw = 0, oriented along the way come and by the sign of det J. Corrector:
+/// Newton on (U, omega) with f = 0 and t.(x - x_predicted) = 0 by one factorisation of J, two right-hand sides and
+/// refinement against the bordered system, which is regular at a turning point where J is singular. The step follows
+/// the number of corrections, the turn of the tangent and the change of the outputs; a step that fails is shortened.
+///
+/// Sampled in time, f is piecewise smooth: where a sample changes its contact state the branch has a kink, and near a
+/// fold the pieces zigzag, turning back by amounts that fall with the number of samples. At a kink the plane across
+/// the tangent may miss the piece behind it; then the tangent of that piece is tried, found beyond the kink, and the
+/// chord of the last points. Where short steps do not get through, a longer one along the chord steps over the folds
+/// there. A turn counts once the frequency has come back by `smallest_turn`, and by 2 / samples of the interval if
+/// that is more: `turns` and `is_turn` of the points since the extreme are set then, after `progress` saw them.
 ///
 /// eps stays that of the start along the branch: the answer at a finite number of harmonics depends on it, so changing
 /// it would make the branch jump. The start may use the cascade of steady_state, the other points do not.

@@ -1,6 +1,7 @@
 #include "response/peak_sweep.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "response/peak.hpp"
 
@@ -27,13 +28,38 @@ double width_at(const Branch& branch, std::size_t i, Eigen::Index output) {
   return omega * std::clamp(change > 0 ? range * size / (change * omega) : kWidest, kSharpest, kWidest);
 }
 
+constexpr double kHeight = 0.99;  // of the summit: a search may have run off to a lower maximum
+
+// The peak beside a summit by Newton on (U, omega); counts its work in `work`.
+std::optional<SteadyState> climbed(const BranchEquations& equations, const SteadyState& summit, double width,
+                                   const ResonanceOptions& options, Resonance& work) {
+  const ArcMetric metric = peak_metric(summit, width);
+  const BranchVector start{.displacement = summit.displacement, .omega = summit.omega};
+  const Peak peak = find_peak(equations, start, metric,
+                              {.output = options.output, .frequency_tolerance = options.frequency_tolerance});
+  ++work.solves;
+  work.jacobians += peak.iterations;
+  if (peak.status != Status::converged || peak.amplitude < kHeight * summit.amplitudes(options.output)) return {};
+  const BranchEquations::Correction found{.status = Status::converged,
+                                          .point = peak.point,
+                                          .residual = peak.residual,
+                                          .iterations = peak.iterations,
+                                          .evaluations = peak.evaluations};
+  const BranchVector forward{
+      .displacement = Eigen::MatrixXd::Zero(start.displacement.rows(), start.displacement.cols()),
+      .omega = 1 / metric.omega_weight};
+  SteadyState state = equations.describe(found, forward, metric).state;
+  if (state.status != Status::converged || !state.linearisation) return {};
+  return state;
+}
+
 }  // namespace
 
 Resonance peak_sweep(const std::shared_ptr<const CondensedModel>& model, double omega_from, double omega_to,
                      const ContactCondition& condition, const SteadyOptions& options,
                      const ResonanceOptions& resonance_options) {
   // Coarse steps: what counts is that no peak is stepped over, and the change of the outputs sees to that.
-  const ContinuationOptions coarse{.largest_frequency_step = 0.04,
+  const ContinuationOptions coarse{.largest_frequency_step = 0.02,
                                    .largest_change = 0.5,
                                    .largest_turn = 0.8,
                                    .max_points = 1000,
@@ -49,37 +75,32 @@ Resonance peak_sweep(const std::shared_ptr<const CondensedModel>& model, double 
   SteadyOptions with = options;
   with.linearise = true;
   const BranchEquations equations(model, condition, with, branch.penalty_ratio);
+  // A summit of coarse steps may be lower than the peak beside it is high: the first few are all climbed.
   constexpr std::size_t kTried = 3;
+  constexpr double kHopeless = 0.8;
   for (std::size_t c = 0; c < std::min(candidates.size(), kTried); ++c) {
     const SteadyState& summit = branch.points[candidates[c]].state;
-    const ArcMetric metric = peak_metric(summit, width_at(branch, candidates[c], resonance_options.output));
-    const BranchVector start{.displacement = summit.displacement, .omega = summit.omega};
-    const Peak peak =
-        find_peak(equations, start, metric,
-                  {.output = resonance_options.output, .frequency_tolerance = resonance_options.frequency_tolerance});
-    ++result.solves;
-    result.jacobians += peak.iterations;
-    // Newton may have run off to a lower maximum.
-    constexpr double kHeight = 0.99;
-    if (peak.status != Status::converged || peak.amplitude < kHeight * summit.amplitudes(resonance_options.output))
-      continue;
-    const BranchEquations::Correction found{.status = Status::converged,
-                                            .point = peak.point,
-                                            .residual = peak.residual,
-                                            .iterations = peak.iterations,
-                                            .evaluations = peak.evaluations};
-    const BranchVector forward{
-        .displacement = Eigen::MatrixXd::Zero(start.displacement.rows(), start.displacement.cols()),
-        .omega = 1 / metric.omega_weight};
-    SteadyState state = equations.describe(found, forward, metric).state;
-    if (state.status != Status::converged || !state.linearisation) continue;
+    if (summit.amplitudes(resonance_options.output) < kHopeless * result.amplitude) break;
+    const double width = width_at(branch, candidates[c], resonance_options.output);
+    std::optional<SteadyState> state = climbed(equations, summit, width, resonance_options, result);
+    if (!state) {
+      ResonanceOptions near = resonance_options;
+      near.sweep_range = 0;
+      Resonance stepped = resonance(model, summit.omega, condition, with, near, summit.displacement);
+      result.solves += stepped.solves;
+      result.jacobians += stepped.jacobians;
+      if (stepped.status == Status::converged &&
+          stepped.amplitude >= kHeight * summit.amplitudes(resonance_options.output))
+        state = std::move(stepped.state);
+    }
+    if (!state) continue;
+    const AmplitudeSlope at = amplitude_slope(*state, resonance_options.output);
+    if (at.amplitude <= result.amplitude) continue;
     result.status = Status::converged;
-    result.omega = state.omega;
-    const AmplitudeSlope at = amplitude_slope(state, resonance_options.output);
+    result.omega = state->omega;
     result.amplitude = at.amplitude;
     result.slope = at.slope;
-    result.state = std::move(state);
-    return result;
+    result.state = std::move(*state);
   }
   return result;
 }

@@ -185,8 +185,10 @@ int run_response(const ResponseOptions& options, const Streams& streams) {
   int status = kDone;
   if (const std::string failed = failures(curve); !failed.empty()) status = complain(failed);
   if (curve.branch && curve.branch->status != Status::converged && status == kDone)
-    status = complain(fmt::format("the response was followed to {:.9g} Hz and not to its end: {}",
-                                  curve.frequency_hz.back(), to_string(curve.branch->status)));
+    status =
+        complain(fmt::format("the response was followed to {:.9g} Hz and not to its end: {}; more --samples make the "
+                             "branch smoother there",
+                             curve.frequency_hz.back(), to_string(curve.branch->status)));
   if (const std::string failed = analysis_failures(curve.analyses); !failed.empty()) status = complain(failed);
   if (automatic && *automatic != Status::converged && status == kDone)
     status = complain(truncation_complaint(*automatic, loaded.steady, options.solver));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "response/continuation.hpp"
 #include "tests/verification/response/gap_oscillator.hpp"
 
 namespace dovetail::verification {
@@ -130,6 +131,45 @@ TEST(Backbone, OfARodThatWearsIsMadeOfMaxima) {
   const BackboneFamily family = wear_levels(condensed(rod(5)), Eigen::VectorXd::LinSpaced(5, 0.5, 0.1));
   const Backbone found = backbone(family, levels(0, 1, 11), 3.0, kSteady, kTight);
   expect_maxima(found, family, kSteady);
+}
+
+// With more excitation all nodes of the rod slip and its peak goes from 0.42 Hz to 0.24 Hz, over several maxima of like
+// height on the way. Whichever way the levels are gone through, each point is the largest of a fine sweep.
+TEST(Backbone, IsTheLargestPeakWhicheverWayItIsFollowed) {
+  const auto model = condensed(rod(10));
+  const BackboneFamily family = excitation_levels(model);
+  const SteadyOptions steady{};
+  // Maxima of the sampled equations beside each other differ by 1 / samples, those of the sweep are points of a grid.
+  const double noise = 2.0 / steady.samples;
+  for (const auto& way : {levels(1, 2, 3), levels(2, 1, 3)}) {
+    const Backbone found = backbone(family, way, 2.8, steady);
+    ASSERT_EQ(found.status, Status::converged);
+    for (const BackbonePoint& point : found.points) {
+      const BackboneCase problem = family(point.parameter);
+      double highest = 0;
+      const Branch sweep = continuation(problem.model, 0.8, 4.2, {}, steady, {.largest_frequency_step = 0.005});
+      ASSERT_EQ(sweep.status, Status::converged);
+      for (const ContinuationPoint& at : sweep.points) highest = std::max(highest, at.state.amplitudes(0));
+      EXPECT_TRUE(point.checked);
+      EXPECT_NEAR(point.amplitude / highest, 1, noise) << point.parameter << " from " << way.front();
+    }
+  }
+}
+
+TEST(Backbone, SaysWhereItLeftThePeakItFollowed) {
+  // Started at 0.41 Hz, where there is a side maximum at level 2.
+  const BackboneFamily family = excitation_levels(condensed(rod(10)));
+  const std::vector<double> level{2};
+  BackboneOptions follow;
+  const Backbone largest = backbone(family, level, 2.6, {}, follow);
+  follow.check_range = 0;
+  const Backbone side = backbone(family, level, 2.6, {}, follow);
+  ASSERT_EQ(largest.status, Status::converged);
+  ASSERT_EQ(side.status, Status::converged);
+  EXPECT_TRUE(largest.points.front().jumped);
+  EXPECT_FALSE(side.points.front().jumped);
+  EXPECT_FALSE(side.points.front().checked);
+  EXPECT_LT(side.points.front().amplitude, 0.7 * largest.points.front().amplitude);
 }
 
 TEST(Backbone, StopsWhenAsked) {

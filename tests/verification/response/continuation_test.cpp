@@ -165,6 +165,65 @@ TEST(Continuation, ResolvesASharpPeakBetweenItsPoints) {
   EXPECT_GT(highest, 0.8 * 1e-3 / (2 * 1e-4));
 }
 
+// m = k = 1 between two stops at a clearance of 1, each of stiffness kn: dofs x, then u_N and u_T of either stop.
+reduction::ReducedModel two_stops(double kn, double damping) {
+  reduction::ReducedModel model = empty_model(5, 2, 1);
+  model.mass(0, 0) = model.stiffness(0, 0) = 1;
+  model.damping(0, 0) = damping;
+  for (const int stop : {0, 1}) {
+    const int normal = 1 + 2 * stop;
+    const double towards = stop == 0 ? -kn : kn;
+    model.stiffness(0, 0) += kn;
+    model.stiffness(normal, normal) = kn;
+    model.stiffness(normal + 1, normal + 1) = 1;
+    model.stiffness(0, normal) = model.stiffness(normal, 0) = towards;
+    model.contact.normal(stop) = normal;
+    model.contact.tangential(stop, 0) = normal + 1;
+  }
+  model.contact.gap.setOnes();
+  model.cosine_force(0, 0) = 0.3;
+  model.output_vectors = Eigen::MatrixXd::Zero(1, 5);
+  model.output_vectors(0, 0) = 1;
+  model.output_names = {"x"};
+  return model;
+}
+
+// At 128 samples the branch near the fold is a zigzag of pieces, in each of which the same samples touch: turns of up
+// to 1 % of the interval, which fall with the number of samples. They are passed and not counted.
+TEST(Continuation, PassesTheZigzagOfFewSamplesAtStiffStops) {
+  struct Case {
+    double kn, damping;
+    int turns;  // 1: the branch that comes down leaves at the top again, 0: the upper branch reaches it
+  };
+  for (const Case& test : {Case{4, 0.04, 2}, Case{4, 0.01, 2}, Case{20, 0.04, 2}, Case{20, 0.01, 0}})
+    for (const bool up : {true, false}) {
+      const auto model = condensed(two_stops(test.kn, test.damping));
+      const Branch branch = continuation(model, up ? 0.5 : 4, up ? 4 : 0.5, {}, {.harmonics = 3, .samples = 128});
+      const bool back = test.turns == 0 && !up;
+      SCOPED_TRACE(testing::Message() << test.kn << " " << test.damping << " " << up);
+      ASSERT_EQ(branch.status, Status::converged);
+      EXPECT_EQ(branch.turns(), back ? 1 : test.turns);
+      EXPECT_EQ(branch.points.back().state.omega, up || back ? 4 : 0.5);
+      EXPECT_LT(branch.points.size(), 1000U);
+      int marked = 0;
+      for (const ContinuationPoint& point : branch.points) marked += point.is_turn ? 1 : 0;
+      EXPECT_EQ(marked, branch.turns());
+    }
+}
+
+TEST(Continuation, FindsTheSamePeakUpwardsAndDownwardsThroughAZigzag) {
+  // The peak is a piece wide: 1 / samples of its height is what its sampling leaves open.
+  const auto model = condensed(two_stops(4, 0.04));
+  std::array<double, 2> highest{0, 0};
+  for (const bool up : {true, false}) {
+    const Branch branch = continuation(model, up ? 0.5 : 4, up ? 4 : 0.5, {}, {.harmonics = 5, .samples = 128});
+    ASSERT_EQ(branch.status, Status::converged);
+    for (const ContinuationPoint& point : branch.points)
+      highest[up ? 1 : 0] = std::max(highest[up ? 1 : 0], point.state.amplitudes(0));
+  }
+  EXPECT_NEAR(highest[0] / highest[1], 1, 1.0 / 128);
+}
+
 TEST(FrequencyResponse, ReachesAFrequencyOverSmallerSteps) {
   // A step from far below onto the upper branch near its end: from the predictor it does not get there.
   const auto model = condensed(gap_oscillator(1, 0.02, 0.1));
