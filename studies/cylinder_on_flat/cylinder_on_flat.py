@@ -190,8 +190,8 @@ def by_archard(settings, moving):
     """Depths (cylinder, flat) after each number of cycles, by implicit steps of `jump` cycles.
 
     Not moving: both bodies are always under the same pressure, as with matched nodes. Moving: the cylinder stands at
-    offsets s one spacing apart from -stroke to stroke, and every offset has its own pressure on shifted surfaces. The stroke is a whole number of
-    spacings."""
+    offsets s one spacing apart from -stroke to stroke, and every offset has its own pressure on shifted
+    surfaces. The stroke is a whole number of spacings."""
     x = settings.x
     influence = flexibility(x)
     step = settings.spacing
