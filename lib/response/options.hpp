@@ -18,9 +18,9 @@ struct SteadyOptions {
   double penalty_scale = 1;          ///< multiplies both, > 0
   bool penalty_cascade = true;       ///< try other ratios when a solve fails
   int max_rescue_iterations = 5000;  ///< Jacobians spent on neighbouring problems when auto has failed, >= 0
-  std::string slip_return = "first_order";  ///< first_order | second_order
-  int max_periods = 2000;                   ///< marched before a node counts as not periodic, >= 2
-  double periodic_tolerance = 1e-10;        ///< of the slip state, relative to the largest limit force, > 0
+  std::string slip_return = "second_order";  ///< first_order | second_order
+  int max_periods = 2000;                    ///< marched before a node counts as not periodic, >= 2
+  double periodic_tolerance = 1e-10;         ///< of the slip state, relative to the largest limit force, > 0
   bool linearise = true;  ///< keep the factorised Jacobian of the solution, for predictors and derivatives
 };
 
