@@ -78,17 +78,16 @@ std::string dynamics(const Scene& scene, CandidateResult& result) {
   fillet_responses(scene, result);
   evaluation.timings_s["stress"] = watch.lap();
 
-  // Where release settles it decides: smooth in the design, and cheap. Finished runs ask the history.
-  const wear::AsymptoteOptions direct{.arbitration = "unsettled"};
   double wear_omega = result.unworn->omega;
   if (scene.loading.follow == "resonance") {
-    wear::FollowedAsymptote found =
-        wear::followed_asymptote(model.condensed, wear_omega, {}, steady, direct, {}, &result.unworn->state);
+    wear::FollowedAsymptote found = wear::followed_asymptote(model.condensed, wear_omega, {}, steady,
+                                                             asymptote_options(), {}, &result.unworn->state);
     wear_omega = found.omegas.back();
     result.asymptote = std::move(found.asymptote);
     result.held = std::move(found.held);
   } else {
-    result.asymptote = wear::asymptote(model.condensed, wear_omega, {}, steady, direct, &result.unworn->state);
+    result.asymptote =
+        wear::asymptote(model.condensed, wear_omega, {}, steady, asymptote_options(), &result.unworn->state);
   }
   evaluation.model["wear_frequency_hz"] = hertz(wear_omega);
   evaluation.timings_s["asymptote"] = watch.lap();
@@ -100,6 +99,11 @@ std::string dynamics(const Scene& scene, CandidateResult& result) {
   evaluation.model["wear_certificate"] = asymptote.certificate;
   evaluation.model["wear_history_may_differ"] = asymptote.doubt.empty() ? 0 : 1;
   evaluation.model["nodal_wear_volume_m3"] = asymptote.worn_volume;
+  // Edges between nodes never leave exactly the nodal volume, unless they fall back on it.
+  if (asymptote.largest_depth > 0 && asymptote.interpolated_volume == asymptote.worn_volume)
+    evaluation.messages.push_back("Worn volume and depth are those of whole contact nodes (decided by " +
+                                  asymptote.decided_by +
+                                  "): the edges of the worn zones are not placed between nodes here.");
   responses["initial_wear_rate_m3_per_cycle"] =
       wear::worn_volume(model.reduction.model.contact, result.held ? result.held->unworn_rate : asymptote.unworn_rate);
   responses["asymptotic_wear_volume_m3"] = asymptote.interpolated_volume;
@@ -129,6 +133,12 @@ response::SteadyOptions steady_options(const SolverSettings& settings) {
       .solver = settings.solver,
       .normal_penalty = settings.pseudo_penalty_normal > 0 ? settings.pseudo_penalty_normal : settings.pseudo_penalty,
       .tangential_penalty = settings.pseudo_penalty};
+}
+
+wear::AsymptoteOptions asymptote_options() {
+  wear::AsymptoteOptions options;
+  options.arbitration = "unsettled";
+  return options;
 }
 
 CandidateResult SceneEvaluator::evaluate(const Scene& scene) const {

@@ -48,6 +48,10 @@ class SceneEvaluator {
 /// Options of every steady state of a scene.
 [[nodiscard]] response::SteadyOptions steady_options(const SolverSettings& settings);
 
+/// Of every worn state of a design: the direct answer stands where release came to a certified end, so that it is
+/// smooth in the design; whether a history ends elsewhere is seen where the best designs are verified.
+[[nodiscard]] wear::AsymptoteOptions asymptote_options();
+
 /// The evaluator as a function of the design variables: `base` with the variables set.
 [[nodiscard]] Evaluator over_design_space(const SceneEvaluator& evaluator, const Scene& base, const DesignSpace& space);
 

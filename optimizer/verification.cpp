@@ -29,11 +29,11 @@ std::string compare(const Scene& scene, const CandidateResult& result, const Ver
   wear::Asymptote direct;
   if (scene.loading.follow == "resonance") {
     wear::FollowedAsymptote found =
-        wear::followed_asymptote(model, unworn.omega, {}, finer, {}, {}, &unworn.state, control);
+        wear::followed_asymptote(model, unworn.omega, {}, finer, asymptote_options(), {}, &unworn.state, control);
     direct = std::move(found.asymptote);
     direct.solves = found.solves;
   } else {
-    direct = wear::asymptote(model, unworn.omega, {}, finer, {}, &unworn.state, control);
+    direct = wear::asymptote(model, unworn.omega, {}, finer, asymptote_options(), &unworn.state, control);
   }
   verification.direct_solves = direct.solves;
   if (direct.verdict != wear::Verdict::asymptote)

@@ -85,6 +85,7 @@ void add_asymptote(const wear::Asymptote& asymptote, Json& json) {
   json["cycles"] = Json::array({nullptr});
   json["worn_volume_m3"] = Json::array({number(asymptote.worn_volume)});
   json["interpolated_volume_m3"] = number(asymptote.interpolated_volume);
+  json["edge_status"] = std::string(to_string(asymptote.edge_status));
   json["volume_bracket_m3"] = Json::array({number(asymptote.volume_bracket[0]), number(asymptote.volume_bracket[1])});
   json["depth_m"] = numbers(asymptote.depth);
   json["interpolated_depth_m"] = numbers(asymptote.interpolated_depth);

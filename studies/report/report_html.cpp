@@ -100,7 +100,10 @@ std::string verification_section(const RunRecord& record) {
           std::string(first.follow == "resonance" ? "The excitation follows the resonance of the joint as it wears."
                                                   : "The excitation stays at the unworn resonance.") +
           " Both of these wear whole contact nodes; the search places the edges of worn zones between nodes, so its "
-          "volume is the one that converges with the mesh.</p>\n" +
+          "volume is the one that converges with the mesh.</p>\n<p class=\"soft\">Columns: the number of the "
+          "evaluation; worn volume as the search saw it, directly and by the history at the finer settings, and the "
+          "change from direct to history; largest depth of both; largest difference of their profiles by the largest "
+          "depth; steady states either took.</p>\n" +
           verification_table(record);
   std::vector<Plot> plots;
   for (const VerificationRecord& verification : record.verifications) plots.push_back(verification_plot(verification));

@@ -66,11 +66,10 @@ std::string verification_table(const RunRecord& record) {
   const Unit volume = readable_unit("m^3", most), depth = readable_unit("m", deepest);
   std::string text = "<div class=\"scroll\"><table><thead><tr>";
   for (const std::string& column :
-       {std::string("evaluation"), "volume in the search (" + volume.symbol + ")",
-        "direct, finer (" + volume.symbol + ")", "history, finer (" + volume.symbol + ")", std::string("difference"),
-        "depth, direct (" + depth.symbol + ")", "depth, history (" + depth.symbol + ")",
-        std::string("largest difference of profiles"), std::string("steady states, direct"),
-        std::string("steady states, history")})
+       {std::string("#"), "search (" + volume.symbol + ")", "direct (" + volume.symbol + ")",
+        "history (" + volume.symbol + ")", std::string("change"), "depth, direct (" + depth.symbol + ")",
+        "history (" + depth.symbol + ")", std::string("profiles differ by"), std::string("states, direct"),
+        std::string("history")})
     text += "<th scope=\"col\">" + escape(column) + "</th>";
   text += "<th scope=\"col\" class=\"text\">status</th></tr></thead><tbody>\n";
   for (const VerificationRecord& v : record.verifications) {
