@@ -1,5 +1,6 @@
 #include "studies/program/wear_methods.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -13,6 +14,14 @@ namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 
+/// Wear per cycle that counts as none, m: the default of a study, made for wear coefficients of 1e-13 1/Pa, or less
+/// where a smaller wear coefficient makes all rates smaller.
+double rate_threshold(const LoadedModel& loaded, double usual) {
+  constexpr double kCoefficient = 1e-13;
+  const Eigen::VectorXd& coefficient = loaded.condensed->contact().wear_coefficient;
+  return coefficient.size() == 0 ? usual : usual * std::min(1.0, coefficient.maxCoeff() / kCoefficient);
+}
+
 WearAnswer by_history(const WearOptions& options, const LoadedModel& loaded, const WearStart& at,
                       const response::ContactCondition& condition, const wear::Control& control) {
   wear::HistoryOptions settings;
@@ -20,6 +29,7 @@ WearAnswer by_history(const WearOptions& options, const LoadedModel& loaded, con
   settings.cycles = options.cycles.value_or(settings.cycles);
   settings.steps = options.steps.value_or(settings.steps);
   settings.increment = options.increment_m.value_or(settings.increment);
+  settings.rate_threshold = rate_threshold(loaded, settings.rate_threshold);
   WearAnswer answer;
   answer.history = wear::history(loaded.condensed, at.omega, condition, loaded.steady, settings, {}, control);
   wear::History& history = *answer.history;
@@ -38,16 +48,19 @@ WearAnswer by_asymptote(const WearOptions& options, const LoadedModel& loaded, c
                         const response::ContactCondition& condition, const wear::Control& control) {
   const bool unchanged = condition.slip_origin.size() == 0 && condition.wear_depth.size() == 0;
   const response::SteadyState* initial = at.resonance && unchanged ? &at.resonance->state : nullptr;
+  wear::AsymptoteOptions settings;
+  settings.rate_threshold = rate_threshold(loaded, settings.rate_threshold);
   WearAnswer answer;
   answer.frequencies_hz = {at.hz};
   if (options.follow == "resonance") {
     wear::FollowedAsymptote found =
-        wear::followed_asymptote(loaded.condensed, at.omega, condition, loaded.steady, {}, {}, initial, control);
+        wear::followed_asymptote(loaded.condensed, at.omega, condition, loaded.steady, settings, {}, initial, control);
     for (std::size_t i = 1; i < found.omegas.size(); ++i) answer.frequencies_hz.push_back(found.omegas[i] / kTurn);
     answer.solves = found.solves;
     answer.asymptote = std::move(found.asymptote);
   } else {
-    answer.asymptote = wear::asymptote(loaded.condensed, at.omega, condition, loaded.steady, {}, initial, control);
+    answer.asymptote =
+        wear::asymptote(loaded.condensed, at.omega, condition, loaded.steady, settings, initial, control);
     answer.solves = answer.asymptote->solves;
   }
   if (at.resonance) answer.solves += at.resonance->solves;
