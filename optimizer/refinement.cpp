@@ -38,9 +38,9 @@ ResonanceChange resonance_change(const CandidateModel& model, const response::Re
 }
 
 /// Of the asymptote at the unworn resonance; where the resonance was followed its bars stand, in proportion, for those
-/// of the last one.
-void wear_bars(const CandidateResult& result, const response::SteadyOptions& finer,
-               std::map<std::string, double>& bars) {
+/// of the last one. Returns the depths at finer settings, empty when they are not known.
+Eigen::VectorXd wear_bars(const CandidateResult& result, const response::SteadyOptions& finer,
+                          std::map<std::string, double>& bars) {
   const wear::Asymptote& asymptote = result.held ? *result.held : *result.asymptote;
   double& volume = bars["asymptotic_wear_volume_m3"];
   double& depth = bars["asymptotic_wear_depth_max_m"];
@@ -48,7 +48,7 @@ void wear_bars(const CandidateResult& result, const response::SteadyOptions& fin
   if (asymptote.largest_depth == 0) {
     // Every node sticks: no wear at these settings, and no measure of how near to slip finer ones would come.
     if (asymptote.unworn_rate.maxCoeff() > wear::AsymptoteOptions{}.rate_threshold) volume = depth = kUnknown;
-    return;
+    return {};
   }
 
   // The worn zones again, from the unworn state at finer settings: they shift the edges as well as the depths.
@@ -58,11 +58,11 @@ void wear_bars(const CandidateResult& result, const response::SteadyOptions& fin
       release.solve(std::vector<bool>(asymptote.released.size(), false),
                     response::padded(result.unworn->state.displacement, finer.harmonics));
   volume = depth = kUnknown;
-  if (unworn.status != Status::converged) return;
+  if (unworn.status != Status::converged) return {};
   const wear::AsymptoteOptions defaults;
   const double threshold = std::max(defaults.rate_threshold, defaults.relative_threshold * unworn.wear_rate.maxCoeff());
   const wear::PartialRelease partial = wear::release_partially(release, unworn, threshold, defaults.passes);
-  if (!partial.settled) return;
+  if (!partial.settled) return {};
   const reduction::ContactNodes& contact = result.model.reduction.model.contact;
   // Of what one node more or less in the zones would change, edges between nodes leave a few per cent: on dovetails of
   // 12 to 64 edges per flank 1 to 5 per cent.
@@ -73,9 +73,10 @@ void wear_bars(const CandidateResult& result, const response::SteadyOptions& fin
           kEdge * std::abs(asymptote.largest_depth - asymptote.interpolated_largest_depth);
   if (asymptote.interpolated_volume > 0)
     depth += kEdge * bracket / asymptote.interpolated_volume * asymptote.interpolated_largest_depth / 2;
-  if (!result.held) return;
+  if (!result.held) return partial.depth;
   volume *= result.asymptote->interpolated_volume / asymptote.interpolated_volume;
   depth *= result.asymptote->interpolated_largest_depth / asymptote.interpolated_largest_depth;
+  return {};
 }
 
 }  // namespace
@@ -87,8 +88,10 @@ std::map<std::string, double> error_estimates(const Scene& scene, const Candidat
 
   const double reduction_error = std::abs(result.model.reduction.frequency_error(scene.loading.mode - 1));
   const ResonanceChange unworn = resonance_change(result.model, *result.unworn, {}, finer);
-  const ResonanceChange worn =
-      resonance_change(result.model, *result.worn, result.asymptote->interpolated_depth, finer);
+  // The worn joint at finer settings is worn differently, too.
+  Eigen::VectorXd depth = wear_bars(result, finer, bars);
+  if (depth.size() == 0 || result.held) depth = result.asymptote->interpolated_depth;
+  const ResonanceChange worn = resonance_change(result.model, *result.worn, depth, finer);
   const double two_pi = 2 * std::numbers::pi;
   const auto frequency_bar = [&](const response::Resonance& at, const ResonanceChange& change) {
     return (change.omega + (search.frequency_tolerance + reduction_error) * at.omega) / two_pi;
@@ -100,7 +103,6 @@ std::map<std::string, double> error_estimates(const Scene& scene, const Candidat
   bars["peak_amplitude_m"] = unworn.amplitude;
   bars["worn_peak_amplitude_m"] = worn.amplitude;
   bars["dissipated_energy_j"] = unworn.friction_energy;
-  wear_bars(result, finer, bars);
   return bars;
 }
 

@@ -32,11 +32,11 @@ class Sweeps {
   void samples(const std::vector<int>& values, bool both_returns) {
     begin({.key = "samples", .title = "Samples per period", .refines = true});
     const auto set = [](Setting& s, int n) { s.samples = n; };
-    line(both_returns ? "first-order slip return" : "", vary(defaults_, values, "N = {}", set));
+    line(both_returns ? "second-order slip return" : "", vary(defaults_, values, "N = {}", set));
     if (!both_returns) return;
-    Setting second = defaults_;
-    second.slip_return = "second_order";
-    line("second-order slip return", vary(second, values, "N = {}", set));
+    Setting first = defaults_;
+    first.slip_return = "first_order";
+    line("first-order slip return", vary(first, values, "N = {}", set));
   }
 
   void penalty(const std::vector<double>& ratios) {
@@ -113,10 +113,10 @@ Diagram patch_diagram(const DiagramOptions& options) {
   diagram.reference = contact_reference(subject, defaults, quick ? 12 : 30, quick ? 512 : 2048, defaults.modes);
   Sweeps sweeps(subject, defaults, options, diagram);
   if (quick) {
-    sweeps.harmonics({1, 3, 7});
+    sweeps.harmonics({1, 5, 9});
     sweeps.samples({32, 128, 512}, true);
     sweeps.penalty({0.001, 1, 1000});
-    sweeps.solver({1, 3}, {1});
+    sweeps.solver({1, 5}, {1});
   } else {
     sweeps.harmonics({1, 2, 3, 5, 7, 9, 13, 19});
     sweeps.samples({16, 32, 64, 128, 256, 512, 1024}, true);
@@ -142,7 +142,7 @@ Diagram scene_diagram(const DiagramOptions& options) {
                                  "from its mesh to the unworn resonance.",
                                  defaults.flank_elements)};
   if (options.progress) options.progress(diagram.title + ": reference");
-  diagram.reference = contact_reference(subject, defaults, quick ? 6 : 15, quick ? 256 : 1024, quick ? 16 : 80);
+  diagram.reference = contact_reference(subject, defaults, quick ? 11 : 15, quick ? 256 : 1024, quick ? 16 : 80);
   Setting fine = diagram.reference.run.setting, check = fine;
   fine.harmonics = quick ? 4 : 7;
   check.harmonics = quick ? 3 : 9;
@@ -155,10 +155,10 @@ Diagram scene_diagram(const DiagramOptions& options) {
   diagram.mesh_reference = refer(subject, fine, check);
   Sweeps sweeps(subject, defaults, options, diagram);
   if (quick) {
-    sweeps.harmonics({1, 3});
+    sweeps.harmonics({1, 5});
     sweeps.samples({64, 128}, false);
     sweeps.penalty({0.001, 1, 1000});
-    sweeps.solver({1, 3}, {});
+    sweeps.solver({1, 5}, {});
     sweeps.modes({6, 10});
     sweeps.mesh({6, 8, 10});
   } else {

@@ -57,7 +57,7 @@ double value_of(const reduction::ReducedModel& model, const SteadyState& state, 
   return state.amplitudes(0);
 }
 
-const SteadyOptions kOptions{.harmonics = 3, .samples = 128, .tolerance = 1e-11};
+const SteadyOptions kOptions{.harmonics = 3, .samples = 128, .tolerance = 1e-11, .slip_return = "first_order"};
 constexpr double kOmega = 1.2;
 
 TEST(SlipOrigin, DerivativesMatchDifferences) {

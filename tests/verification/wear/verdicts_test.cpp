@@ -52,7 +52,7 @@ constexpr Labelled kScenes[] = {
 #include "verdict_labels.inc"
 };
 
-const response::SteadyOptions kSteady{.harmonics = 3, .samples = 64};
+const response::SteadyOptions kSteady{.harmonics = 3, .samples = 64, .slip_return = "first_order"};
 constexpr int kMembers = 16;
 
 std::shared_ptr<const response::CondensedModel> condensed(Family family, unsigned number) {
