@@ -122,8 +122,9 @@ TEST(SpeedVsError, MeasuresEveryPartOfANewtonStep) {
     for (const StepTimes& times : growth.times) {
       ASSERT_EQ(times.status, Status::converged) << growth.key;
       EXPECT_GT(times.residual, 0);
-      EXPECT_GT(times.derivative, times.residual);
-      EXPECT_GT(times.step, times.derivative);
+      EXPECT_GT(times.derivative, 0);
+      // No comparison of times: the machine may be busy.
+      EXPECT_GT(times.step, 0);
       EXPECT_LT(times.factorised, times.unknowns);
     }
 }
