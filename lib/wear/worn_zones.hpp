@@ -18,8 +18,8 @@ struct NodeInPass {
 ///
 /// Between the last slipping node of a run, overload e, and the next node, which sticks with margin m, the zone ends at
 /// the fraction e / (e + m) of the spacing: at the slipping node when that is about to stick, at the sticking one when
-/// that is about to slip. Both e and m are close to linear in the place of the edge inside a spacing. Nodes without load
-/// next to a zone belong to it: they wear as soon as it lets them touch.
+/// that is about to slip. Both e and m are close to linear in the place of the edge inside a spacing. Nodes without
+/// load next to a zone belong to it: they wear as soon as it lets them touch.
 class WornZones {
  public:
   explicit WornZones(std::size_t nodes) : count_(static_cast<Eigen::Index>(nodes)) {}
