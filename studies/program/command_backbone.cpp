@@ -82,7 +82,7 @@ std::string backbone_json(const BackboneOptions& options, const LoadedModel& loa
   json["over"] = options.over;
   json["output"] = loaded.model.output_names[static_cast<std::size_t>(output)];
   for (const char* key : {"parameter", "status", "frequency_hz", "amplitude", "frequency_error", "dissipated_energy_j",
-                          "searched", "jacobians"})
+                          "searched", "jumped", "checked", "jacobians"})
     json[key] = Json::array();
   for (const response::BackbonePoint& point : found.points) {
     const bool valid = point.status == Status::converged;
@@ -94,6 +94,8 @@ std::string backbone_json(const BackboneOptions& options, const LoadedModel& loa
     json["frequency_error"].push_back(known(point.error));
     json["dissipated_energy_j"].push_back(known(point.state.friction_energy));
     json["searched"].push_back(point.searched);
+    json["jumped"].push_back(point.jumped);
+    json["checked"].push_back(point.checked);
     json["jacobians"].push_back(point.jacobians);
   }
   json["settings"] = Json{{"harmonics", loaded.steady.harmonics},

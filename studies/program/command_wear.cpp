@@ -155,7 +155,9 @@ std::string summary(const WearQuestion& question, const WearAnswer& answer) {
 int verdict(const std::string& input, const WearAnswer& answer, bool interrupted, const Streams& streams) {
   if (interrupted) return kInterrupted;
   if (answer.status != "not_converged") return kDone;
-  streams.err << fmt::format("dovetail: {}: the worn state did not converge: {}\n", input, to_string(answer.solver));
+  const bool out_of_steps = answer.history && answer.history->end == wear::HistoryEnd::steps;
+  streams.err << fmt::format("dovetail: {}: the worn state did not converge: {}{}\n", input, to_string(answer.solver),
+                             out_of_steps ? ": allow more --steps, or a larger --increment of depth" : "");
   return kNotConverged;
 }
 
