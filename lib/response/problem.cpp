@@ -44,11 +44,6 @@ SteadyState described(const SteadyResidual& residual, const Eigen::MatrixXd& dis
   if (steady.status != Status::converged) return steady;
   // A body that nothing holds drifts until the residual is small against rounding: that is no state of it.
   constexpr double kFloats = 1e-13;
-  if (!keep_linearisation && previous && !previous->regularised()) {
-    // The last point on the way tells it as well.
-    if (previous->nearly_singular(kFloats)) steady.status = Status::singular;
-    return steady;
-  }
   auto linear = std::make_shared<const Linearisation>(residual, std::move(state), previous);
   if (linear->status() != Status::converged || linear->regularised() || linear->nearly_singular(kFloats))
     steady.status = Status::singular;

@@ -25,6 +25,7 @@ void set_depth(const reduction::ContactNodes& contact, const VectorXd& depth, As
 }
 
 void place_edges(Release& release, double threshold, int limit, Asymptote& result) {
+  if (release.model().directions() != 2) return;  // in space the edge is a line through many nodes
   const PartialRelease partial = release_partially(release, result.unworn, threshold, limit);
   result.edge_status = partial.status;
   if (!partial.settled) return;

@@ -72,10 +72,12 @@ std::span<const Field<wear::AsymptoteOptions>> option_table<wear::AsymptoteOptio
                      .range = {.lower = 0, .upper = 1, .upper_open = true},
                      .help = "the same, relative to the largest rate of the unworn state"},
       Field<Options>{.key = "passes", .member = &Options::passes, .range = {.lower = 1}, .help = "passes of release"},
-      Field<Options>{.key = "arbitration",
-                     .member = &Options::arbitration,
-                     .help = "when the implicit history has the last word: in doubt, never or always",
-                     .choices = {"auto", "unsettled", "never", "always"}},
+      Field<Options>{
+          .key = "arbitration",
+          .member = &Options::arbitration,
+          .help =
+              "when the implicit history has the last word: in doubt, where release did not settle, never or always",
+          .choices = {"auto", "unsettled", "never", "always"}},
       Field<Options>{.key = "state_tolerance",
                      .member = &Options::state_tolerance,
                      .range = kPositive,
