@@ -19,8 +19,10 @@ import subprocess
 import sys
 import time
 
-import h5py
 import numpy as np
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "model_file"))
+from write_model import write_model
 
 # Per metre of the cylinder's length, SI. Sources are in README.md.
 RADIUS = 6e-3
@@ -111,17 +113,6 @@ def model(x, gap):
         "/output/vectors": output,
         "/output/names": ["slide"],
     }
-
-
-def write_model(path, data):
-    with h5py.File(path, "w") as file:
-        file.attrs["format"] = "dovetail-reduced-model"
-        file.attrs["version"] = 1
-        for name, values in data.items():
-            if name == "/output/names":
-                file.create_dataset(name, data=values, dtype=h5py.string_dtype())
-            else:
-                file[name] = values
 
 
 def worn_step(settings):

@@ -9,7 +9,7 @@ namespace {
 
 // One mass (m = k = 1) with a massless node behind a spring; its normal direction is a spring of its own.
 reduction::ReducedModel slider(double contact_stiffness, double limit, double damping, double force) {
-  reduction::ReducedModel model = empty_model(3, 1, 1);
+  reduction::ReducedModel model = verification::empty_model(3, 1, 1);
   model.mass(0, 0) = 1;
   model.damping(0, 0) = damping;
   model.stiffness(0, 0) = 1 + contact_stiffness;
@@ -26,7 +26,7 @@ reduction::ReducedModel slider(double contact_stiffness, double limit, double da
 
 // A mass between stops: one massless node behind a spring in front of it, tangential direction idle.
 reduction::ReducedModel stop(double contact_stiffness, double gap, double damping, double force, double press) {
-  reduction::ReducedModel model = empty_model(3, 1, 1);
+  reduction::ReducedModel model = verification::empty_model(3, 1, 1);
   model.mass(0, 0) = 1;
   model.damping(0, 0) = damping;
   model.stiffness(0, 0) = 1 + contact_stiffness;
@@ -102,7 +102,7 @@ Problem special_at(int index) {
     case 6:
       return with(stop(1, 0, 0.05, 1, 1), 0.01);  // just touches at the quasi-static turning point
     case 7: {                                     // sixteen equal nodes on one mass
-      reduction::ReducedModel model = empty_model(33, 16, 1);
+      reduction::ReducedModel model = verification::empty_model(33, 16, 1);
       model.mass(0, 0) = 1;
       model.damping(0, 0) = 0.05;
       model.stiffness(0, 0) = 1 + 16;

@@ -33,7 +33,4 @@ struct Family {
 [[nodiscard]] std::vector<Family> hand_made_families();
 [[nodiscard]] std::vector<Family> families_without_answer();
 
-/// A model of n dofs in which all is zero but the contact areas, which are 1.
-[[nodiscard]] reduction::ReducedModel empty_model(Eigen::Index n, Eigen::Index nodes, Eigen::Index tangential);
-
 }  // namespace dovetail::hard_cases

@@ -6,22 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-namespace dovetail::hard_cases {
+#include "tests/verification/response/rod.hpp"
 
-reduction::ReducedModel empty_model(Eigen::Index n, Eigen::Index nodes, Eigen::Index tangential) {
-  reduction::ReducedModel model;
-  model.mass = model.damping = model.stiffness = Eigen::MatrixXd::Zero(n, n);
-  model.static_force = Eigen::VectorXd::Zero(n);
-  model.cosine_force = model.sine_force = Eigen::MatrixXd::Zero(1, n);
-  model.contact.normal.resize(nodes);
-  model.contact.tangential.resize(nodes, tangential);
-  model.contact.area = Eigen::VectorXd::Ones(nodes);
-  model.contact.gap = Eigen::VectorXd::Zero(nodes);
-  model.contact.friction = Eigen::VectorXd::Zero(nodes);
-  model.contact.wear_coefficient = Eigen::VectorXd::Constant(nodes, 1e-3);
-  model.contact.slip_origin = Eigen::MatrixXd::Zero(nodes, tangential);
-  return model;
-}
+namespace dovetail::hard_cases {
 
 namespace {
 
@@ -47,7 +34,7 @@ class Builder {
         d_(recipe.directions),
         internal_(recipe.masses * d_),
         contact_(recipe.nodes * d_),
-        model_(empty_model(internal_ + contact_, recipe.nodes, d_ - 1)) {}
+        model_(verification::empty_model(internal_ + contact_, recipe.nodes, d_ - 1)) {}
 
   Problem build() {
     number_contact();
