@@ -1,11 +1,11 @@
-#include "studies/paper_section/page.hpp"
+#include "studies/paper_sequence/page.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "studies/paper_section/figures.hpp"
-#include "studies/paper_section/findings.hpp"
+#include "studies/paper_sequence/figures.hpp"
+#include "studies/paper_sequence/findings.hpp"
 #include "studies/report/html.hpp"
 #include "studies/report/page_style.hpp"
 #include "studies/report/report_plots.hpp"
@@ -13,7 +13,7 @@
 #include "studies/report/svg_plot.hpp"
 #include "studies/report/units.hpp"
 
-namespace dovetail::paper_section {
+namespace dovetail::paper_sequence {
 namespace {
 
 using report::escape;
@@ -217,4 +217,4 @@ std::string page_html(const Results& r) {
   return text + kDifferences + provenance(r) + "</main></body></html>\n";
 }
 
-}  // namespace dovetail::paper_section
+}  // namespace dovetail::paper_sequence

@@ -1,4 +1,4 @@
-#include "studies/paper_section/compute.hpp"
+#include "studies/paper_sequence/compute.hpp"
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@
 #include "wear/drift.hpp"
 #include "wear/history.hpp"
 
-namespace dovetail::paper_section {
+namespace dovetail::paper_sequence {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
@@ -231,4 +231,4 @@ Results compute(const optimizer::Scene& scene, const ComputeOptions& options) {
   return Study(scene, options).run();
 }
 
-}  // namespace dovetail::paper_section
+}  // namespace dovetail::paper_sequence

@@ -5,11 +5,11 @@
 #include <nlohmann/json.hpp>
 
 #include "core/replace_file.hpp"
-#include "studies/paper_section/figures.hpp"
-#include "studies/paper_section/findings.hpp"
-#include "studies/paper_section/page.hpp"
+#include "studies/paper_sequence/figures.hpp"
+#include "studies/paper_sequence/findings.hpp"
+#include "studies/paper_sequence/page.hpp"
 
-namespace dovetail::paper_section {
+namespace dovetail::paper_sequence {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -96,4 +96,4 @@ void write(const std::filesystem::path& folder, const Results& results) {
   replace_file(folder / "report.html", page_html(results));
 }
 
-}  // namespace dovetail::paper_section
+}  // namespace dovetail::paper_sequence

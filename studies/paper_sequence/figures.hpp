@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "studies/paper_section/results.hpp"
+#include "studies/paper_sequence/results.hpp"
 #include "studies/report/svg_plot.hpp"
 
-namespace dovetail::paper_section {
+namespace dovetail::paper_sequence {
 
 /// A figure and the name of the file with its numbers.
 struct Figure {
@@ -31,4 +31,4 @@ struct Figure {
 /// All of them in the reference's order.
 [[nodiscard]] std::vector<Figure> figures(const Results& results);
 
-}  // namespace dovetail::paper_section
+}  // namespace dovetail::paper_sequence

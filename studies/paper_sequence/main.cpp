@@ -1,4 +1,4 @@
-// The sequence of the reference in a plane section, as figures, tables and a page: studies/paper_section/run runs it.
+// The sequence of the reference for a scene, as figures, tables and a page: studies/paper_sequence/run runs it.
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
@@ -6,8 +6,8 @@
 
 #include "core/errors.hpp"
 #include "numerics/dense_lu.hpp"
-#include "studies/paper_section/compute.hpp"
-#include "studies/paper_section/page.hpp"
+#include "studies/paper_sequence/compute.hpp"
+#include "studies/paper_sequence/page.hpp"
 #include "studies/program/study.hpp"
 
 int main(int argc, char** argv) {
@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   const auto begin = std::chrono::steady_clock::now();
   const auto passed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(); };
-  paper_section::ComputeOptions options;
+  paper_sequence::ComputeOptions options;
   options.progress = [&](const std::string& what) {
     std::printf("%6.1f s  %s\n", passed(), what.c_str());
     std::fflush(stdout);
@@ -39,12 +39,12 @@ int main(int argc, char** argv) {
       options.curve_states = 4;
       options.nodal_diameter_modes = 2;
     }
-    paper_section::Results results = paper_section::compute(study.scene, options);
+    paper_sequence::Results results = paper_sequence::compute(study.scene, options);
     results.quick = quick;
     results.study_text = study.text;
     results.commit = commit;
     results.seconds = passed();
-    paper_section::write(folder, results);
+    paper_sequence::write(folder, results);
     options.progress("done: " + folder + "/report.html");
     for (const std::string& failure : results.failures) std::fprintf(stderr, "%s\n", failure.c_str());
     return results.failures.empty() ? 0 : 3;

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "studies/paper_section/results.hpp"
+#include "studies/paper_sequence/results.hpp"
 
-namespace dovetail::paper_section {
+namespace dovetail::paper_sequence {
 
 enum class Verdict { holds, partly, fails };
 [[nodiscard]] const char* to_string(Verdict verdict);
@@ -40,4 +40,4 @@ struct Largest {
 };
 [[nodiscard]] Largest largest_of(const Numbers& values);
 
-}  // namespace dovetail::paper_section
+}  // namespace dovetail::paper_sequence

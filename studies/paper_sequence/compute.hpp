@@ -2,9 +2,9 @@
 
 #include <functional>
 
-#include "studies/paper_section/results.hpp"
+#include "studies/paper_sequence/results.hpp"
 
-namespace dovetail::paper_section {
+namespace dovetail::paper_sequence {
 
 struct ComputeOptions {
   int curve_points = 81;   ///< >= 3, of each response curve
@@ -20,4 +20,4 @@ struct ComputeOptions {
 /// scene that violates its ranges; what did not converge is in `failures`.
 [[nodiscard]] Results compute(const optimizer::Scene& scene, const ComputeOptions& options);
 
-}  // namespace dovetail::paper_section
+}  // namespace dovetail::paper_sequence

@@ -1,4 +1,4 @@
-#include "studies/paper_section/findings.hpp"
+#include "studies/paper_sequence/findings.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 #include "studies/report/units.hpp"
 
-namespace dovetail::paper_section {
+namespace dovetail::paper_sequence {
 namespace {
 
 using report::significant;
@@ -243,4 +243,4 @@ std::vector<Finding> findings(const Results& r) {
   return {damping(r), power(r), rates(r), steady_state(r), depth(r), asymmetry(r), held(r), moves(r), grows(r)};
 }
 
-}  // namespace dovetail::paper_section
+}  // namespace dovetail::paper_sequence

@@ -1,4 +1,4 @@
-#include "studies/paper_section/figures.hpp"
+#include "studies/paper_sequence/figures.hpp"
 
 #include <fmt/format.h>
 
@@ -7,11 +7,11 @@
 #include <cmath>
 #include <limits>
 
-#include "studies/paper_section/findings.hpp"
+#include "studies/paper_sequence/findings.hpp"
 #include "studies/report/report_plots.hpp"
 #include "studies/report/units.hpp"
 
-namespace dovetail::paper_section {
+namespace dovetail::paper_sequence {
 namespace {
 
 using report::Plot;
@@ -293,4 +293,4 @@ std::vector<Figure> figures(const Results& r) {
           drift_figure(r)};
 }
 
-}  // namespace dovetail::paper_section
+}  // namespace dovetail::paper_sequence

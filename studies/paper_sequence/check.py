@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs the study in its quick form and checks its files and findings:  check.py PATH_OF_PAPER_SECTION"""
+"""Runs a study in its quick form and checks its files and findings:  check.py PATH_OF_PAPER_SEQUENCE STUDY.toml"""
 import csv
 import json
 import os
@@ -9,8 +9,7 @@ import sys
 import tempfile
 import unittest
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-PROGRAM = ""
+PROGRAM = STUDY = ""
 FIGURES = ("nodal_diameters", "preload_pressure", "response", "dissipated_power", "first_cycle_rates",
            "depths_over_cycles", "rates_over_cycles", "volume_over_cycles", "final_profiles",
            "responses_while_wearing", "power_while_wearing", "amplitude_while_wearing", "resonance_while_wearing")
@@ -19,12 +18,12 @@ HOLDING = ("friction_damps", "power_peaks_at_resonance", "wear_comes_to_rest", "
            "peak_moves_down", "peak_grows")
 
 
-class PaperSection(unittest.TestCase):
+class PaperSequence(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.kept = tempfile.TemporaryDirectory()
         cls.folder = cls.kept.name
-        command = [PROGRAM, cls.folder, "--study", os.path.join(HERE, "study.toml"), "--quick"]
+        command = [PROGRAM, cls.folder, "--study", STUDY, "--quick"]
         cls.answer = subprocess.run(command, capture_output=True, text=True)
 
     @classmethod
@@ -72,5 +71,6 @@ class PaperSection(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    PROGRAM = sys.argv.pop(1)
+    PROGRAM, STUDY = sys.argv[1:3]
+    del sys.argv[1:3]
     unittest.main()

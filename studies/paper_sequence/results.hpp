@@ -6,7 +6,7 @@
 #include "optimizer/scene.hpp"
 #include "studies/report/run_record.hpp"
 
-namespace dovetail::paper_section {
+namespace dovetail::paper_sequence {
 
 using report::Numbers;
 
@@ -58,4 +58,4 @@ struct Results {
 /// Rates, depths and volumes of one flank.
 [[nodiscard]] Numbers of_flank(const report::ContactRecord& contact, const Numbers& values, std::int64_t flank);
 
-}  // namespace dovetail::paper_section
+}  // namespace dovetail::paper_sequence
