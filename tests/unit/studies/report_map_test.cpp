@@ -1,0 +1,80 @@
+#include "studies/report/flank_map.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <regex>
+
+#include "tests/unit/studies/report_markup.hpp"
+
+namespace dovetail::report {
+namespace {
+
+using testing::HasSubstr;
+
+/// Two flanks of 3 nodes along and 4 across, unevenly spaced; values 0, 1, 2, ... MPa.
+FlankMap sample() {
+  FlankMap map{.title = "Pressure <&>", .quantity = "pressure", .unit = {.symbol = "MPa", .si = 1e6}};
+  double value = 0;
+  for (const char* name : {"left flank", "right flank"}) {
+    FlankPanel panel{.name = name};
+    for (const double z : {-20e-3, -15e-3, 3e-3, 20e-3})
+      for (const double s : {0.0, 1e-3, 5.5e-3}) {
+        panel.across.push_back(z);
+        panel.along.push_back(s);
+        panel.values.push_back(1e6 * value++);
+      }
+    map.panels.push_back(panel);
+  }
+  return map;
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+TEST(FlankMap, CellsTileEachFlank) {
+  const std::string svg = flank_map_svg(sample());
+  EXPECT_EQ(markup_error(svg), "");
+  EXPECT_EQ(count(svg, "</title></rect>"), 24U);
+  const std::regex sizes("width=\"([0-9.]+)\" height=\"([0-9.]+)\" fill=\"(#[0-9a-f]{6}|none)\"[^>]*>(<title>)?");
+  double cells = 0, frames = 0;
+  for (std::sregex_iterator it(svg.begin(), svg.end(), sizes), end; it != end; ++it) {
+    const double area = std::stod((*it)[1]) * std::stod((*it)[2]);
+    if ((*it)[4].matched)
+      cells += area;
+    else if ((*it)[3] == "none")
+      frames += area;
+  }
+  // Coordinates are written to 0.01.
+  EXPECT_NEAR(cells, frames, 1e-3 * frames);
+}
+
+TEST(FlankMap, ShowsNumbersInTheUnit) {
+  const std::string figure = flank_map_figure(sample());
+  EXPECT_EQ(markup_error(figure), "");
+  EXPECT_THAT(figure, HasSubstr("<title>20.0 mm, 5.50 mm: 23.00 MPa</title>"));
+  EXPECT_THAT(figure, HasSubstr("<td>right flank</td><td>20</td><td>5.5</td><td>23.000</td>"));
+  EXPECT_THAT(figure, HasSubstr("Pressure &lt;&amp;&gt;"));
+}
+
+TEST(FlankMap, LargestValueIsDarkestAndUnknownOnesStayPaper) {
+  FlankMap map = sample();
+  map.panels[0].values[0] = std::numeric_limits<double>::quiet_NaN();
+  const std::string svg = flank_map_svg(map);
+  EXPECT_EQ(count(svg, "fill=\"#3e134b\"><title>"), 1U);
+  EXPECT_EQ(count(svg, "fill=\"var(--hair)\"><title>"), 1U);
+}
+
+TEST(FlankMap, WithoutValuesIsASentence) {
+  FlankMap map = sample();
+  for (FlankPanel& panel : map.panels) panel.values.assign(panel.values.size(), 0.0);
+  EXPECT_TRUE(is_empty(map));
+  EXPECT_THAT(flank_map_figure(map), HasSubstr("Nothing to show"));
+}
+
+}  // namespace
+}  // namespace dovetail::report
