@@ -49,7 +49,7 @@ class Study {
     record();
     history();
     curves();
-    unequal_flanks();
+    if (!results_.in_space()) unequal_flanks();
     return std::move(results_);
   }
 

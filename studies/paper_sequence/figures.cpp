@@ -65,6 +65,27 @@ Plot along_flank(const Results& r, const Numbers& values, const Unit& unit, Plot
   return plot;
 }
 
+/// The same over both flanks in space.
+report::FlankMap over_flanks(const Results& r, const Numbers& values, const Unit& unit, const Plot& plot) {
+  const report::ContactRecord& contact = r.design.contact;
+  report::FlankMap map{
+      .title = plot.title, .description = plot.description, .quantity = plot.y.label, .unit = unit, .panels = {}};
+  for (std::size_t f = 0; f < contact.flank_names.size(); ++f) {
+    const auto flank = static_cast<std::int64_t>(f);
+    map.panels.push_back({.name = contact.flank_names[f] + " flank",
+                          .along = of_flank(contact, contact.along_m, flank),
+                          .across = of_flank(contact, contact.across_m, flank),
+                          .values = of_flank(contact, values, flank)});
+  }
+  return map;
+}
+
+/// Along the flank in the plane, over the flanks in space.
+Figure of_contact(const std::string& key, const Results& r, const Numbers& values, const Unit& unit, Plot plot) {
+  if (r.in_space()) return {.key = key, .map = over_flanks(r, values, unit, plot)};
+  return {.key = key, .plot = along_flank(r, values, unit, std::move(plot))};
+}
+
 /// Up to five nodes of the left flank, evenly over those that wear.
 std::vector<std::size_t> shown_nodes(const Results& r) {
   std::vector<std::size_t> worn;
@@ -88,7 +109,9 @@ Plot courses(const Results& r, const std::vector<Numbers>& values, double si, Pl
   if (cycles.size() > 1) cycles.front() = 0.5 * cycles[1];
   const std::vector<std::size_t> nodes = shown_nodes(r);
   for (std::size_t k = 0; k < nodes.size(); ++k) {
-    PlotLine line{.name = significant(r.design.contact.along_m[nodes[k]] / 1e-3, 2) + " mm",
+    const report::ContactRecord& contact = r.design.contact;
+    PlotLine line{.name = significant(contact.along_m[nodes[k]] / 1e-3, 2) +
+                          (r.in_space() ? ", " + significant(contact.across_m[nodes[k]] / 1e-3, 2) : "") + " mm",
                   .x = cycles,
                   .role = kLooks[k].first,
                   .stroke = kLooks[k].second};
@@ -131,17 +154,16 @@ std::vector<PlotLine> state_lines(const Results& r, Numbers Curve::*quantity, do
 }  // namespace
 
 Figure nodal_diameter_figure(const Results& r) {
-  return {"nodal_diameters", report::nodal_diameter_plot(r.design)};
+  return {.key = "nodal_diameters", .plot = report::nodal_diameter_plot(r.design)};
 }
 
 Figure pressure_figure(const Results& r) {
   const Numbers& pressure = r.design.contact.preload_pressure_pa;
-  return {"preload_pressure",
-          along_flank(r, pressure, report::readable_unit("Pa", report::largest(pressure)),
-                      {.title = "Pressure after spin-up",
-                       .description = "Under the centrifugal load alone. The last node stands for a sharp edge, whose "
-                                      "pressure grows as the mesh gets finer.",
-                       .y = {.label = "pressure"}})};
+  return of_contact("preload_pressure", r, pressure, report::readable_unit("Pa", report::largest(pressure)),
+                    {.title = "Pressure after spin-up",
+                     .description = "Under the centrifugal load alone. The last nodes stand for a sharp edge, whose "
+                                    "pressure grows as the mesh gets finer.",
+                     .y = {.label = "pressure"}});
 }
 
 Figure damping_figure(const Results& r) {
@@ -157,7 +179,7 @@ Figure damping_figure(const Results& r) {
   if (!r.states.empty())
     plot.lines.push_back(
         {.name = "with friction", .x = relative_frequency(r), .y = scaled(r.states[0].curve.amplitude_m, 1e-3)});
-  return {"response", plot};
+  return {.key = "response", .plot = plot};
 }
 
 Figure power_figure(const Results& r) {
@@ -167,38 +189,48 @@ Figure power_figure(const Results& r) {
             .y = {.label = "power", .unit = "W", .from_zero = true}};
   if (!r.states.empty())
     plot.lines.push_back({.name = {}, .x = relative_frequency(r), .y = r.states.front().curve.power_w});
-  return {"dissipated_power", plot};
+  return {.key = "dissipated_power", .plot = plot};
 }
 
 Figure first_rate_figure(const Results& r) {
   const Numbers& rate = r.design.contact.wear_rate_m_per_cycle;
   const Unit relative{.symbol = "", .si = std::max(report::largest(rate), 1e-300)};
-  return {"first_cycle_rates",
-          along_flank(r, rate, relative,
-                      {.title = "Wear rates of the first cycle",
-                       .description = fmt::format("Over the largest of both flanks, {} nm per million cycles.",
-                                                  significant(report::largest(rate) * 1e15, 3)),
-                       .y = {.label = "rate / largest rate"}})};
+  return of_contact("first_cycle_rates", r, rate, relative,
+                    {.title = "Wear rates of the first cycle",
+                     .description = fmt::format("Over the largest of both flanks, {} nm per million cycles.",
+                                                significant(report::largest(rate) * 1e15, 3)),
+                     .y = {.label = "rate / largest rate"}});
 }
 
 Figure depth_course_figure(const Results& r) {
-  return {"depths_over_cycles",
-          courses(r, r.history.depth_m, 1e-6,
-                  {.title = "Wear depths over cycles",
-                   .description = "Of some nodes of one flank, named by their distance from its neck side.",
-                   .y = {.label = "worn depth", .unit = "\u00b5m"}})};
+  return {
+      .key = "depths_over_cycles",
+      .plot = courses(
+          r, r.history.depth_m, 1e-6,
+          {.title = "Wear depths over cycles",
+           .description =
+               r.in_space() ? "Of some nodes of one flank, named by their distance from its neck side and their place "
+                              "along the slot, from its middle."
+                            : "Of some nodes of one flank, named by their distance from its neck side.",
+           .y = {.label = "worn depth", .unit = "\u00b5m"}})};
 }
 
 Figure rate_course_figure(const Results& r) {
   const double first = r.history.rate_m_per_cycle.empty() ? 1 : report::largest(r.history.rate_m_per_cycle.front());
-  return {"rates_over_cycles", courses(r, r.history.rate_m_per_cycle, first,
-                                       {.title = "Wear rates over cycles",
-                                        .description = "Of the same nodes, over the largest rate of the first cycle.",
-                                        .y = {.label = "rate / largest first rate"}})};
+  return {.key = "rates_over_cycles",
+          .plot = courses(r, r.history.rate_m_per_cycle, first,
+                          {.title = "Wear rates over cycles",
+                           .description = "Of the same nodes, over the largest rate of the first cycle.",
+                           .y = {.label = "rate / largest first rate"}})};
 }
 
 Figure profile_figure(const Results& r) {
   const Numbers& depth = r.design.contact.interpolated_depth_m;
+  if (r.in_space())
+    return of_contact("final_profiles", r, depth, {.symbol = "\u00b5m", .si = 1e-6},
+                      {.title = "Final worn profile",
+                       .description = "Depth off both surfaces together when wear has come to rest, found directly.",
+                       .y = {.label = "worn depth"}});
   Plot plot =
       along_flank(r, depth, {.symbol = "\u00b5m", .si = 1e-6},
                   {.title = "Final worn profile",
@@ -215,7 +247,7 @@ Figure profile_figure(const Results& r) {
       plot.lines.push_back(line);
     }
   }
-  return {"final_profiles", plot};
+  return {.key = "final_profiles", .plot = plot};
 }
 
 Figure volume_figure(const Results& r) {
@@ -223,14 +255,14 @@ Figure volume_figure(const Results& r) {
             .description = "Of both flanks; dashed: the state at rest, found directly.",
             .x = cycle_axis(),
             .y = {.label = "worn volume", .unit = "mm\u00b3", .from_zero = true}};
-  if (r.history.cycles.size() < 2) return {"volume_over_cycles", plot};
+  if (r.history.cycles.size() < 2) return {.key = "volume_over_cycles", .plot = plot};
   plot.lines.push_back({.name = "history", .x = r.history.cycles, .y = scaled(r.history.volume_m3, 1e-9)});
   plot.lines.push_back({.name = "at rest",
                         .x = {r.history.cycles[1], r.history.cycles.back()},
                         .y = Numbers(2, r.asymptote_volume_m3 / 1e-9),
                         .role = Role::before,
                         .stroke = Stroke::dashed});
-  return {"volume_over_cycles", plot};
+  return {.key = "volume_over_cycles", .plot = plot};
 }
 
 Figure wearing_response_figure(const Results& r) {
@@ -239,7 +271,7 @@ Figure wearing_response_figure(const Results& r) {
             .x = {.label = "frequency / unworn resonance"},
             .y = {.label = "amplitude", .unit = "mm", .from_zero = true}};
   plot.lines = state_lines(r, &Curve::amplitude_m, 1e-3);
-  return {"responses_while_wearing", plot};
+  return {.key = "responses_while_wearing", .plot = plot};
 }
 
 Figure wearing_power_figure(const Results& r) {
@@ -248,7 +280,7 @@ Figure wearing_power_figure(const Results& r) {
             .x = {.label = "frequency / unworn resonance"},
             .y = {.label = "power", .unit = "W", .from_zero = true}};
   plot.lines = state_lines(r, &Curve::power_w, 1);
-  return {"power_while_wearing", plot};
+  return {.key = "power_while_wearing", .plot = plot};
 }
 
 Figure amplitude_course_figure(const Results& r) {
@@ -269,7 +301,7 @@ Figure amplitude_course_figure(const Results& r) {
     held.y.push_back(r.states.back().amplitude_m / 1e-3);
   }
   plot.lines = {held, peak};
-  return {"amplitude_while_wearing", plot};
+  return {.key = "amplitude_while_wearing", .plot = plot};
 }
 
 Figure drift_figure(const Results& r) {
@@ -283,7 +315,7 @@ Figure drift_figure(const Results& r) {
   for (const WornState& state : r.states)
     line.y.push_back(state.peak_found ? 1e4 * (state.peak_hz / r.resonance_hz - 1) : std::nan(""));
   plot.lines.push_back(line);
-  return {"resonance_while_wearing", plot};
+  return {.key = "resonance_while_wearing", .plot = plot};
 }
 
 std::vector<Figure> figures(const Results& r) {

@@ -1,17 +1,20 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "studies/paper_sequence/results.hpp"
+#include "studies/report/flank_map.hpp"
 #include "studies/report/svg_plot.hpp"
 
 namespace dovetail::paper_sequence {
 
-/// A figure and the name of the file with its numbers.
+/// A figure and the name of the file with its numbers: a plot, or in space a map over the flanks.
 struct Figure {
-  std::string key;
-  report::Plot plot;
+  std::string key = {};
+  report::Plot plot = {};
+  std::optional<report::FlankMap> map = {};
 };
 
 [[nodiscard]] Figure nodal_diameter_figure(const Results& results);

@@ -107,17 +107,22 @@ Finding depth(const Results& r) {
                                     : Verdict::fails};
 }
 
-Finding asymmetry(const Results& r) {
-  const double share = neck_side_share(r.design.contact);
-  const Numbers left = of_flank(r.design.contact, r.design.contact.interpolated_depth_m, 0);
-  const Numbers right = of_flank(r.design.contact, r.design.contact.interpolated_depth_m, 1);
+/// Largest difference between a flank and the mirror image of the other one, over the largest depth.
+double flanks_apart(const report::ContactRecord& contact) {
+  const Numbers left = of_flank(contact, contact.interpolated_depth_m, 0);
+  const Numbers right = of_flank(contact, contact.interpolated_depth_m, 1);
   double apart = 0;
   for (std::size_t i = 0; i < std::min(left.size(), right.size()); ++i)
     apart = std::max(apart, std::abs(left[i] - right[i]));
-  apart /= std::max(largest_of(left).value, largest_of(right).value);
-  const std::string between =
-      apart < 1e-4 ? "both flanks wear alike"
-                   : fmt::format("the flanks differ by {}\u00a0% of the largest depth", significant(100 * apart, 2));
+  return apart / std::max(largest_of(left).value, largest_of(right).value);
+}
+
+Finding asymmetry(const Results& r) {
+  const double share = neck_side_share(r.design.contact);
+  const double apart = flanks_apart(r.design.contact);
+  const std::string between = apart < 1e-4 ? "both flanks wear alike"
+                                           : fmt::format("the flanks differ by up to {}\u00a0% of the largest depth",
+                                                         significant(100 * apart, 2));
   Finding f{
       .key = "profiles_asymmetric",
       .paper = "The final profiles are very asymmetric (fig. 11).",
@@ -126,6 +131,10 @@ Finding asymmetry(const Results& r) {
       .verdict = std::abs(share - 0.5) < 0.2 ? Verdict::fails
                  : apart > 0.05              ? Verdict::holds
                                              : Verdict::partly};
+  if (r.in_space()) {
+    f.why = "The blade is twisted and staggered, so the two flanks are loaded differently along the slot.";
+    return f;
+  }
   f.why =
       "The plane section is its own mirror image and the force reverses every half period, so both flanks wear "
       "alike; the reference's blade is curved and its two sides are not.";

@@ -10,7 +10,7 @@ namespace dovetail::paper_sequence {
 enum class Verdict { holds, partly, fails };
 [[nodiscard]] const char* to_string(Verdict verdict);
 
-/// One finding of the reference beside what the plane section gives.
+/// One finding of the reference beside what the scene gives.
 struct Finding {
   std::string key = {};    ///< fit for files
   std::string paper = {};  ///< what the reference found

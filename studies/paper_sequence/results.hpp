@@ -53,6 +53,9 @@ struct Results {
   Numbers unequal_flanks_volume_m3;   ///< worn off the left and right flank when their angles differ; or empty
   double unequal_flanks_degrees = 0;  ///< by how much
   std::vector<std::string> failures;  ///< what did not converge, in sentences
+
+  /// A sector in space, not a plane section.
+  [[nodiscard]] bool in_space() const { return scene.type == "sector"; }
 };
 
 /// Rates, depths and volumes of one flank.

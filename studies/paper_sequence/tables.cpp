@@ -31,6 +31,17 @@ std::string csv(const report::Plot& plot) {
   return text;
 }
 
+/// One row per contact node: flank, place along the slot and from the neck side, value.
+std::string csv(const report::FlankMap& map) {
+  std::string text = fmt::format("\"flank\",\"along the slot (mm)\",\"from the neck side (mm)\",\"{} ({})\"\n",
+                                 map.quantity, map.unit.symbol);
+  for (const report::FlankPanel& panel : map.panels)
+    for (std::size_t i = 0; i < panel.values.size(); ++i)
+      text += fmt::format("\"{}\",{:.12g},{:.12g},{:.12g}\n", panel.name, panel.across[i] / 1e-3, panel.along[i] / 1e-3,
+                          panel.values[i] / map.unit.si);
+  return text;
+}
+
 Json findings_json(const std::vector<Finding>& all) {
   Json list = Json::array();
   for (const Finding& f : all)
@@ -55,6 +66,7 @@ Json results_json(const Results& r) {
   const report::ContactRecord& contact = r.design.contact;
   json["contact"] = {{"flank", contact.flank},
                      {"along_m", contact.along_m},
+                     {"across_m", contact.across_m},
                      {"area_m2", contact.area_m2},
                      {"preload_pressure_pa", contact.preload_pressure_pa},
                      {"first_rate_m_per_cycle", contact.wear_rate_m_per_cycle},
@@ -90,7 +102,8 @@ Json results_json(const Results& r) {
 void write(const std::filesystem::path& folder, const Results& results) {
   std::error_code ignored;  // what is missing is named when a file cannot be written
   std::filesystem::create_directories(folder, ignored);
-  for (const Figure& figure : figures(results)) replace_file(folder / (figure.key + ".csv"), csv(figure.plot));
+  for (const Figure& figure : figures(results))
+    replace_file(folder / (figure.key + ".csv"), figure.map ? csv(*figure.map) : csv(figure.plot));
   replace_file(folder / "findings.json", findings_json(findings(results)).dump(1) + "\n");
   replace_file(folder / "results.json", results_json(results).dump() + "\n");
   replace_file(folder / "report.html", page_html(results));

@@ -87,6 +87,8 @@ Plot history_profile_plot(const DesignRecord& design) {
     worn[flank] += history.profile_depth_m[(profiles - 1) * count + i];
   }
   const auto shown = std::max_element(worn.begin(), worn.end()) - worn.begin();
+  const Numbers last_profile(history.profile_depth_m.end() - static_cast<std::ptrdiff_t>(count),
+                             history.profile_depth_m.end());
   const Unit unit = readable_unit("m", largest(history.profile_depth_m));
   plot.y = {
       .label = "worn depth",
@@ -99,8 +101,7 @@ Plot history_profile_plot(const DesignRecord& design) {
     const bool last = p + 1 == profiles;
     PlotLine line{.name = significant(cycles, 2) + " cycles", .role = last ? Role::after : Role::before};
     line.stroke = last || p % 2 == 0 ? Stroke::solid : Stroke::dashed;
-    for (std::size_t i = 0; i < count; ++i) {
-      if (contact.flank[i] != shown) continue;
+    for (const std::size_t i : worst_line(contact.flank, contact.across_m, last_profile, shown)) {
       line.x.push_back(contact.along_m[i] / 1e-3);
       line.y.push_back(history.profile_depth_m[p * count + i] / unit.si);
     }

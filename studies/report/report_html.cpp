@@ -67,6 +67,14 @@ std::string contact_section(const Comparison& designs) {
   std::string text =
       "<section><h2>Contact, wear and stress</h2>\n" +
       figures({wear_depth_plot(designs), pressure_plot(designs), gap_plot(designs), fillet_plot(designs)});
+  const std::vector<FlankMap> maps = contact_maps(*designs.after);
+  if (!maps.empty()) {
+    text += "<div class=\"grid2\">\n";
+    for (const FlankMap& map : maps) text += flank_map_figure(map);
+    text +=
+        "</div>\n<p class=\"soft\">Plots along a flank show the line along the slot where the quantity is "
+        "largest.</p>\n";
+  }
   return text + "</section>\n";
 }
 

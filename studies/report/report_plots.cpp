@@ -45,7 +45,8 @@ bool flanks_alike(const ContactRecord& contact, const Numbers& values) {
          near(along[0], along[1], 0.001 * largest(contact.along_m));
 }
 
-/// A quantity of the contact nodes along both flanks: left solid, right dashed.
+/// A quantity of the contact nodes along both flanks, in space where along the slot it is largest: left solid, right
+/// dashed.
 Plot flank_plot(const Comparison& designs, Numbers ContactRecord::*quantity, const std::string& si_unit, Plot plot) {
   double most = 0;
   for (const auto& [design, role] : in_order(designs)) most = std::max(most, largest(design->contact.*quantity));
@@ -61,8 +62,8 @@ Plot flank_plot(const Comparison& designs, Numbers ContactRecord::*quantity, con
     for (std::size_t flank = 0; flank < (alike ? 1 : contact.flank_names.size()); ++flank) {
       PlotLine line{.name = name_of(designs, role, alike ? "both flanks" : contact.flank_names[flank]), .role = role};
       line.stroke = flank == 0 ? Stroke::solid : Stroke::dashed;
-      for (std::size_t i = 0; i < values.size(); ++i) {
-        if (contact.flank[i] != static_cast<std::int64_t>(flank)) continue;
+      for (const std::size_t i :
+           worst_line(contact.flank, contact.across_m, values, static_cast<std::int64_t>(flank))) {
         line.x.push_back(contact.along_m[i] / 1e-3);
         line.y.push_back(values[i] / unit.si);
       }
@@ -72,7 +73,40 @@ Plot flank_plot(const Comparison& designs, Numbers ContactRecord::*quantity, con
   return plot;
 }
 
+FlankMap flank_map(const ContactRecord& contact, const Numbers& values, const std::string& si_unit, FlankMap map) {
+  map.unit = readable_unit(si_unit, largest(values));
+  for (std::size_t f = 0; f < contact.flank_names.size(); ++f) {
+    FlankPanel panel{.name = contact.flank_names[f] + " flank"};
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (contact.flank[i] != static_cast<std::int64_t>(f)) continue;
+      panel.along.push_back(contact.along_m[i]);
+      panel.across.push_back(contact.across_m[i]);
+      panel.values.push_back(values[i]);
+    }
+    map.panels.push_back(std::move(panel));
+  }
+  return map;
+}
+
 }  // namespace
+
+bool in_space(const ContactRecord& contact) {
+  const auto [least, most] = std::minmax_element(contact.across_m.begin(), contact.across_m.end());
+  return least != contact.across_m.end() && *most > *least;
+}
+
+std::vector<FlankMap> contact_maps(const DesignRecord& design) {
+  const ContactRecord& contact = design.contact;
+  if (!in_space(contact)) return {};
+  return {flank_map(contact, contact.interpolated_depth_m, "m",
+                    {.title = "Wear depth over the flanks",
+                     .description = "When wear has come to rest; worn off both surfaces together.",
+                     .quantity = "worn depth"}),
+          flank_map(contact, contact.preload_pressure_pa, "Pa",
+                    {.title = "Pressure over the flanks after spin-up",
+                     .description = "Under the centrifugal load alone, before any vibration.",
+                     .quantity = "pressure"})};
+}
 
 double largest(const Numbers& values) {
   double result = 0;

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "studies/report/flank_map.hpp"
 #include "studies/report/run_record.hpp"
 #include "studies/report/svg_plot.hpp"
 
@@ -17,6 +18,11 @@ struct Comparison {
   const DesignRecord* before = nullptr;
   const DesignRecord* after = nullptr;
 };
+
+/// The contact nodes spread along the slot too.
+[[nodiscard]] bool in_space(const ContactRecord& contact);
+/// Wear depth and pressure over the flanks of a joint in space; none in the plane.
+[[nodiscard]] std::vector<FlankMap> contact_maps(const DesignRecord& design);
 
 // Each plot is empty (is_empty) when the designs do not hold what it shows. Colours tell before from after; line
 // styles tell the rest.

@@ -101,6 +101,11 @@ void Reader::numbers(const std::string& path, Numbers& values) const {
   values = std::move(array.values);
 }
 
+void Reader::later_numbers(const std::string& path, Numbers& values) const {
+  values.clear();
+  if (file_.exists(path)) numbers(path, values);
+}
+
 void Reader::table(const std::string& path, Numbers& values, std::size_t columns) const {
   hdf5::Array<double> array = file_.read_reals(path);
   if (array.rank() != 2 || (array.shape[1] != columns && !array.values.empty()))

@@ -17,6 +17,7 @@ class Writer {
   explicit Writer(hdf5::File& file) : file_(file) {}
 
   void numbers(const std::string& path, const Numbers& values) { file_.write(path, values); }
+  void later_numbers(const std::string& path, const Numbers& values) { numbers(path, values); }
   /// [rows, columns], row by row; columns > 0.
   void table(const std::string& path, const Numbers& values, std::size_t columns);
   void wholes(const std::string& path, const std::vector<std::int64_t>& values) { file_.write(path, values); }
@@ -53,6 +54,8 @@ class Reader {
   explicit Reader(const hdf5::File& file) : file_(file) {}
 
   void numbers(const std::string& path, Numbers& values) const;
+  /// The same of a list that older files do not have: empty then.
+  void later_numbers(const std::string& path, Numbers& values) const;
   void table(const std::string& path, Numbers& values, std::size_t columns) const;
   void wholes(const std::string& path, std::vector<std::int64_t>& values) const;
   void texts(const std::string& path, std::vector<std::string>& values) const;

@@ -10,6 +10,7 @@ void contact_nodes(Archive& archive, const std::string& group, Contact& contact)
   archive.texts(group + "/flank_names", contact.flank_names);
   archive.wholes(group + "/flank", contact.flank);
   archive.numbers(group + "/along_m", contact.along_m);
+  archive.later_numbers(group + "/across_m", contact.across_m);
   archive.numbers(group + "/x_m", contact.x_m);
   archive.numbers(group + "/y_m", contact.y_m);
   archive.numbers(group + "/area_m2", contact.area_m2);
@@ -88,6 +89,7 @@ void verification(Archive& archive, const std::string& group, Record& record) {
   archive.texts(group + "/flank_names", record.flank_names);
   archive.wholes(group + "/flank", record.flank);
   archive.numbers(group + "/along_m", record.along_m);
+  archive.later_numbers(group + "/across_m", record.across_m);
   archive.numbers(group + "/search_profile_m", record.search_profile_m);
   archive.numbers(group + "/direct_profile_m", record.direct_profile_m);
   archive.numbers(group + "/history_profile_m", record.history_profile_m);
@@ -118,7 +120,7 @@ void require_list(const Reader& reader, const std::string& path, std::size_t fou
 
 void require_consistent(const Reader& reader, const std::string& group, const DesignRecord& design) {
   const ContactRecord& c = design.contact;
-  for (const Numbers* list : {&c.along_m, &c.x_m, &c.y_m, &c.area_m2, &c.gap_m, &c.preload_pressure_pa,
+  for (const Numbers* list : {&c.along_m, &c.across_m, &c.x_m, &c.y_m, &c.area_m2, &c.gap_m, &c.preload_pressure_pa,
                               &c.wear_rate_m_per_cycle, &c.depth_m, &c.interpolated_depth_m})
     require_list(reader, group + "/contact", list->size(), c.flank.size());
   if (!c.flank.empty() && c.along_m.empty()) reader.refuse(group + "/contact/along_m", {}, "must not be empty");
@@ -157,7 +159,8 @@ void exchange(const Reader& reader, const std::string& group, VerificationRecord
   verification(reader, group, record);
   const std::size_t nodes = record.flank.size();
   reader.require_size(group + "/along_m", record.along_m.size(), nodes);
-  for (const Numbers* list : {&record.search_profile_m, &record.direct_profile_m, &record.history_profile_m})
+  for (const Numbers* list :
+       {&record.across_m, &record.search_profile_m, &record.direct_profile_m, &record.history_profile_m})
     require_list(reader, group, list->size(), nodes);
   for (const std::int64_t flank : record.flank)
     if (flank < 0 || flank >= static_cast<std::int64_t>(record.flank_names.size()))

@@ -4,6 +4,8 @@
 #include <fmt/core.h>
 #include <Eigen/Core>
 
+#include <algorithm>
+#include <cmath>
 #include <ctime>
 #include <limits>
 
@@ -87,6 +89,21 @@ RunRecord record_run(const optimizer::Problem& problem, const optimizer::Optimiz
   record.provenance = provenance();
   record.provenance.options = texts(options);
   return record;
+}
+
+std::vector<std::size_t> worst_line(const std::vector<std::int64_t>& flanks, const Numbers& across,
+                                    const Numbers& values, std::int64_t flank) {
+  const auto place = [&](std::size_t i) { return i < across.size() ? across[i] : 0.0; };
+  std::optional<std::size_t> worst;
+  for (std::size_t i = 0; i < std::min(flanks.size(), values.size()); ++i)
+    if (flanks[i] == flank && (!worst || values[i] > values[*worst])) worst = i;
+  std::vector<std::size_t> line;
+  if (!worst) return line;
+  // Lines of the grid are tenths of a millimetre apart at least; places on one differ by rounding.
+  constexpr double kSameLine = 1e-7;
+  for (std::size_t i = 0; i < flanks.size(); ++i)
+    if (flanks[i] == flank && std::abs(place(i) - place(*worst)) < kSameLine) line.push_back(i);
+  return line;
 }
 
 }  // namespace dovetail::report

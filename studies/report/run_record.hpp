@@ -16,11 +16,13 @@ namespace dovetail::report {
 
 using Numbers = std::vector<double>;
 
-/// The contact nodes of one design, flank by flank from the neck side to the root side; all lists have Nc entries.
+/// The contact nodes of one design, flank by flank, in space line by line along the slot, from the neck side to the
+/// root side; all lists have Nc entries.
 struct ContactRecord {
   std::vector<std::string> flank_names;  ///< "left", "right"
   std::vector<std::int64_t> flank;       ///< index into flank_names
   Numbers along_m;                       ///< along the flank from its neck-side node
+  Numbers across_m;                      ///< along the slot from its middle; in the plane zero or empty
   Numbers x_m, y_m;
   Numbers area_m2;
   Numbers gap_m;  ///< initial, unloaded
@@ -113,8 +115,14 @@ struct VerificationRecord {
   std::vector<std::string> flank_names;
   std::vector<std::int64_t> flank;                                ///< [Nc]
   Numbers along_m;                                                ///< [Nc]
+  Numbers across_m;                                               ///< [Nc] along the slot; zero or empty in the plane
   Numbers search_profile_m, direct_profile_m, history_profile_m;  ///< [Nc] or empty
 };
+
+/// The nodes of a flank on the line from its neck to its root side on which `values` are largest, in the order of the
+/// record: all of them in the plane. Empty when the flank has no node.
+[[nodiscard]] std::vector<std::size_t> worst_line(const std::vector<std::int64_t>& flanks, const Numbers& across,
+                                                  const Numbers& values, std::int64_t flank);
 
 /// With what the results were made.
 struct Provenance {

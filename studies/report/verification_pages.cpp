@@ -44,8 +44,7 @@ Plot verification_plot(const VerificationRecord& record) {
   const auto add = [&](const char* name, const Numbers& profile, Role role, Stroke stroke) {
     if (profile.size() != count) return;
     PlotLine line{.name = name, .role = role, .stroke = stroke};
-    for (std::size_t i = 0; i < count; ++i) {
-      if (record.flank[i] != shown) continue;
+    for (const std::size_t i : worst_line(record.flank, record.across_m, record.direct_profile_m, shown)) {
       line.x.push_back(record.along_m[i] / 1e-3);
       line.y.push_back(profile[i] / unit.si);
     }

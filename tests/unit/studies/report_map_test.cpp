@@ -6,6 +6,7 @@
 #include <limits>
 #include <regex>
 
+#include "studies/report/report_plots.hpp"
 #include "tests/unit/studies/report_markup.hpp"
 
 namespace dovetail::report {
@@ -74,6 +75,43 @@ TEST(FlankMap, WithoutValuesIsASentence) {
   for (FlankPanel& panel : map.panels) panel.values.assign(panel.values.size(), 0.0);
   EXPECT_TRUE(is_empty(map));
   EXPECT_THAT(flank_map_figure(map), HasSubstr("Nothing to show"));
+}
+
+/// A joint in space: two flanks of 3 nodes along and 2 lines, deepest on the second line of the right flank.
+DesignRecord design_in_space() {
+  DesignRecord design;
+  ContactRecord& c = design.contact;
+  c.flank_names = {"left", "right"};
+  for (int flank = 0; flank < 2; ++flank)
+    for (const double z : {-1e-2, 1e-2})
+      for (const double s : {0.0, 2e-3, 5e-3}) {
+        c.flank.push_back(flank);
+        c.along_m.push_back(s);
+        c.across_m.push_back(z);
+        c.interpolated_depth_m.push_back(flank == 1 && z > 0 && s == 0 ? 3e-6 : 1e-6);
+        c.preload_pressure_pa.push_back(1e8);
+      }
+  return design;
+}
+
+TEST(FlankMap, ShowsTheContactOfADesignInSpaceOnly) {
+  DesignRecord design = design_in_space();
+  const std::vector<FlankMap> maps = contact_maps(design);
+  ASSERT_EQ(maps.size(), 2U);
+  EXPECT_EQ(maps[0].unit.symbol, "\u00b5m");
+  ASSERT_EQ(maps[0].panels.size(), 2U);
+  EXPECT_EQ(maps[0].panels[1].values[3], 3e-6);
+  design.contact.across_m.assign(design.contact.flank.size(), 0.0);
+  EXPECT_TRUE(contact_maps(design).empty());
+  design.contact.across_m.clear();
+  EXPECT_TRUE(contact_maps(design).empty());
+}
+
+TEST(WorstLine, IsTheLineAlongTheFlankWithTheLargestValue) {
+  const ContactRecord c = design_in_space().contact;
+  EXPECT_THAT(worst_line(c.flank, c.across_m, c.interpolated_depth_m, 1), testing::ElementsAre(9, 10, 11));
+  EXPECT_THAT(worst_line(c.flank, {}, c.interpolated_depth_m, 0), testing::ElementsAre(0, 1, 2, 3, 4, 5));
+  EXPECT_TRUE(worst_line(c.flank, c.across_m, c.interpolated_depth_m, 2).empty());
 }
 
 }  // namespace

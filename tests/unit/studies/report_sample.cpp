@@ -36,6 +36,7 @@ ContactRecord contact(const geometry::Profile& profile, double depth_um) {
       const Eigen::Vector2d at = (1 - s) * neck + s * root;
       record.flank.push_back(flank);
       record.along_m.push_back(s * e.length());
+      record.across_m.push_back(0);
       record.x_m.push_back(at.x());
       record.y_m.push_back(at.y());
       record.area_m2.push_back(4e-5);
@@ -160,6 +161,7 @@ RunRecord sample_record() {
                            .flank_names = {"left", "right"},
                            .flank = {0, 0, 1, 1},
                            .along_m = {0, 5e-3, 0, 5e-3},
+                           .across_m = {0, 0, 0, 0},
                            .search_profile_m = {1.2e-6, 0, 1.2e-6, 0},
                            .direct_profile_m = {1.3e-6, 0, 1.3e-6, 0},
                            .history_profile_m = {1.31e-6, 0, 1.31e-6, 0}}};
