@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "geometry/contact_grid.hpp"
 #include "geometry/size_field.hpp"
 #include "geometry/triangulation.hpp"
 
@@ -20,12 +21,6 @@ std::size_t index(int i) {
 
 bool is_aerofoil(const Edge& e) {
   return e.name.starts_with("aerofoil") && !e.is_arc();
-}
-
-std::vector<double> equal_parts(int parts) {
-  std::vector<double> fractions(index(parts) + 1);
-  for (int i = 0; i <= parts; ++i) fractions[index(i)] = static_cast<double>(i) / parts;
-  return fractions;
 }
 
 /// Fractions between from and to (included) so that every part has the same integral of 1/size.
@@ -97,9 +92,9 @@ class Builder {
         continue;
       }
       if (edge.name.starts_with("flank"))
-        right = equal_parts(sizes_.flank_elements);
+        right = equal_fractions(sizes_.flank_elements);
       else if (is_aerofoil(edge))
-        right = equal_parts(sizes_.aerofoil_elements);
+        right = equal_fractions(sizes_.aerofoil_elements);
       else
         right = graded_parts(0, 1, edge.length(), point, size_);
       std::vector<double>& left = mesh_.fractions[index(mirror(e))];

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "geometry/contact_grid.hpp"
 #include "geometry/flank_form.hpp"
 
 namespace dovetail::geometry {
@@ -69,8 +70,8 @@ SectorTopology::Body SectorTopology::add_body(const CornerMesh& corners, const C
   };
   for (std::size_t t = 0; t < corners.triangles.size(); ++t) {
     const auto& [i, j, k] = corners.triangles[t];
-    sector_.mesh.elements.push_back(
-        {body.first + i, body.first + j, body.first + k, middle(i, j), middle(j, k), middle(k, i)});
+    for (int node : {body.first + i, body.first + j, body.first + k, middle(i, j), middle(j, k), middle(k, i)})
+      sector_.mesh.connectivity.push_back(node);
     sector_.mesh.region.push_back(regions_before + corners.region[t]);
   }
 
@@ -104,22 +105,13 @@ void SectorTopology::add_flank(const char* side, const Profile& profile) {
     blade = reversed(std::move(blade));
   fem::Flank flank;
   flank.name = side;
-  for (std::size_t k = 0; k < blade.size(); ++k)
-    (k % 2 == 0 ? flank.corner_pairs : flank.middle_pairs).push_back({blade[k], disk[k]});
+  for (std::size_t k = 0; k < blade.size(); ++k) flank.pairs.push_back({blade[k], disk[k]});
   sector_.flanks.push_back(std::move(flank));
 }
 
-fem::SectorMesh SectorTopology::place(const Profile& profile, const ProfileParameters& parameters,
-                                      const Eigen::Matrix2Xd& blade_corners,
-                                      const Eigen::Matrix2Xd& disk_corners) const {
-  fem::SectorMesh sector = sector_;
-  sector.sectors = parameters.sectors;
-  sector.mesh.regions[0].thickness = parameters.slot_length;
-  sector.mesh.regions[1].thickness = parameters.chord;
-  sector.mesh.regions[2].thickness = parameters.slot_length;
-
-  Eigen::Matrix2Xd& nodes = sector.mesh.nodes;
-  nodes.resize(2, node_count_);
+Eigen::Matrix2Xd SectorTopology::positions(const Profile& profile, const Eigen::Matrix2Xd& blade_corners,
+                                           const Eigen::Matrix2Xd& disk_corners) const {
+  Eigen::Matrix2Xd nodes(2, node_count_);
   const auto fill = [&nodes](const Body& body, const Chain& chain, const Eigen::Matrix2Xd& corners) {
     nodes.middleCols(body.first, body.corners) = corners;
     for (const MiddleNode& m : body.middles) {
@@ -131,20 +123,46 @@ fem::SectorMesh SectorTopology::place(const Profile& profile, const ProfileParam
   };
   fill(blade_, profile.blade, blade_corners);
   fill(disk_, profile.disk, disk_corners);
+  // Travelled in opposite directions, the two lines of a flank round differently: make the pairs coincide to the last
+  // bit.
+  for (const fem::Flank& flank : sector_.flanks)
+    for (const auto& [blade, disk] : flank.pairs) nodes.col(disk) = nodes.col(blade);
+  return nodes;
+}
 
+Eigen::VectorXd SectorTopology::blade_values(const Eigen::VectorXd& at_corners) const {
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(node_count_);
+  values.segment(blade_.first, blade_.corners) = at_corners;
+  for (const MiddleNode& m : blade_.middles) values[m.node] = (values[m.from] + values[m.to]) / 2;
+  return values;
+}
+
+fem::SectorMesh SectorTopology::place(const Profile& profile, const ProfileParameters& parameters,
+                                      const Eigen::Matrix2Xd& blade_corners,
+                                      const Eigen::Matrix2Xd& disk_corners) const {
+  fem::SectorMesh sector = sector_;
+  sector.sectors = parameters.sectors;
+  sector.mesh.regions[0].thickness = parameters.slot_length;
+  sector.mesh.regions[1].thickness = parameters.chord;
+  sector.mesh.regions[2].thickness = parameters.slot_length;
+  sector.mesh.nodes = positions(profile, blade_corners, disk_corners);
+
+  const std::vector<double> pairs = equal_fractions(2 * (static_cast<int>(flank_fractions_.size()) - 1));
   for (fem::Flank& flank : sector.flanks) {
-    // Travelled in opposite directions, the two lines round differently: make the pairs coincide to the last bit.
-    for (const auto& [blade, disk] : flank.corner_pairs) nodes.col(disk) = nodes.col(blade);
-    for (const auto& [blade, disk] : flank.middle_pairs) nodes.col(disk) = nodes.col(blade);
     const bool left = flank.name == "left";
-    const Vector2d along = nodes.col(flank.corner_pairs.back()[0]) - nodes.col(flank.corner_pairs.front()[0]);
-    flank.tangent = along.normalized();
-    flank.normal =
-        left ? Vector2d(flank.tangent.y(), -flank.tangent.x()) : Vector2d(-flank.tangent.y(), flank.tangent.x());
+    const Vector2d along = sector.mesh.nodes.col(flank.pairs.back()[0]) - sector.mesh.nodes.col(flank.pairs.front()[0]);
+    flank.tangents = along.normalized();
+    flank.normal = left ? Vector2d(along.y(), -along.x()).normalized() : Vector2d(-along.y(), along.x()).normalized();
+    flank.grid = {static_cast<int>(flank_fractions_.size()), 1};
+    flank.interpolation = bilinear_interpolation(flank_fractions_, {0}, pairs, {0});
     const FlankForm form(left ? parameters.left : parameters.right);
-    flank.gap.resize(static_cast<Eigen::Index>(flank_fractions_.size()));
-    for (std::size_t k = 0; k < flank_fractions_.size(); ++k)
-      flank.gap[static_cast<Eigen::Index>(k)] = form.gap(flank_fractions_[k]);
+    flank.position.resize(2, flank.contact_count());
+    flank.gap.resize(flank.contact_count());
+    for (std::size_t k = 0; k < flank_fractions_.size(); ++k) {
+      const Eigen::Index contact = static_cast<Eigen::Index>(k);
+      flank.position.col(contact) = sector.mesh.nodes.col(flank.pairs[2 * k][0]);
+      flank.gap[contact] = form.gap(flank_fractions_[k]);
+    }
   }
   return sector;
 }

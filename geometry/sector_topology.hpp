@@ -9,7 +9,8 @@
 namespace dovetail::geometry {
 
 /// The six-node sector mesh without its positions: everything that does not change while a design moves.
-/// Node order: blade corners, blade mid-sides, disk corners, disk mid-sides. Blade and disk share no nodes.
+/// Node order: blade corners, blade mid-sides, disk corners, disk mid-sides. Blade and disk share no nodes. Pairs of a
+/// flank in order from neck to root side; every second one, from the first on, is a contact node.
 class SectorTopology {
  public:
   /// The chains give the names of the edges; their dimensions do not matter.
@@ -21,6 +22,11 @@ class SectorTopology {
   [[nodiscard]] fem::SectorMesh place(const Profile& profile, const ProfileParameters& parameters,
                                       const Eigen::Matrix2Xd& blade_corners,
                                       const Eigen::Matrix2Xd& disk_corners) const;
+  /// The positions [2, nodes] alone.
+  [[nodiscard]] Eigen::Matrix2Xd positions(const Profile& profile, const Eigen::Matrix2Xd& blade_corners,
+                                           const Eigen::Matrix2Xd& disk_corners) const;
+  /// Values given at the corner nodes of the blade at all nodes: means of the corners at mid-sides, 0 in the disk.
+  [[nodiscard]] Eigen::VectorXd blade_values(const Eigen::VectorXd& at_corners) const;
 
  private:
   struct MiddleNode {

@@ -19,19 +19,21 @@ reduction::ContactNodes contact_nodes(const fem::SectorSystem& system, const Con
   const Eigen::Index count = system.contact.count();
   reduction::ContactNodes nodes;
   nodes.normal.resize(count);
-  nodes.tangential.resize(count, 1);
+  const Eigen::Index directions = system.full.dimensions;
+  nodes.tangential.resize(count, directions - 1);
   for (Eigen::Index i = 0; i < count; ++i) {
-    nodes.normal(i) = static_cast<int>(system.internal_size() + 2 * i);
-    nodes.tangential(i, 0) = nodes.normal(i) + 1;
+    nodes.normal(i) = static_cast<int>(system.internal_size() + directions * i);
+    for (Eigen::Index t = 0; t + 1 < directions; ++t)
+      nodes.tangential(i, t) = nodes.normal(i) + static_cast<int>(t) + 1;
   }
   nodes.area = system.contact.area;
   nodes.gap = system.contact.gap;
   nodes.friction = Eigen::VectorXd::Constant(count, properties.friction);
   nodes.wear_coefficient = Eigen::VectorXd::Constant(count, properties.wear_coefficient);
   nodes.position = Eigen::MatrixX3d::Zero(count, 3);
-  nodes.position.leftCols(2) = system.contact.position.transpose();
+  nodes.position.leftCols(directions) = system.contact.position.transpose();
   nodes.group = system.contact.flank;
-  nodes.slip_origin = Eigen::MatrixXd::Zero(count, 1);
+  nodes.slip_origin = Eigen::MatrixXd::Zero(count, directions - 1);
   return nodes;
 }
 

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "fem/element.hpp"
 #include "fem/stress.hpp"
 #include "fem/stress_aggregate.hpp"
 #include "response/amplitude.hpp"
@@ -55,6 +56,7 @@ FilletStress fillet_stress(const Scene& scene, const CandidateModel& candidate, 
       Eigen::SparseMatrix<double>(operator_full * candidate.system.constraints.transformation));
   const Eigen::MatrixXd coefficients = stress.apply(reduced_coordinates(state), state.force);
 
+  const Eigen::Index components = fem::stress_components(mesh.kind);
   FilletStress result;
   result.nodal = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(nodes.size()));
   for (int phase = 0; phase < kPhases; ++phase) {
@@ -62,7 +64,7 @@ FilletStress fillet_stress(const Scene& scene, const CandidateModel& candidate, 
     const Eigen::VectorXd at = coefficients * response::fourier_row(tau, coefficients.cols());
     for (Eigen::Index i = 0; i < result.nodal.size(); ++i)
       result.nodal(i) =
-          std::max(result.nodal(i), fem::von_mises(at(3 * i), at(3 * i + 1), at(3 * i + 2), poisson_ratio));
+          std::max(result.nodal(i), fem::von_mises(at.segment(components * i, components), poisson_ratio));
   }
   const fem::Aggregate aggregate = fem::kreisselmeier_steinhauser(result.nodal, fem::boundary_weights(mesh, nodes));
   result.aggregate = aggregate.value;

@@ -79,6 +79,18 @@ void require_fields(std::span<const MeshField> fields, int count, const char* wh
   }
 }
 
+/// VTK's number of a cell type and the place in our element of each of its nodes.
+struct CellType {
+  std::uint8_t number;
+  std::vector<int> order;
+};
+
+CellType cell_type(fem::ElementKind kind) {
+  if (kind == fem::ElementKind::triangle6) return {.number = 22, .order = {0, 1, 2, 3, 4, 5}};
+  // Corners, then the middles of the edges of both triangles and of the uprights, then of the nine-node sides.
+  return {.number = 32, .order = {0, 1, 2, 12, 13, 14, 3, 4, 5, 15, 16, 17, 6, 7, 8, 9, 10, 11}};
+}
+
 }  // namespace
 
 std::string vtu(const fem::Mesh& mesh, std::span<const MeshField> point_fields,
@@ -88,20 +100,18 @@ std::string vtu(const fem::Mesh& mesh, std::span<const MeshField> point_fields,
 
   std::vector<double> points;
   points.reserve(static_cast<std::size_t>(3 * mesh.node_count()));
-  for (Eigen::Index i = 0; i < mesh.nodes.cols(); ++i) {
-    points.push_back(mesh.nodes(0, i));
-    points.push_back(mesh.nodes(1, i));
-    points.push_back(0.0);
-  }
-  constexpr std::uint8_t kQuadraticTriangle = 22;
+  for (Eigen::Index i = 0; i < mesh.nodes.cols(); ++i)
+    for (Eigen::Index k = 0; k < 3; ++k) points.push_back(k < mesh.nodes.rows() ? mesh.nodes(k, i) : 0.0);
+  const CellType cell = cell_type(mesh.kind);
   std::vector<std::int64_t> connectivity, offsets, region, body;
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    connectivity.insert(connectivity.end(), mesh.elements[e].begin(), mesh.elements[e].end());
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    const std::span<const int> element = mesh.element(e);
+    for (const int place : cell.order) connectivity.push_back(element[static_cast<std::size_t>(place)]);
     offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
-    region.push_back(mesh.region[e]);
-    body.push_back(mesh.regions[static_cast<std::size_t>(mesh.region[e])].body);
+    region.push_back(mesh.region[static_cast<std::size_t>(e)]);
+    body.push_back(mesh.region_of(e).body);
   }
-  const std::vector<std::uint8_t> types(mesh.elements.size(), kQuadraticTriangle);
+  const std::vector<std::uint8_t> types(static_cast<std::size_t>(mesh.element_count()), cell.number);
 
   std::string text =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "

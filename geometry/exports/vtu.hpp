@@ -17,9 +17,10 @@ struct MeshField {
 };
 
 /// The mesh as quadratic triangles (VTK cell type 22: corners 0, 1, 2, then the middles of 01, 12, 20, the order of
-/// fem::Mesh) with point and cell fields; region and body of every element are added as "region" and "body". VTK XML
-/// UnstructuredGrid, numbers as inline base64, little endian; m.
-/// Throws InputError when a field's size does not fit the mesh or two fields share a name.
+/// fem::Mesh) or as 18-node wedges (VTK_BIQUADRATIC_QUADRATIC_WEDGE, 32: lower and upper corners, edges of the lower
+/// and the upper triangle, uprights, sides) with point and cell fields; region and body of every element are added as
+/// "region" and "body". VTK XML UnstructuredGrid, numbers as inline base64, little endian; m. Throws InputError when a
+/// field's size does not fit the mesh or two fields share a name.
 [[nodiscard]] std::string vtu(const fem::Mesh& mesh, std::span<const MeshField> point_fields,
                               std::span<const MeshField> cell_fields = {});
 

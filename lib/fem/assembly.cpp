@@ -1,6 +1,7 @@
 #include "fem/assembly.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <string>
 
@@ -16,10 +17,16 @@ void check(const Mesh& mesh) {
   const auto report = [&](const std::string& key, const std::string& value, const std::string& allowed) {
     found.push_back({.file = {}, .key = key, .value = value, .allowed = allowed});
   };
-  if (mesh.region.size() != mesh.elements.size())
+  if (mesh.nodes.rows() != mesh.dimensions())
+    report("mesh.nodes", std::to_string(mesh.nodes.rows()),
+           "must have " + std::to_string(mesh.dimensions()) + " coordinates for this kind of element");
+  const std::size_t elements = static_cast<std::size_t>(mesh.element_count());
+  if (mesh.connectivity.size() != elements * static_cast<std::size_t>(mesh.nodes_per_element()))
+    report("mesh.connectivity", std::to_string(mesh.connectivity.size()), "must be a multiple of the element's nodes");
+  if (mesh.region.size() != elements)
     report("mesh.region", std::to_string(mesh.region.size()), "must have one entry per element");
-  for (std::size_t e = 0; e < mesh.elements.size() && found.size() < 10; ++e) {
-    for (int node : mesh.elements[e])
+  for (std::size_t e = 0; e < elements && found.size() < 10; ++e) {
+    for (int node : mesh.element(static_cast<int>(e)))
       if (node < 0 || node >= mesh.node_count())
         report("mesh.elements[" + std::to_string(e) + "]", std::to_string(node), "must be an index of a node");
     if (e < mesh.region.size() &&
@@ -27,7 +34,7 @@ void check(const Mesh& mesh) {
       report("mesh.region[" + std::to_string(e) + "]", std::to_string(mesh.region[e]), "must be an index of a region");
   }
   for (const Region& region : mesh.regions)
-    if (!(region.thickness > 0))
+    if (mesh.dimensions() == 2 && !(region.thickness > 0))
       report("mesh.regions." + region.name + ".thickness", std::to_string(region.thickness), "must be > 0");
   if (!found.empty()) throw InputError(found);
 }
@@ -53,19 +60,59 @@ void check(const Mesh& mesh, std::span<const Material> materials) {
   if (!found.empty()) throw InputError(found);
 }
 
-const Region& region_of(const Mesh& mesh, std::size_t element) {
-  return mesh.regions[static_cast<std::size_t>(mesh.region[element])];
+/// Thickness that multiplies the integrals over an element.
+double thickness_of(const Mesh& mesh, int element) {
+  return mesh.dimensions() == 2 ? mesh.region_of(element).thickness : 1.0;
 }
+
+/// Where the values of one element go.
+template <class Element>
+class Scatter {
+ public:
+  Scatter(const Mesh& mesh, int element, const std::vector<int>& position, const std::vector<int>& column_length)
+      : position_(position.data() + static_cast<std::ptrdiff_t>(kBlocks) * element) {
+    const std::span<const int> nodes = mesh.element(element);
+    for (std::size_t b = 0; b < kNodes; ++b) column_[b] = column_length[static_cast<std::size_t>(nodes[b])];
+  }
+
+  void add(const ElementMatrix<Element>& values, double* target) const {
+    for (std::size_t b = 0; b < kNodes; ++b)
+      for (std::size_t a = 0; a < kNodes; ++a) {
+        double* first = target + position_[kNodes * b + a];
+        const double* source = values.data() + kDofs * (d * b) + d * a;
+        for (std::size_t j = 0; j < d; ++j)
+          for (std::size_t i = 0; i < d; ++i)
+            first[j * static_cast<std::size_t>(column_[b]) + i] += source[kDofs * j + i];
+      }
+  }
+
+  /// A matrix of one component, the same for all of them.
+  void add(const ScalarMatrix<Element>& values, double* target) const {
+    for (std::size_t b = 0; b < kNodes; ++b)
+      for (std::size_t a = 0; a < kNodes; ++a) {
+        double* first = target + position_[kNodes * b + a];
+        const double value = values.data()[kNodes * b + a];
+        for (std::size_t j = 0; j < d; ++j) first[j * static_cast<std::size_t>(column_[b]) + j] += value;
+      }
+  }
+
+ private:
+  static constexpr std::size_t d = Element::kDimensions, kNodes = Element::kNodes, kDofs = kElementDofs<Element>;
+  static constexpr std::size_t kBlocks = kNodes * kNodes;
+  const int* position_;
+  std::array<int, kNodes> column_{};
+};
 
 }  // namespace
 
-Assembler::Assembler(const Mesh& mesh) : elements_(mesh.elements.size()) {
+Assembler::Assembler(const Mesh& mesh) : elements_(mesh.element_count()) {
   check(mesh);
   const std::size_t n = static_cast<std::size_t>(mesh.node_count());
+  const std::size_t d = static_cast<std::size_t>(mesh.dimensions());
   std::vector<std::vector<int>> neighbours(n);
-  for (const std::array<int, 6>& element : mesh.elements)
-    for (int a : element)
-      for (int b : element) neighbours[static_cast<std::size_t>(a)].push_back(b);
+  for (int e = 0; e < elements_; ++e)
+    for (int a : mesh.element(e))
+      for (int b : mesh.element(e)) neighbours[static_cast<std::size_t>(a)].push_back(b);
   std::size_t blocks = 0;
   for (std::vector<int>& list : neighbours) {
     std::sort(list.begin(), list.end());
@@ -73,106 +120,93 @@ Assembler::Assembler(const Mesh& mesh) : elements_(mesh.elements.size()) {
     blocks += list.size();
   }
 
-  const Eigen::Index dofs = 2 * static_cast<Eigen::Index>(n);
+  const Eigen::Index dofs = static_cast<Eigen::Index>(d * n);
   pattern_.resize(dofs, dofs);
-  pattern_.resizeNonZeros(static_cast<Eigen::Index>(4 * blocks));
+  pattern_.resizeNonZeros(static_cast<Eigen::Index>(d * d * blocks));
   int* outer = pattern_.outerIndexPtr();
   int* inner = pattern_.innerIndexPtr();
   column_length_.resize(n);
   int next = 0;
   for (std::size_t node = 0; node < n; ++node) {
-    column_length_[node] = static_cast<int>(2 * neighbours[node].size());
-    for (std::size_t c = 0; c < 2; ++c) {
-      outer[2 * node + c] = next;
-      for (int neighbour : neighbours[node]) {
-        inner[next++] = 2 * neighbour;
-        inner[next++] = 2 * neighbour + 1;
-      }
+    column_length_[node] = static_cast<int>(d * neighbours[node].size());
+    for (std::size_t c = 0; c < d; ++c) {
+      outer[d * node + c] = next;
+      for (int neighbour : neighbours[node])
+        for (int i = 0; i < static_cast<int>(d); ++i) inner[next++] = static_cast<int>(d) * neighbour + i;
     }
   }
-  outer[2 * n] = next;
+  outer[d * n] = next;
   std::fill(pattern_.valuePtr(), pattern_.valuePtr() + next, 0.0);
 
-  position_.resize(36 * elements_);
-  std::size_t k = 0;
-  for (const std::array<int, 6>& element : mesh.elements)
-    for (int b : element) {
+  position_.reserve(mesh.connectivity.size() * static_cast<std::size_t>(mesh.nodes_per_element()));
+  for (int e = 0; e < elements_; ++e)
+    for (int b : mesh.element(e)) {
       const std::vector<int>& list = neighbours[static_cast<std::size_t>(b)];
-      for (int a : element)
-        position_[k++] =
-            outer[2 * b] + 2 * static_cast<int>(std::lower_bound(list.begin(), list.end(), a) - list.begin());
+      const int start = outer[d * static_cast<std::size_t>(b)];
+      for (int a : mesh.element(e))
+        position_.push_back(start + static_cast<int>(d) *
+                                        static_cast<int>(std::lower_bound(list.begin(), list.end(), a) - list.begin()));
     }
-}
-
-void Assembler::scatter(const Mesh& mesh, std::size_t element, const double* values, double* target) const {
-  const int* position = position_.data() + 36 * element;
-  for (std::size_t b = 0; b < 6; ++b) {
-    const int second = column_length_[static_cast<std::size_t>(mesh.elements[element][b])];
-    for (std::size_t a = 0; a < 6; ++a) {
-      double* first_column = target + position[6 * b + a];
-      const double* source = values + 24 * b + 2 * a;  // column-major 12 x 12
-      first_column[0] += source[0];
-      first_column[1] += source[1];
-      first_column[second] += source[12];
-      first_column[second + 1] += source[13];
-    }
-  }
 }
 
 FullMatrices Assembler::stiffness_and_mass(const Mesh& mesh, std::span<const Material> materials) const {
-  assert(mesh.elements.size() == elements_ && 2 * mesh.node_count() == pattern_.rows());
+  assert(mesh.element_count() == elements_ && mesh.dimensions() * mesh.node_count() == pattern_.rows());
   check(mesh, materials);
-  FullMatrices full{pattern_, pattern_};
-  std::vector<Eigen::Matrix3d> elasticities;
-  for (const Region& region : mesh.regions)
-    elasticities.push_back(elasticity(materials[static_cast<std::size_t>(region.body)], region.plane_stress));
-  ElementMatrix stiffness, mass;
-  for (std::size_t e = 0; e < elements_; ++e) {
-    const Region& region = region_of(mesh, e);
-    const double density = materials[static_cast<std::size_t>(region.body)].density;
-    const double determinant =
-        fem::stiffness_and_mass(element_nodes(mesh, e), elasticities[static_cast<std::size_t>(mesh.region[e])], density,
-                                region.thickness, stiffness, mass);
-    if (!(determinant > 0))
-      throw InputError({.file = {},
-                        .key = "mesh.elements[" + std::to_string(e) + "]",
-                        .value = std::to_string(determinant),
-                        .allowed = "must have a positive Jacobian determinant (the element is inverted)"});
-    scatter(mesh, e, stiffness.data(), full.stiffness.valuePtr());
-    scatter(mesh, e, mass.data(), full.mass.valuePtr());
-  }
+  FullMatrices full{mesh.dimensions(), pattern_, pattern_};
+  with_element(mesh.kind, [&]<class Element>(Element) {
+    std::vector<Elasticity<Element>> elasticities;
+    for (const Region& region : mesh.regions)
+      elasticities.push_back(
+          elasticity<Element>(materials[static_cast<std::size_t>(region.body)], region.plane_stress));
+    ElementMatrix<Element> stiffness;
+    ScalarMatrix<Element> mass;
+    for (int e = 0; e < elements_; ++e) {
+      const std::size_t region = static_cast<std::size_t>(mesh.region[static_cast<std::size_t>(e)]);
+      const double density = materials[static_cast<std::size_t>(mesh.regions[region].body)].density;
+      const double determinant = fem::stiffness_and_mass<Element>(element_nodes<Element>(mesh, e), elasticities[region],
+                                                                  density, thickness_of(mesh, e), stiffness, mass);
+      if (!(determinant > 0))
+        throw InputError({.file = {},
+                          .key = "mesh.elements[" + std::to_string(e) + "]",
+                          .value = std::to_string(determinant),
+                          .allowed = "must have a positive Jacobian determinant (the element is inverted)"});
+      const Scatter<Element> scatter(mesh, e, position_, column_length_);
+      scatter.add(stiffness, full.stiffness.valuePtr());
+      scatter.add(mass, full.mass.valuePtr());
+    }
+  });
   return full;
 }
 
 Eigen::SparseMatrix<double> Assembler::geometric_stiffness(const Mesh& mesh, const StressField& stress) const {
-  assert(mesh.elements.size() == elements_);
-  assert(stress.cols() == static_cast<Eigen::Index>(kQuadraturePoints * elements_));
+  assert(mesh.element_count() == elements_);
+  assert(stress.rows() == stress_components(mesh.kind) && stress.cols() == quadrature_points(mesh.kind) * elements_);
   Eigen::SparseMatrix<double> full = pattern_;
-  ElementMatrix stiffness;
-  for (std::size_t e = 0; e < elements_; ++e) {
-    fem::geometric_stiffness(element_nodes(mesh, e),
-                             stress.middleCols<kQuadraturePoints>(static_cast<Eigen::Index>(kQuadraturePoints * e)),
-                             region_of(mesh, e).thickness, stiffness);
-    scatter(mesh, e, stiffness.data(), full.valuePtr());
-  }
+  with_element(mesh.kind, [&]<class Element>(Element) {
+    ScalarMatrix<Element> stiffness;
+    for (int e = 0; e < elements_; ++e) {
+      const PointStress<Element> of_element = stress.middleCols<Element::kPoints>(Element::kPoints * e);
+      fem::geometric_stiffness<Element>(element_nodes<Element>(mesh, e), of_element, thickness_of(mesh, e), stiffness);
+      Scatter<Element>(mesh, e, position_, column_length_).add(stiffness, full.valuePtr());
+    }
+  });
   return full;
 }
 
 Eigen::VectorXd centrifugal_load(const Eigen::SparseMatrix<double>& mass, const Mesh& mesh) {
-  return mass * mesh.nodes.reshaped();
+  Eigen::MatrixXd from_axis = mesh.nodes;
+  if (mesh.dimensions() == 3) from_axis.row(2).setZero();
+  return mass * from_axis.reshaped();
 }
 
 double body_mass(const Mesh& mesh, std::span<const Material> materials, int body) {
   double total = 0;
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    const Region& region = region_of(mesh, e);
-    if (region.body != body) continue;
-    const ElementNodes nodes = element_nodes(mesh, e);
-    double area = 0;
-    for (const QuadraturePoint& point : quadrature())
-      area += point.weight * plane_gradients(nodes, point.xi, point.eta).determinant;
-    total += materials[static_cast<std::size_t>(body)].density * region.thickness * area;
-  }
+  with_element(mesh.kind, [&]<class Element>(Element) {
+    for (int e = 0; e < mesh.element_count(); ++e)
+      if (mesh.region_of(e).body == body)
+        total += materials[static_cast<std::size_t>(body)].density * thickness_of(mesh, e) *
+                 element_moments<Element>(element_nodes<Element>(mesh, e)).volume;
+  });
   return total;
 }
 

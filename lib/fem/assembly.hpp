@@ -10,14 +10,16 @@
 
 namespace dovetail::fem {
 
-/// Stress (xx, yy, xy) at the quadrature points, Pa: [3, 6 elements], the six points of an element in a row.
-using StressField = Eigen::Matrix3Xd;
+/// Stress at the quadrature points, Pa: [3, 6 elements] (xx, yy, xy) in the plane, [6, 18 elements]
+/// (xx, yy, zz, xy, yz, zx) in space, the points of an element in a row.
+using StressField = Eigen::MatrixXd;
 
-/// Full matrices over all nodes, dof 2 i + c for component c of node i. They share one pattern (explicit
-/// zeros included), so their values may be combined and a symbolic factorisation reused.
+/// Full matrices over all nodes, dof d i + c for component c of node i in d dimensions. They share one pattern
+/// (explicit zeros included), so their values may be combined and a symbolic factorisation reused.
 struct FullMatrices {
-  Eigen::SparseMatrix<double> stiffness;  ///< [2n, 2n] N/m, both triangles
-  Eigen::SparseMatrix<double> mass;       ///< [2n, 2n] kg
+  int dimensions = 2;                     ///< d
+  Eigen::SparseMatrix<double> stiffness;  ///< [d n, d n] N/m, both triangles
+  Eigen::SparseMatrix<double> mass;       ///< [d n, d n] kg
 };
 
 /// Knows the pattern of a mesh topology and where each element's entries go; fills in values for any node
@@ -36,18 +38,17 @@ class Assembler {
   [[nodiscard]] const Eigen::SparseMatrix<double>& pattern() const { return pattern_; }
 
  private:
-  void scatter(const Mesh& mesh, std::size_t element, const double* values, double* target) const;
-
+  /// [elements, N, N] where the block of nodes (a, b) begins, b outer, in the first column of b; its next columns
+  /// follow at distances of column_length_.
+  std::vector<int> position_;
+  std::vector<int> column_length_;  ///< [n]
   Eigen::SparseMatrix<double> pattern_;
-  std::vector<int>
-      position_;  ///< [elements, 6, 6] first value of node block (a, b) in column 2 b; the second column follows
-  std::vector<int> column_length_;
-  std::size_t elements_ = 0;
+  int elements_ = 0;
 };
 
-/// f = M r with the position vectors r from the axis: centrifugal load for Omega^2 = 1, N/(rad/s)^2. Exact to
-/// the element's quadrature because positions are interpolated like displacements. The load's change with
-/// displacement is the spin softening -Omega^2 M.
+/// f = M r with the vectors r from the axis (x, y; z is along it): centrifugal load for Omega^2 = 1, N/(rad/s)^2. Exact
+/// to the element's quadrature because positions are interpolated like displacements. The load's change with
+/// displacement is the spin softening -Omega^2 M of x and y.
 [[nodiscard]] Eigen::VectorXd centrifugal_load(const Eigen::SparseMatrix<double>& mass, const Mesh& mesh);
 
 /// Mass of all regions of a body, kg (of one sector).

@@ -16,34 +16,72 @@ namespace {
   throw InputError({.file = {}, .key = key, .value = value, .allowed = allowed});
 }
 
-/// What a node's displacement is made of.
-enum class Role { free, bore, right_cut, blade_flank };
+/// What a node's displacement is made of, besides its supports.
+enum class Role { free, right_cut, blade_flank };
 
-void assign(std::vector<Role>& roles, const SectorMesh& sector, int node, Role role, const char* list) {
-  if (node < 0 || node >= sector.mesh.node_count()) refuse(list, std::to_string(node), "must be an index of a node");
-  Role& current = roles[static_cast<std::size_t>(node)];
-  // A bore node on the right cut follows its partner, which is a bore node too.
-  if (current == Role::bore && role == Role::right_cut) current = Role::free;
-  if (current != Role::free) refuse(list, std::to_string(node), "must not be constrained twice");
-  current = role;
-}
+/// Roles and supports of all nodes. Followers have the supports of the node they follow.
+struct NodeRoles {
+  std::vector<Role> role;
+  std::vector<bool> bore, axial;
 
-std::vector<Role> roles_of(const SectorMesh& sector, BoreSupport bore) {
-  std::vector<Role> roles(static_cast<std::size_t>(sector.mesh.node_count()), Role::free);
-  if (bore != BoreSupport::free)
-    for (int node : sector.bore_nodes) assign(roles, sector, node, Role::bore, "sector.bore_nodes");
-  for (const std::array<int, 2>& pair : sector.cyclic_pairs)
-    assign(roles, sector, pair[1], Role::right_cut, "sector.cyclic_pairs");
-  for (const Flank& flank : sector.flanks) {
-    if (flank.corner_pairs.size() < 2 || flank.middle_pairs.size() + 1 != flank.corner_pairs.size())
-      refuse("sector.flanks." + flank.name, std::to_string(flank.corner_pairs.size()),
-             "must have at least two corner pairs and one middle pair between neighbours");
-    for (const std::array<int, 2>& pair : flank.corner_pairs)
-      assign(roles, sector, pair[0], Role::blade_flank, "sector.flanks.corner_pairs");
-    for (const std::array<int, 2>& pair : flank.middle_pairs)
-      assign(roles, sector, pair[0], Role::blade_flank, "sector.flanks.middle_pairs");
+  NodeRoles(const SectorMesh& sector, BoreSupport support)
+      : role(static_cast<std::size_t>(sector.mesh.node_count()), Role::free),
+        bore(role.size(), false),
+        axial(role.size(), false) {
+    if (support != BoreSupport::free)
+      for (int node : sector.bore_nodes) bore[index(node, "sector.bore_nodes")] = true;
+    if (!sector.axial_nodes.empty() && sector.mesh.dimensions() != 3)
+      refuse("sector.axial_nodes", std::to_string(sector.axial_nodes.size()), "must be empty in the plane");
+    for (int node : sector.axial_nodes) axial[index(node, "sector.axial_nodes")] = true;
+    for (const auto& [left, right] : sector.cyclic_pairs) {
+      const std::size_t from = index(left, "sector.cyclic_pairs"), to = index(right, "sector.cyclic_pairs");
+      if (bore[from] != bore[to] || axial[from] != axial[to])
+        refuse("sector.cyclic_pairs", std::to_string(left) + ", " + std::to_string(right),
+               "must be supported in the same way on both cuts");
+      follow(to, Role::right_cut, "sector.cyclic_pairs");
+    }
+    for (const Flank& flank : sector.flanks)
+      for (const auto& [blade, disk] : flank.pairs) {
+        (void)index(disk, "sector.flanks.pairs");
+        follow(index(blade, "sector.flanks.pairs"), Role::blade_flank, "sector.flanks.pairs");
+      }
   }
-  return roles;
+
+ private:
+  [[nodiscard]] std::size_t index(int node, const char* list) const {
+    if (node < 0 || static_cast<std::size_t>(node) >= role.size())
+      refuse(list, std::to_string(node), "must be an index of a node");
+    return static_cast<std::size_t>(node);
+  }
+  void follow(std::size_t node, Role as, const char* list) {
+    if (role[node] != Role::free) refuse(list, std::to_string(node), "must not be constrained twice");
+    role[node] = as;
+  }
+};
+
+void check(const Flank& flank, int dimensions) {
+  const std::string key = "sector.flanks." + flank.name;
+  const int count = flank.contact_count();
+  if (flank.grid[0] < 2 || flank.grid[1] < 1)
+    refuse(key + ".grid", std::to_string(flank.grid[0]) + " x " + std::to_string(flank.grid[1]),
+           "must be at least 2 contact nodes along the flank and 1 along the slot");
+  if (flank.position.rows() != dimensions || flank.position.cols() != count)
+    refuse(key + ".position", std::to_string(flank.position.rows()) + " x " + std::to_string(flank.position.cols()),
+           "must be one point per contact node");
+  if (flank.interpolation.rows() != static_cast<Eigen::Index>(flank.pairs.size()) ||
+      flank.interpolation.cols() != count)
+    refuse(key + ".interpolation",
+           std::to_string(flank.interpolation.rows()) + " x " + std::to_string(flank.interpolation.cols()),
+           "must have a row per pair and a column per contact node");
+  const Eigen::VectorXd sums = flank.interpolation * Eigen::VectorXd::Ones(count);
+  if (!((sums.array() - 1).abs() <= 1e-9).all()) refuse(key + ".interpolation", "rows", "must sum to 1");
+  if (flank.normal.size() != dimensions || flank.tangents.rows() != dimensions ||
+      flank.tangents.cols() != dimensions - 1)
+    refuse(key + ".normal, tangents", std::to_string(flank.normal.size()), "must be as many as dimensions");
+  Eigen::MatrixXd frame(dimensions, dimensions);
+  frame << flank.normal, flank.tangents;
+  if (!((frame.transpose() * frame - Eigen::MatrixXd::Identity(dimensions, dimensions)).norm() <= 1e-9))
+    refuse(key + ".normal, tangents", "frame", "must be orthonormal");
 }
 
 /// Collects the rows of T. Nodes that follow another one take its finished rows.
@@ -51,8 +89,9 @@ template <class Scalar>
 class TransformationBuilder {
  public:
   TransformationBuilder(const SectorMesh& sector, BoreSupport bore, Scalar phase_factor)
-      : sector_(sector), bore_(bore), phase_factor_(phase_factor), roles_(roles_of(sector, bore)) {
-    rows_.resize(2 * roles_.size());
+      : sector_(sector), d_(sector.mesh.dimensions()), bore_(bore), phase_factor_(phase_factor), roles_(sector, bore) {
+    for (const Flank& flank : sector.flanks) check(flank, d_);
+    rows_.resize(static_cast<std::size_t>(d_) * roles_.role.size());
   }
 
   Constraints<Scalar> build() {
@@ -78,59 +117,57 @@ class TransformationBuilder {
   };
   using Row = std::vector<Term>;
 
-  Row& row(int node, int component) { return rows_[static_cast<std::size_t>(2 * node + component)]; }
+  Row& row(int node, int component) { return rows_[static_cast<std::size_t>(d_ * node + component)]; }
 
   void number_internal() {
     for (int node = 0; node < sector_.mesh.node_count(); ++node) {
-      const Role role = roles_[static_cast<std::size_t>(node)];
-      if (role == Role::free) {
+      const std::size_t k = static_cast<std::size_t>(node);
+      if (roles_.role[k] != Role::free) continue;
+      if (!roles_.bore[k]) {
         for (int c = 0; c < 2; ++c) row(node, c).push_back({columns_++, Scalar(1)});
-      } else if (role == Role::bore && bore_ == BoreSupport::tangential) {
-        const Eigen::Vector2d radial = sector_.mesh.nodes.col(node).normalized();
+      } else if (bore_ == BoreSupport::tangential) {
+        const Eigen::Vector2d radial = sector_.mesh.nodes.col(node).head<2>().normalized();
         for (int c = 0; c < 2; ++c) row(node, c).push_back({columns_, Scalar(radial[c])});
         ++columns_;
       }
+      const bool held = roles_.axial[k] || (roles_.bore[k] && bore_ == BoreSupport::fixed);
+      if (d_ == 3 && !held) row(node, 2).push_back({columns_++, Scalar(1)});
     }
     internal_ = columns_;
   }
 
   void follow_cuts() {
     const double angle = -2 * std::numbers::pi / sector_.sectors;
-    Eigen::Matrix2d rotation;
-    rotation << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+    Eigen::MatrixXd rotation = Eigen::MatrixXd::Identity(d_, d_);
+    rotation.topLeftCorner<2, 2>() << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
     for (const std::array<int, 2>& pair : sector_.cyclic_pairs) {
-      const Eigen::Vector2d left = sector_.mesh.nodes.col(pair[0]), right = sector_.mesh.nodes.col(pair[1]);
+      const Eigen::VectorXd left = sector_.mesh.nodes.col(pair[0]), right = sector_.mesh.nodes.col(pair[1]);
       if (!((rotation * left - right).norm() <= 1e-7 * right.norm()))
         refuse("sector.cyclic_pairs", std::to_string(pair[0]) + ", " + std::to_string(pair[1]),
                "must be a node of the left cut and its image on the right cut");
-      for (int c = 0; c < 2; ++c)
-        for (int d = 0; d < 2; ++d) append(row(pair[1], c), row(pair[0], d), phase_factor_ * rotation(c, d));
+      for (int c = 0; c < d_; ++c)
+        for (int e = 0; e < d_; ++e)
+          if (rotation(c, e) != 0) append(row(pair[1], c), row(pair[0], e), phase_factor_ * rotation(c, e));
     }
   }
 
   void follow_flanks() {
     for (const Flank& flank : sector_.flanks) {
-      const Eigen::Index first = columns_;
-      columns_ += 2 * static_cast<Eigen::Index>(flank.corner_pairs.size());
-      for (std::size_t k = 0; k < flank.corner_pairs.size(); ++k)
-        follow(flank, flank.corner_pairs[k], first + 2 * static_cast<Eigen::Index>(k), 1.0);
-      for (std::size_t k = 0; k < flank.middle_pairs.size(); ++k) {
-        follow(flank, flank.middle_pairs[k], first + 2 * static_cast<Eigen::Index>(k), 0.5);
-        add_relative(flank, flank.middle_pairs[k][0], first + 2 * static_cast<Eigen::Index>(k + 1), 0.5);
+      Eigen::MatrixXd frame(d_, d_);  // columns n, t1[, t2]
+      frame << flank.normal, flank.tangents;
+      const Eigen::SparseMatrix<double, Eigen::RowMajor> interpolation = flank.interpolation;
+      for (std::size_t p = 0; p < flank.pairs.size(); ++p) {
+        const auto& [blade, disk] = flank.pairs[p];
+        for (int c = 0; c < d_; ++c) append(row(blade, c), row(disk, c), Scalar(1));
+        for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator weight(interpolation,
+                                                                                static_cast<Eigen::Index>(p));
+             weight; ++weight)
+          for (int c = 0; c < d_; ++c)
+            for (int k = 0; k < d_; ++k)
+              if (frame(c, k) != 0)
+                row(blade, c).push_back({columns_ + d_ * weight.col() + k, Scalar(weight.value() * frame(c, k))});
       }
-    }
-  }
-
-  /// u_blade = u_disk + factor (n u_N + t u_T).
-  void follow(const Flank& flank, const std::array<int, 2>& pair, Eigen::Index column, double factor) {
-    for (int c = 0; c < 2; ++c) append(row(pair[0], c), row(pair[1], c), Scalar(1));
-    add_relative(flank, pair[0], column, factor);
-  }
-
-  void add_relative(const Flank& flank, int node, Eigen::Index column, double factor) {
-    for (int c = 0; c < 2; ++c) {
-      row(node, c).push_back({column, Scalar(factor * flank.normal[c])});
-      row(node, c).push_back({column + 1, Scalar(factor * flank.tangent[c])});
+      columns_ += d_ * static_cast<Eigen::Index>(flank.contact_count());
     }
   }
 
@@ -146,9 +183,10 @@ class TransformationBuilder {
   }
 
   const SectorMesh& sector_;
+  const int d_;
   BoreSupport bore_;
   Scalar phase_factor_;
-  std::vector<Role> roles_;
+  NodeRoles roles_;
   std::vector<Row> rows_;
   Eigen::Index columns_ = 0, internal_ = 0;
 };

@@ -8,26 +8,28 @@
 
 namespace dovetail::fem {
 
-/// How the disk is held at its bore, the same at every nodal diameter.
+/// How the disk is held at its bore, the same at every nodal diameter. Axially it is held at SectorMesh::axial_nodes.
 enum class BoreSupport {
-  tangential,  ///< radially free, no tangential displacement: a splined drum; stops the rigid rotation
+  tangential,  ///< radially and axially free, no tangential displacement: a splined drum; stops the rigid rotation
   fixed,       ///< no displacement at all
   free,        ///< no support: nodal diameters 0 and 1 then have rigid motions
 };
 
-/// u_full = T x. Columns of T: internal dofs first, then the relative contact displacements, N and T of
-/// each corner pair in turn, flank by flank. With n, t the flank's normal (out of the blade) and tangent,
+/// u_full = T x. Columns of T: internal dofs first, then the relative contact displacements, N, T1[, T2] of each
+/// contact node in turn, flank by flank. With n, t1, t2 the flank's normal (out of the blade) and tangents,
 ///
-///   u_blade = u_disk + n u_N + t u_T        (u_N closing positive)
+///   u_blade = u_disk + n u_N + t1 u_T1 [+ t2 u_T2]        (u_N closing positive)
 ///
-/// at corner pairs; at mid-side pairs with the mean of the two neighbouring corner pairs. Cut nodes:
-/// u_right = R u_left exp(i phase), R the rotation by -2 pi / sectors that carries the left cut onto the right one
-/// and phase = 2 pi nodal_diameter / sectors. Bore nodes keep their radial dof (see BoreSupport).
+/// at every matched pair, u_N, u_T1, u_T2 interpolated between the contact nodes by Flank::interpolation. Cut nodes:
+/// u_right = R u_left exp(i phase), R the rotation by -2 pi / sectors about z that carries the left cut onto the right
+/// one and phase = 2 pi nodal_diameter / sectors. Bore nodes keep their radial (and axial) dof, see BoreSupport; axial
+/// nodes have no u_z. A node on the right cut follows its partner, which must be supported in the same way; a blade
+/// node of a flank follows the disk whatever its supports.
 template <class Scalar>
 struct Constraints {
-  Eigen::SparseMatrix<Scalar> transformation;  ///< T [2n, m]
+  Eigen::SparseMatrix<Scalar> transformation;  ///< T [d n, m]
   Eigen::Index internal_count = 0;             ///< internal dofs
-  Eigen::Index contact_count = 0;              ///< contact dofs, 2 per corner pair; m is the sum
+  Eigen::Index contact_count = 0;              ///< contact dofs, d per contact node; m is the sum
 
   [[nodiscard]] Eigen::Index size() const { return internal_count + contact_count; }
 };

@@ -1,30 +1,58 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
+#include <cassert>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace dovetail::fem {
 
-/// A part of the section with one material and one thickness out of the plane.
+/// Finite elements a mesh may be made of; one kind per mesh.
+enum class ElementKind {
+  triangle6,  ///< plane: six-node triangle, corners 0,1,2 counter-clockwise, then the mid-sides of 01, 12, 20
+  /// space: six-node triangle times three-node line. Layer by layer, each in the order of triangle6: nodes 0-5 at
+  /// zeta = -1 (lower z), 6-11 at zeta = 0, 12-17 at zeta = +1.
+  wedge18,
+};
+
+[[nodiscard]] constexpr int dimensions(ElementKind kind) {
+  return kind == ElementKind::triangle6 ? 2 : 3;
+}
+[[nodiscard]] constexpr int nodes_per_element(ElementKind kind) {
+  return kind == ElementKind::triangle6 ? 6 : 18;
+}
+
+/// A part of the body with one material and, in the plane, one thickness.
 struct Region {
   std::string name;           ///< "blade_root", "aerofoil", "disk"
   int body = 0;               ///< 0 blade, 1 disk: index into the list of materials
-  double thickness = 1.0;     ///< m, > 0
-  bool plane_stress = false;  ///< false: plane strain
+  double thickness = 1.0;     ///< m, > 0; counts in the plane only
+  bool plane_stress = false;  ///< false: plane strain; counts in the plane only
 };
 
-/// Plane mesh of six-node triangles: corners 0,1,2 counter-clockwise, then the mid-side nodes of the
-/// edges 01, 12, 20. Curved edges carry their mid-side node on the true curve.
+/// Quadratic isoparametric mesh in the plane or in space. Curved edges carry their mid-side node on the true curve.
 struct Mesh {
-  Eigen::Matrix2Xd nodes;                    ///< [2, n] positions, m
-  std::vector<std::array<int, 6>> elements;  ///< node indices
-  std::vector<int> region;                   ///< [elements] index into `regions`
+  ElementKind kind = ElementKind::triangle6;
+  Eigen::MatrixXd nodes;          ///< [d, n] positions, m
+  std::vector<int> connectivity;  ///< node indices, nodes_per_element() for every element in a row
+  std::vector<int> region;        ///< [elements] index into `regions`
   std::vector<Region> regions;
 
+  [[nodiscard]] int dimensions() const { return fem::dimensions(kind); }
+  [[nodiscard]] int nodes_per_element() const { return fem::nodes_per_element(kind); }
   [[nodiscard]] int node_count() const { return static_cast<int>(nodes.cols()); }
-  [[nodiscard]] int element_count() const { return static_cast<int>(elements.size()); }
+  [[nodiscard]] int element_count() const { return static_cast<int>(connectivity.size()) / nodes_per_element(); }
+
+  /// Nodes of an element.
+  [[nodiscard]] std::span<const int> element(int e) const {
+    assert(e >= 0 && e < element_count());
+    const std::size_t count = static_cast<std::size_t>(nodes_per_element());
+    return std::span<const int>(connectivity).subspan(static_cast<std::size_t>(e) * count, count);
+  }
+  [[nodiscard]] const Region& region_of(int e) const {
+    return regions[static_cast<std::size_t>(region[static_cast<std::size_t>(e)])];
+  }
 };
 
 }  // namespace dovetail::fem

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <array>
 #include <string>
 #include <vector>
@@ -9,32 +10,42 @@
 
 namespace dovetail::fem {
 
-/// One bearing flank of the joint: matched node pairs {blade node, disk node} at the same place, in
-/// order from the neck side to the root side. Corner nodes carry the contact: the relative
-/// displacement is linear between neighbouring corner pairs, also at the mid-side pairs, so nodal
-/// areas are positive and pressures do not zigzag.
+/// One bearing flank of the joint. Contact lives on a grid of contact nodes along the flank and, in space, along the
+/// slot; between them the relative displacement is linear (bilinear). The matched node pairs of the mesh follow it,
+/// mid-sides and face centres too, so nodal areas are positive and pressures do not zigzag. The grid need not consist
+/// of nodes of the mesh, but a finer one than the mesh's corner nodes leaves contact nodes without stiffness.
 struct Flank {
-  std::string name;                              ///< "left" or "right"
-  std::vector<std::array<int, 2>> corner_pairs;  ///< [m]
-  std::vector<std::array<int, 2>> middle_pairs;  ///< [m-1], between corner pairs i and i+1
-  Eigen::Vector2d normal;                        ///< unit, out of the blade into the disk
-  Eigen::Vector2d tangent;                       ///< unit, along the flank from neck to root side
-  Eigen::VectorXd gap;                           ///< [m] initial gap g of the unloaded surfaces, m, smallest 0
+  std::string name;               ///< "left" or "right"
+  std::array<int, 2> grid{0, 1};  ///< contact nodes along the flank (neck to root side) and along the slot (1 in the
+                                  ///< plane); node (i, j) has the number i + grid[0] j
+  Eigen::MatrixXd position;       ///< [d, m] contact nodes, m = grid[0] grid[1]
+  std::vector<std::array<int, 2>> pairs;      ///< [p] all matched pairs {blade node, disk node} at the same place
+  Eigen::SparseMatrix<double> interpolation;  ///< [p, m] relative displacement of a pair from those of the contact
+                                              ///< nodes; entries >= 0, rows sum to 1
+  Eigen::VectorXd normal;                     ///< [d] unit, out of the blade into the disk
+  Eigen::MatrixXd tangents;  ///< [d, d-1] orthonormal, orthogonal to the normal: T1 from neck to root side, in space
+                             ///< across the slot; T2 along the slot (towards +z)
+  Eigen::VectorXd gap;       ///< [m] initial gap g of the unloaded surfaces, m, smallest 0; empty: none
+
+  [[nodiscard]] int contact_count() const { return grid[0] * grid[1]; }  ///< m
 };
 
 /// The mesh of one sector of the bladed disk with everything the finite elements need to know about
-/// its boundary. x is the tangential direction at the sector's centre line, y the radial one; the
-/// axis of rotation is the origin.
+/// its boundary. x is the tangential direction at the sector's centre line, y the radial one, z the axial one; the
+/// axis of rotation is the z axis, in the plane the origin.
 struct SectorMesh {
   Mesh mesh;
   std::vector<Flank> flanks;                     ///< left, right
   std::vector<std::array<int, 2>> cyclic_pairs;  ///< {node on the left cut, node on the right cut};
-                                                 ///< right = left rotated by -2 pi / sectors (clockwise)
-  std::vector<int> bore_nodes;                   ///< nodes on the bore arc
+                                                 ///< right = left rotated by -2 pi / sectors about z (clockwise)
+  std::vector<int> bore_nodes;                   ///< nodes on the bore
   int tip_node = -1;                             ///< middle of the aerofoil tip: force and monitored output
   std::vector<int> blade_fillet_nodes;           ///< nodes on the blade's neck fillets (stress is read there)
   std::vector<int> disk_fillet_nodes;            ///< nodes on the slot fillets of the disk
-  std::vector<int> neck_nodes;                   ///< the four points where the neck fillets end, lower ones first
+  std::vector<int> neck_nodes;                   ///< the four points where the neck fillets end, lower ones first; in
+                                                 ///< space those of one cross-section
+  std::vector<int> axial_nodes;  ///< space: nodes with u_z = 0, the disk's axial support (blade nodes of
+                                 ///< a flank do not count: they follow their partners)
   int sectors = 1;
 };
 

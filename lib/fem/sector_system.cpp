@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include "core/errors.hpp"
+#include "fem/stress_aggregate.hpp"
 
 namespace dovetail::fem {
 
@@ -11,41 +13,39 @@ namespace {
 
 // Thickness of the blade along its flank: of an element with that node.
 double flank_thickness(const Mesh& mesh, int node) {
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e)
-    if (std::find(mesh.elements[e].begin(), mesh.elements[e].end(), node) != mesh.elements[e].end())
-      return mesh.regions[static_cast<std::size_t>(mesh.region[e])].thickness;
-  throw InputError(
-      {.file = {}, .key = "sector.flanks", .value = std::to_string(node), .allowed = "must be a node of an element"});
+  if (mesh.dimensions() == 3) return 1;
+  const auto found = std::find(mesh.connectivity.begin(), mesh.connectivity.end(), node);
+  if (found == mesh.connectivity.end())
+    throw InputError(
+        {.file = {}, .key = "sector.flanks", .value = std::to_string(node), .allowed = "must be a node of an element"});
+  return mesh.region_of(static_cast<int>(found - mesh.connectivity.begin()) / mesh.nodes_per_element()).thickness;
 }
 
 }  // namespace
 
 ContactSurface contact_surface(const SectorMesh& sector) {
   Eigen::Index count = 0;
-  for (const Flank& flank : sector.flanks) count += static_cast<Eigen::Index>(flank.corner_pairs.size());
+  for (const Flank& flank : sector.flanks) count += flank.contact_count();
   ContactSurface surface;
-  surface.area = Eigen::VectorXd::Zero(count);
+  surface.area.resize(count);
   surface.gap = Eigen::VectorXd::Zero(count);
-  surface.position.resize(2, count);
+  surface.position.resize(sector.mesh.dimensions(), count);
   surface.flank.resize(count);
   Eigen::Index k = 0;
   for (std::size_t f = 0; f < sector.flanks.size(); ++f) {
     const Flank& flank = sector.flanks[f];
-    const Eigen::Index nodes = static_cast<Eigen::Index>(flank.corner_pairs.size());
+    const Eigen::Index nodes = flank.contact_count();
     if (flank.gap.size() != 0 && flank.gap.size() != nodes)
       throw InputError({.file = {},
                         .key = "sector.flanks." + flank.name + ".gap",
                         .value = std::to_string(flank.gap.size()),
-                        .allowed = "must have one entry per corner pair"});
-    const double thickness = flank_thickness(sector.mesh, flank.corner_pairs.front()[0]);
-    for (Eigen::Index i = 0; i < nodes; ++i) {
-      surface.position.col(k + i) = sector.mesh.nodes.col(flank.corner_pairs[static_cast<std::size_t>(i)][0]);
-      surface.flank[k + i] = static_cast<int>(f);
-      if (i == 0) continue;
-      const double half = 0.5 * thickness * (surface.position.col(k + i) - surface.position.col(k + i - 1)).norm();
-      surface.area[k + i - 1] += half;
-      surface.area[k + i] += half;
-    }
+                        .allowed = "must have one entry per contact node"});
+    std::vector<int> blade;
+    for (const std::array<int, 2>& pair : flank.pairs) blade.push_back(pair[0]);
+    surface.area.segment(k, nodes) = flank_thickness(sector.mesh, blade.front()) *
+                                     (flank.interpolation.transpose() * boundary_weights(sector.mesh, blade));
+    surface.position.middleCols(k, nodes) = flank.position;
+    surface.flank.segment(k, nodes).setConstant(static_cast<int>(f));
     if (flank.gap.size() == nodes) surface.gap.segment(k, nodes) = flank.gap;
     k += nodes;
   }
@@ -64,7 +64,7 @@ SectorSystem build_sector_system(const SectorMesh& sector, std::span<const Mater
   system.tip = Eigen::VectorXd::Zero(system.constraints.size());
   if (sector.tip_node >= 0) {
     Eigen::VectorXd unit = Eigen::VectorXd::Zero(t.rows());
-    unit[2 * sector.tip_node] = 1;
+    unit[system.full.dimensions * sector.tip_node] = 1;
     system.tip = t.transpose() * unit;
   }
   system.contact = contact_surface(sector);
@@ -74,7 +74,17 @@ SectorSystem build_sector_system(const SectorMesh& sector, std::span<const Mater
 Eigen::SparseMatrix<double> stiffness_at_speed(const FullMatrices& full, const Eigen::SparseMatrix<double>& geometric,
                                                double omega) {
   Eigen::SparseMatrix<double> result = full.stiffness;
-  result.coeffs() += geometric.coeffs() - omega * omega * full.mass.coeffs();
+  const double square = omega * omega;
+  if (full.dimensions == 2) {
+    result.coeffs() += geometric.coeffs() - square * full.mass.coeffs();
+    return result;
+  }
+  for (Eigen::Index column = 0; column < result.cols(); ++column) {
+    const Eigen::Index first = result.outerIndexPtr()[column], count = result.outerIndexPtr()[column + 1] - first;
+    // Mass couples equal components only, so a column of z has nothing but what acts along the axis.
+    result.coeffs().segment(first, count) += geometric.coeffs().segment(first, count);
+    if (column % 3 != 2) result.coeffs().segment(first, count) -= square * full.mass.coeffs().segment(first, count);
+  }
   return result;
 }
 

@@ -10,12 +10,14 @@
 
 namespace dovetail::fem {
 
-/// Contact nodes of a sector in the order of the contact dofs: flank by flank, neck side to root side.
+/// Contact nodes of a sector in the order of the contact dofs: flank by flank, in the order of the flank's grid.
 struct ContactSurface {
-  Eigen::VectorXd area;       ///< [Nc] integral of the linear hat function along the flank times the slot length, m^2
-  Eigen::Matrix2Xd position;  ///< [2, Nc] m
-  Eigen::VectorXi flank;      ///< [Nc] index into SectorMesh::flanks
-  Eigen::VectorXd gap;        ///< [Nc] initial gap, m
+  /// [Nc] m^2: integral over the blade's flank (in the plane times the slot length) of the contact node's hat, that is
+  /// of Flank::interpolation between the nodes of the mesh. So a uniform pressure p gives the contact forces p area.
+  Eigen::VectorXd area;
+  Eigen::MatrixXd position;  ///< [d, Nc] m
+  Eigen::VectorXi flank;     ///< [Nc] index into SectorMesh::flanks
+  Eigen::VectorXd gap;       ///< [Nc] initial gap, m
 
   [[nodiscard]] Eigen::Index count() const { return area.size(); }
 };
@@ -40,13 +42,14 @@ struct SectorSystem {
 [[nodiscard]] SectorSystem build_sector_system(const SectorMesh& sector, std::span<const Material> materials,
                                                const Assembler& assembler, BoreSupport bore = BoreSupport::tangential);
 
-/// K + K_g - Omega^2 M over all nodes: K_g from the stresses of the preloaded state, spin softening in the
-/// plane of rotation. `omega` in rad/s.
+/// K + K_g - Omega^2 M_xy over all nodes: K_g from the stresses of the preloaded state, spin softening in the
+/// plane of rotation only. `omega` in rad/s.
 [[nodiscard]] Eigen::SparseMatrix<double> stiffness_at_speed(const FullMatrices& full,
                                                              const Eigen::SparseMatrix<double>& geometric,
                                                              double omega);
 
-/// Areas, positions and gaps of the contact nodes.
+/// Areas, positions and gaps of the contact nodes. Throws InputError when the pairs of a flank do not cover whole sides
+/// of elements.
 [[nodiscard]] ContactSurface contact_surface(const SectorMesh& sector);
 
 /// The block of the internal dofs: contact dofs held at zero, the blade glued to the disk.

@@ -1,5 +1,6 @@
 #include "fem/stress.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -13,43 +14,73 @@ namespace dovetail::fem {
 
 namespace {
 
-std::vector<Eigen::Matrix3d> elasticities_of(const Mesh& mesh, std::span<const Material> materials) {
-  std::vector<Eigen::Matrix3d> result;
+template <class Element>
+std::vector<Elasticity<Element>> elasticities_of(const Mesh& mesh, std::span<const Material> materials) {
+  std::vector<Elasticity<Element>> result;
   for (const Region& region : mesh.regions) {
     assert(region.body >= 0 && static_cast<std::size_t>(region.body) < materials.size());
-    result.push_back(elasticity(materials[static_cast<std::size_t>(region.body)], region.plane_stress));
+    result.push_back(elasticity<Element>(materials[static_cast<std::size_t>(region.body)], region.plane_stress));
   }
   return result;
+}
+
+/// Strain of a displacement gradient du_i/dx_j.
+template <class Element>
+Eigen::Matrix<double, Element::kStresses, 1> strain_of(
+    const Eigen::Matrix<double, Element::kDimensions, Element::kDimensions>& g) {
+  Eigen::Matrix<double, Element::kStresses, 1> strain;
+  if constexpr (Element::kDimensions == 2)
+    strain << g(0, 0), g(1, 1), g(0, 1) + g(1, 0);
+  else
+    strain << g(0, 0), g(1, 1), g(2, 2), g(0, 1) + g(1, 0), g(1, 2) + g(2, 1), g(2, 0) + g(0, 2);
+  return strain;
+}
+
+/// (xx, yy, zz, xy, yz, zx) of a plane state too.
+Eigen::Matrix<double, 6, 1> in_space(const StressVector& s, double poisson_ratio) {
+  assert(s.size() == 3 || s.size() == 6);
+  if (s.size() == 6) return s;
+  Eigen::Matrix<double, 6, 1> result;
+  result << s[0], s[1], poisson_ratio * (s[0] + s[1]), s[2], 0, 0;
+  return result;
+}
+
+double von_mises_in_space(const Eigen::Matrix<double, 6, 1>& s) {
+  const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
+  return std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
 }
 
 }  // namespace
 
 StressField quadrature_stress(const Mesh& mesh, std::span<const Material> materials,
                               const Eigen::Ref<const Eigen::VectorXd>& displacement) {
-  assert(displacement.size() == 2 * mesh.node_count());
-  const std::vector<Eigen::Matrix3d> elasticities = elasticities_of(mesh, materials);
-  StressField stress(3, static_cast<Eigen::Index>(kQuadraturePoints) * mesh.element_count());
-  Eigen::Index column = 0;
-  ElementNodes u;
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    const ElementNodes nodes = element_nodes(mesh, e);
-    for (std::size_t a = 0; a < 6; ++a)
-      u.col(static_cast<Eigen::Index>(a)) = displacement.segment<2>(2 * mesh.elements[e][a]);
-    const Eigen::Matrix3d& d = elasticities[static_cast<std::size_t>(mesh.region[e])];
-    for (const QuadraturePoint& point : quadrature()) {
-      const Eigen::Matrix2d gradient = u * plane_gradients(nodes, point.xi, point.eta).gradients;
-      stress.col(column++) = d * Eigen::Vector3d(gradient(0, 0), gradient(1, 1), gradient(0, 1) + gradient(1, 0));
+  assert(displacement.size() == mesh.dimensions() * mesh.node_count());
+  StressField stress(stress_components(mesh.kind), quadrature_points(mesh.kind) * mesh.element_count());
+  with_element(mesh.kind, [&]<class Element>(Element) {
+    constexpr int d = Element::kDimensions;
+    const std::vector<Elasticity<Element>> elasticities = elasticities_of<Element>(mesh, materials);
+    Eigen::Index column = 0;
+    ElementNodes<Element> u;
+    for (int e = 0; e < mesh.element_count(); ++e) {
+      const ElementNodes<Element> nodes = element_nodes<Element>(mesh, e);
+      const std::span<const int> indices = mesh.element(e);
+      for (int a = 0; a < Element::kNodes; ++a)
+        u.col(a) = displacement.segment<d>(d * indices[static_cast<std::size_t>(a)]);
+      const Elasticity<Element>& elastic =
+          elasticities[static_cast<std::size_t>(mesh.region[static_cast<std::size_t>(e)])];
+      for (const QuadraturePoint<d>& point : Element::quadrature()) {
+        const Eigen::Matrix<double, d, d> gradient = u * spatial_gradients<Element>(nodes, point.local).gradients;
+        stress.col(column++) = elastic * strain_of<Element>(gradient);
+      }
     }
-  }
+  });
   return stress;
 }
 
 Eigen::SparseMatrix<double> nodal_stress_operator(const Mesh& mesh, std::span<const Material> materials,
                                                   std::span<const int> nodes) {
-  const std::vector<Eigen::Matrix3d> elasticities = elasticities_of(mesh, materials);
   struct Incidence {
-    std::size_t element;
-    int local;
+    int element, local;
   };
   std::vector<int> slot(static_cast<std::size_t>(mesh.node_count()), -1);
   for (std::size_t k = 0; k < nodes.size(); ++k) {
@@ -59,55 +90,71 @@ Eigen::SparseMatrix<double> nodal_stress_operator(const Mesh& mesh, std::span<co
     slot[static_cast<std::size_t>(nodes[k])] = static_cast<int>(k);
   }
   std::vector<std::vector<Incidence>> touching(nodes.size());
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e)
-    for (int a = 0; a < 6; ++a) {
-      const int k = slot[static_cast<std::size_t>(mesh.elements[e][static_cast<std::size_t>(a)])];
+  for (int e = 0; e < mesh.element_count(); ++e)
+    for (int a = 0; a < mesh.nodes_per_element(); ++a) {
+      const int k = slot[static_cast<std::size_t>(mesh.element(e)[static_cast<std::size_t>(a)])];
       if (k >= 0) touching[static_cast<std::size_t>(k)].push_back({e, a});
     }
 
   std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t k = 0; k < nodes.size(); ++k) {
-    const std::vector<Incidence>& incidences =
-        touching[static_cast<std::size_t>(slot[static_cast<std::size_t>(nodes[k])])];
-    const double share = 1.0 / static_cast<double>(std::max<std::size_t>(incidences.size(), 1));
-    for (const Incidence& incidence : incidences) {
-      const Eigen::Vector2d local = node_coordinates(incidence.local);
-      const ElementGradients g =
-          plane_gradients(element_nodes(mesh, incidence.element), local.x(), local.y()).gradients;
-      const Eigen::Matrix3d& d = elasticities[static_cast<std::size_t>(mesh.region[incidence.element])];
-      for (int a = 0; a < 6; ++a) {
-        const int column = 2 * mesh.elements[incidence.element][static_cast<std::size_t>(a)];
-        for (int r = 0; r < 3; ++r) {
-          const int row = 3 * static_cast<int>(k) + r;
-          entries.emplace_back(row, column, share * (d(r, 0) * g(a, 0) + d(r, 2) * g(a, 1)));
-          entries.emplace_back(row, column + 1, share * (d(r, 1) * g(a, 1) + d(r, 2) * g(a, 0)));
-        }
+  with_element(mesh.kind, [&]<class Element>(Element) {
+    constexpr int d = Element::kDimensions, s = Element::kStresses;
+    const std::vector<Elasticity<Element>> elasticities = elasticities_of<Element>(mesh, materials);
+    using Strain = Eigen::Matrix<double, s, kElementDofs<Element>>;
+    Strain strain = Strain::Zero();
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      const std::vector<Incidence>& incidences =
+          touching[static_cast<std::size_t>(slot[static_cast<std::size_t>(nodes[k])])];
+      const double share = 1.0 / static_cast<double>(std::max<std::size_t>(incidences.size(), 1));
+      for (const Incidence& incidence : incidences) {
+        const std::span<const int> indices = mesh.element(incidence.element);
+        fill_strain<Element>(
+            spatial_gradients<Element>(element_nodes<Element>(mesh, incidence.element), Element::node(incidence.local))
+                .gradients,
+            strain);
+        const Elasticity<Element>& elastic =
+            elasticities[static_cast<std::size_t>(mesh.region[static_cast<std::size_t>(incidence.element)])];
+        const Strain stress = elastic * strain;
+        for (int a = 0; a < Element::kNodes; ++a)
+          for (int r = 0; r < s; ++r)
+            for (int c = 0; c < d; ++c)
+              entries.emplace_back(s * static_cast<int>(k) + r, d * indices[static_cast<std::size_t>(a)] + c,
+                                   share * stress(r, d * a + c));
       }
     }
-  }
-  Eigen::SparseMatrix<double> result(3 * static_cast<Eigen::Index>(nodes.size()), 2 * mesh.nodes.cols());
+  });
+  Eigen::SparseMatrix<double> result(stress_components(mesh.kind) * static_cast<Eigen::Index>(nodes.size()),
+                                     mesh.dimensions() * mesh.nodes.cols());
   result.setFromTriplets(entries.begin(), entries.end());
   return result;
 }
 
-double von_mises(double sxx, double syy, double sxy, double poisson_ratio) {
-  const double szz = poisson_ratio * (sxx + syy);
-  const double a = sxx - syy, b = syy - szz, c = szz - sxx;
-  return std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * sxy * sxy);
+double von_mises(const StressVector& stress, double poisson_ratio) {
+  return von_mises_in_space(in_space(stress, poisson_ratio));
 }
 
-double max_principal(double sxx, double syy, double sxy) {
-  return 0.5 * (sxx + syy) + std::hypot(0.5 * (sxx - syy), sxy);
+Eigen::VectorXd von_mises_gradient(const StressVector& stress, double poisson_ratio) {
+  const Eigen::Matrix<double, 6, 1> s = in_space(stress, poisson_ratio);
+  const double value = von_mises_in_space(s);
+  if (value == 0) return Eigen::VectorXd::Zero(stress.size());
+  // d/ds of sqrt(3/2 dev:dev) is 3/2 dev / value, shear components twice.
+  const Eigen::Vector3d deviator = s.head<3>().array() - s.head<3>().sum() / 3;
+  Eigen::VectorXd gradient(stress.size());
+  if (stress.size() == 3) {
+    // sigma_zz follows sxx and syy.
+    gradient << deviator[0] + poisson_ratio * deviator[2], deviator[1] + poisson_ratio * deviator[2], 2 * s[3];
+  } else {
+    gradient << deviator, 2 * s.tail<3>();
+  }
+  return gradient * (1.5 / value);
 }
 
-Eigen::Vector3d von_mises_gradient(double sxx, double syy, double sxy, double poisson_ratio) {
-  const double value = von_mises(sxx, syy, sxy, poisson_ratio);
-  if (value == 0) return Eigen::Vector3d::Zero();
-  const double szz = poisson_ratio * (sxx + syy);
-  const double mean = (sxx + syy + szz) / 3;
-  const double out_of_plane = poisson_ratio * (szz - mean);
-  // d/ds of sqrt(3/2 dev:dev) is 3/2 dev / value, with sigma_zz following sxx and syy.
-  return Eigen::Vector3d(sxx - mean + out_of_plane, syy - mean + out_of_plane, 2 * sxy) * (1.5 / value);
+double max_principal(const StressVector& stress) {
+  if (stress.size() == 3) return 0.5 * (stress[0] + stress[1]) + std::hypot(0.5 * (stress[0] - stress[1]), stress[2]);
+  assert(stress.size() == 6);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(stress_tensor<Wedge18>(stress),
+                                                                 Eigen::EigenvaluesOnly);
+  return principal.eigenvalues()[2];
 }
 
 }  // namespace dovetail::fem

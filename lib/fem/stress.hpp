@@ -10,24 +10,26 @@
 
 namespace dovetail::fem {
 
-/// Stress (xx, yy, xy) at the quadrature points of every element for displacements u [2n], Pa.
+/// Stress at the quadrature points of every element for displacements u [d n], Pa.
 [[nodiscard]] StressField quadrature_stress(const Mesh& mesh, std::span<const Material> materials,
                                             const Eigen::Ref<const Eigen::VectorXd>& displacement);
 
-/// S [3 nn, 2n]: rows 3 k .. 3 k + 2 give (xx, yy, xy) at node nodes[k], Pa, as S u. Each element's strains are
-/// evaluated at the node itself and averaged with equal weights over the elements that touch it; at a
-/// boundary between regions of different thickness or material that average is across the jump.
-/// Linear: static and dynamic parts may be combined before invariants are taken.
+/// S [s nn, d n], s = 3 (xx, yy, xy) in the plane, 6 (xx, yy, zz, xy, yz, zx) in space: rows s k .. s k + s - 1 give
+/// the stress at node nodes[k], Pa, as S u. Each element's strains are evaluated at the node itself and averaged with
+/// equal weights over the elements that touch it; at a boundary between regions of different thickness or material that
+/// average is across the jump. Linear: static and dynamic parts may be combined before invariants are taken.
 [[nodiscard]] Eigen::SparseMatrix<double> nodal_stress_operator(const Mesh& mesh, std::span<const Material> materials,
                                                                 std::span<const int> nodes);
 
-/// Invariants of a plane stress state. Plane strain adds sigma_zz = nu (sxx + syy); for a plane-stress region pass
-/// nu = 0.
-[[nodiscard]] double von_mises(double sxx, double syy, double sxy, double poisson_ratio);
-/// The larger principal stress in the plane, Pa.
-[[nodiscard]] double max_principal(double sxx, double syy, double sxy);
+/// Stress [3] in the plane or [6] in space. Plane strain adds sigma_zz = nu (sxx + syy); for a plane-stress region pass
+/// nu = 0. In space nu does not count.
+using StressVector = Eigen::Ref<const Eigen::VectorXd>;
+[[nodiscard]] double von_mises(const StressVector& stress, double poisson_ratio);
 
-/// d von_mises / d(sxx, syy, sxy); zero where the stress vanishes.
-[[nodiscard]] Eigen::Vector3d von_mises_gradient(double sxx, double syy, double sxy, double poisson_ratio);
+/// d von_mises / d stress [3] or [6]; zero where the stress vanishes.
+[[nodiscard]] Eigen::VectorXd von_mises_gradient(const StressVector& stress, double poisson_ratio);
+
+/// The largest principal stress, Pa; of a plane state the larger one in the plane.
+[[nodiscard]] double max_principal(const StressVector& stress);
 
 }  // namespace dovetail::fem

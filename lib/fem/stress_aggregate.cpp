@@ -1,49 +1,91 @@
 #include "fem/stress_aggregate.hpp"
 
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <string>
-#include <utility>
+#include <type_traits>
 #include <vector>
 
 #include "core/errors.hpp"
+#include "fem/element.hpp"
 
 namespace dovetail::fem {
+
+namespace {
+
+/// d/ds of the quadratic through three values at s = 0, 1/2, 1, at these places.
+template <class Vector>
+std::array<Vector, 3> slopes(const Vector& a, const Vector& m, const Vector& b) {
+  return {-3 * a + 4 * m - b, b - a, a - 4 * m + 3 * b};
+}
+
+constexpr std::array<double, 3> kSimpson{1.0 / 6, 4.0 / 6, 1.0 / 6};
+
+/// |dr| at the three nodes of an edge, times their weights.
+std::array<double, 3> side_weights(const Mesh& mesh, const std::array<int, 3>& nodes) {
+  const auto at = [&](std::size_t k) { return Eigen::Vector2d(mesh.nodes.col(nodes[k])); };
+  const std::array<Eigen::Vector2d, 3> slope = slopes(at(0), at(1), at(2));
+  std::array<double, 3> weights{};
+  for (std::size_t k = 0; k < 3; ++k) weights[k] = kSimpson[k] * slope[k].norm();
+  return weights;
+}
+
+/// |dr x dr| at the nine nodes of a side, times their weights.
+std::array<double, 9> side_weights(const Mesh& mesh, const std::array<int, 9>& nodes) {
+  const auto at = [&](std::size_t row, std::size_t k) { return Eigen::Vector3d(mesh.nodes.col(nodes[3 * row + k])); };
+  std::array<std::array<Eigen::Vector3d, 3>, 3> along, across;  // [row][k], [k][row]
+  for (std::size_t k = 0; k < 3; ++k) {
+    along[k] = slopes(at(k, 0), at(k, 1), at(k, 2));
+    across[k] = slopes(at(0, k), at(1, k), at(2, k));
+  }
+  std::array<double, 9> weights{};
+  for (std::size_t row = 0; row < 3; ++row)
+    for (std::size_t k = 0; k < 3; ++k)
+      weights[3 * row + k] = kSimpson[row] * kSimpson[k] * along[row][k].cross(across[k][row]).norm();
+  return weights;
+}
+
+}  // namespace
 
 Eigen::VectorXd boundary_weights(const Mesh& mesh, std::span<const int> nodes) {
   std::vector<int> slot(static_cast<std::size_t>(mesh.node_count()), -1);
   for (std::size_t k = 0; k < nodes.size(); ++k) slot[static_cast<std::size_t>(nodes[k])] = static_cast<int>(k);
   const auto slot_of = [&](int node) { return slot[static_cast<std::size_t>(node)]; };
 
-  // Edges within the list, by mid-side node; seen from two sides they are inside the body.
-  struct Edge {
-    int start, end, sides;
-  };
-  std::map<int, Edge> edges;
-  for (const std::array<int, 6>& element : mesh.elements)
-    for (std::size_t side = 0; side < 3; ++side) {
-      const int start = element[side], end = element[(side + 1) % 3], middle = element[3 + side];
-      if (slot_of(start) < 0 || slot_of(end) < 0 || slot_of(middle) < 0) continue;
-      const auto [edge, added] = edges.try_emplace(middle, Edge{start, end, 0});
-      ++edge->second.sides;
-    }
-
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(nodes.size()));
-  for (const auto& [middle, edge] : edges) {
-    if (edge.sides != 1) continue;
-    const Eigen::Vector2d a = mesh.nodes.col(edge.start), m = mesh.nodes.col(middle), b = mesh.nodes.col(edge.end);
-    // |dr/ds| of the quadratic edge at s = 0, 1/2, 1.
-    weights[slot_of(edge.start)] += (-3 * a + 4 * m - b).norm() / 6;
-    weights[slot_of(middle)] += (b - a).norm() * 4 / 6;
-    weights[slot_of(edge.end)] += (a - 4 * m + 3 * b).norm() / 6;
-  }
+  with_element(mesh.kind, [&]<class Element>(Element) {
+    // Sides within the list, by their middle node; seen from two elements they are inside the body.
+    using Side = typename std::decay_t<decltype(Element::sides())>::value_type;
+    struct Use {
+      Side nodes;
+      int elements = 0;
+    };
+    std::map<int, Use> used;
+    for (int e = 0; e < mesh.element_count(); ++e) {
+      const std::span<const int> element = mesh.element(e);
+      for (const Side& local : Element::sides()) {
+        Side side;
+        for (std::size_t k = 0; k < side.size(); ++k) side[k] = element[static_cast<std::size_t>(local[k])];
+        if (std::any_of(side.begin(), side.end(), [&](int node) { return slot_of(node) < 0; })) continue;
+        ++used.try_emplace(side[side.size() / 2], Use{side}).first->second.elements;
+      }
+    }
+    for (const auto& [middle, use] : used) {
+      if (use.elements != 1) continue;
+      const auto weight = side_weights(mesh, use.nodes);
+      for (std::size_t k = 0; k < use.nodes.size(); ++k) weights[slot_of(use.nodes[k])] += weight[k];
+    }
+  });
   if (!(weights.sum() > 0))
     throw InputError({.file = {},
                       .key = "nodes",
                       .value = std::to_string(nodes.size()) + " nodes",
-                      .allowed = "must contain whole boundary edges (two corners and the mid-side node)"});
+                      .allowed = "must contain all nodes of boundary sides of elements"});
   return weights;
 }
 

@@ -12,7 +12,7 @@ void export_fields(const report::FieldRecord& fields, const std::filesystem::pat
                                              static_cast<Eigen::Index>(values.size()) / components);
   };
   const std::array<geometry::MeshField, 2> point_fields{
-      {{.name = "displacement_m", .values = matrix(fields.displacement_m, 2)},
+      {{.name = "displacement_m", .values = matrix(fields.displacement_m, fields.mesh.dimensions())},
        {.name = "von_mises_pa", .values = matrix(fields.von_mises_pa, 1)}}};
   geometry::write_vtu(file, fields.mesh, point_fields);
 }

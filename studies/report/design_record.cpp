@@ -8,6 +8,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "fem/element.hpp"
 #include "fem/glued_modes.hpp"
 #include "fem/stress.hpp"
 #include "geometry/flank_form.hpp"
@@ -33,7 +34,7 @@ ContactRecord contact_places(const CandidateModel& model) {
   const fem::ContactSurface& surface = model.system.contact;
   ContactRecord record;
   for (const fem::Flank& flank : model.mesh.sector.flanks) record.flank_names.push_back(flank.name);
-  Eigen::Vector2d start = Eigen::Vector2d::Zero();
+  Eigen::VectorXd start;
   for (Eigen::Index i = 0; i < surface.count(); ++i) {
     if (i == 0 || surface.flank(i) != surface.flank(i - 1)) start = surface.position.col(i);
     record.flank.push_back(surface.flank(i));
@@ -186,16 +187,17 @@ FieldRecord preload_fields(const Scene& scene, const CandidateModel& model) {
   const std::vector<fem::Material> bodies = optimizer::materials(scene);
   const Eigen::VectorXd stress = fem::nodal_stress_operator(mesh, bodies, nodes) * displacement;
   std::vector<double> poisson(nodes.size(), 0.0);
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    const fem::Region& region = mesh.regions[static_cast<std::size_t>(mesh.region[e])];
-    for (const int node : mesh.elements[e])
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    const fem::Region& region = mesh.region_of(e);
+    for (const int node : mesh.element(e))
       poisson[static_cast<std::size_t>(node)] =
           region.plane_stress ? 0.0 : bodies[static_cast<std::size_t>(region.body)].poisson_ratio;
   }
   FieldRecord fields{.mesh = mesh, .displacement_m = list(displacement), .von_mises_pa = {}};
+  const Eigen::Index components = fem::stress_components(mesh.kind);
   for (Eigen::Index i = 0; i < mesh.nodes.cols(); ++i)
     fields.von_mises_pa.push_back(
-        fem::von_mises(stress(3 * i), stress(3 * i + 1), stress(3 * i + 2), poisson[static_cast<std::size_t>(i)]));
+        fem::von_mises(stress.segment(components * i, components), poisson[static_cast<std::size_t>(i)]));
   return fields;
 }
 

@@ -6,10 +6,6 @@ namespace dovetail::report {
 
 namespace {
 
-std::vector<double> flat(const Eigen::Matrix2Xd& points) {
-  return {points.data(), points.data() + points.size()};
-}
-
 Numbers coordinates(const geometry::Chain& chain, Eigen::Vector2d geometry::Edge::*member) {
   Numbers result;
   for (const geometry::Edge& e : chain) {
@@ -54,11 +50,11 @@ void Writer::chain(const std::string& group, const geometry::Chain& chain) {
 }
 
 void Writer::mesh(const std::string& group, const fem::Mesh& mesh) {
-  table(group + "/nodes_m", flat(mesh.nodes), 2);
-  std::vector<std::int64_t> elements;
-  for (const std::array<int, 6>& element : mesh.elements)
-    elements.insert(elements.end(), element.begin(), element.end());
-  const std::array<std::size_t, 2> shape{mesh.elements.size(), 6};
+  table(group + "/nodes_m", {mesh.nodes.data(), mesh.nodes.data() + mesh.nodes.size()},
+        static_cast<std::size_t>(mesh.dimensions()));
+  const std::vector<std::int64_t> elements(mesh.connectivity.begin(), mesh.connectivity.end());
+  const std::array<std::size_t, 2> shape{static_cast<std::size_t>(mesh.element_count()),
+                                         static_cast<std::size_t>(mesh.nodes_per_element())};
   file_.write(group + "/elements", elements, shape);
   wholes(group + "/region", {mesh.region.begin(), mesh.region.end()});
   std::vector<std::string> names;
@@ -157,11 +153,15 @@ void Reader::chain(const std::string& group, geometry::Chain& chain) const {
 }
 
 void Reader::mesh(const std::string& group, fem::Mesh& mesh) const {
-  Numbers nodes;
-  table(group + "/nodes_m", nodes, 2);
-  mesh.nodes = Eigen::Map<const Eigen::Matrix2Xd>(nodes.data(), 2, static_cast<Eigen::Index>(nodes.size() / 2));
-
   const hdf5::Array<std::int64_t> elements = file_.read_integers(group + "/elements");
+  if (elements.rank() != 2 || (elements.shape[1] != 6 && elements.shape[1] != 18))
+    refuse(group + "/elements", {}, "must have 6 or 18 nodes per element");
+  mesh.kind = elements.shape[1] == 6 ? fem::ElementKind::triangle6 : fem::ElementKind::wedge18;
+  Numbers nodes;
+  const Eigen::Index d = mesh.dimensions();
+  table(group + "/nodes_m", nodes, static_cast<std::size_t>(d));
+  mesh.nodes = Eigen::Map<const Eigen::MatrixXd>(nodes.data(), d, static_cast<Eigen::Index>(nodes.size()) / d);
+
   std::vector<std::int64_t> region, body, plane_stress;
   std::vector<std::string> names;
   Numbers thickness;
@@ -173,7 +173,7 @@ void Reader::mesh(const std::string& group, fem::Mesh& mesh) const {
   require_size(group + "/regions/body", body.size(), names.size());
   require_size(group + "/regions/plane_stress", plane_stress.size(), names.size());
   require_size(group + "/regions/thickness_m", thickness.size(), names.size());
-  require_size(group + "/elements", elements.values.size(), 6 * region.size());
+  require_size(group + "/elements", elements.values.size(), elements.shape[1] * region.size());
 
   mesh.regions.clear();
   for (std::size_t i = 0; i < names.size(); ++i)
@@ -181,12 +181,11 @@ void Reader::mesh(const std::string& group, fem::Mesh& mesh) const {
                             .body = static_cast<int>(body[i]),
                             .thickness = thickness[i],
                             .plane_stress = plane_stress[i] != 0});
-  mesh.elements.assign(region.size(), {});
-  for (std::size_t i = 0; i < elements.values.size(); ++i) {
-    const std::int64_t node = elements.values[i];
+  mesh.connectivity.clear();
+  for (const std::int64_t node : elements.values) {
     if (node < 0 || node >= mesh.node_count())
       refuse(group + "/elements", std::to_string(node), "must be indices of nodes");
-    mesh.elements[i / 6][i % 6] = static_cast<int>(node);
+    mesh.connectivity.push_back(static_cast<int>(node));
   }
   mesh.region.clear();
   for (const std::int64_t index : region) {

@@ -78,7 +78,8 @@ void pieces(Archive& archive, const std::string& group, Design& design) {
   archive.optional(group + "/history", design.history,
                    [&](auto& record) { history(archive, group + "/history", record, design.contact.flank.size()); });
   archive.mesh(group + "/mesh", design.fields.mesh);
-  archive.table(group + "/fields/displacement_m", design.fields.displacement_m, 2);
+  archive.table(group + "/fields/displacement_m", design.fields.displacement_m,
+                static_cast<std::size_t>(design.fields.mesh.dimensions()));
   archive.numbers(group + "/fields/von_mises_pa", design.fields.von_mises_pa);
   archive.texts(group + "/notes", design.notes);
 }
@@ -136,7 +137,8 @@ void require_consistent(const Reader& reader, const std::string& group, const De
   reader.require_size(group + "/nodal_diameters/frequency_hz", n.frequency_hz.size(),
                       static_cast<std::size_t>(n.modes) * n.nodal_diameter.size());
   const auto nodes = static_cast<std::size_t>(design.fields.mesh.node_count());
-  require_list(reader, group + "/fields/displacement_m", design.fields.displacement_m.size(), 2 * nodes);
+  require_list(reader, group + "/fields/displacement_m", design.fields.displacement_m.size(),
+               static_cast<std::size_t>(design.fields.mesh.dimensions()) * nodes);
   require_list(reader, group + "/fields/von_mises_pa", design.fields.von_mises_pa.size(), nodes);
 }
 

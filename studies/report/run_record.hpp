@@ -66,7 +66,7 @@ struct HistoryRecord {
 /// The mesh of the section and nodal fields on it; without elements: not kept.
 struct FieldRecord {
   fem::Mesh mesh;
-  Numbers displacement_m;  ///< [n, 2] of the preload (spin-up)
+  Numbers displacement_m;  ///< [n, d] of the preload (spin-up)
   Numbers von_mises_pa;    ///< [n] of the preload
 };
 

@@ -29,19 +29,20 @@ TEST(Constraints, RelativeDisplacementsOpenTheFlankAlongItsAxes) {
   const SectorMesh sector = tooth();
   const Constraints<double> constraints = real_constraints(sector);
   const Flank& flank = sector.flanks[0];
-  ASSERT_EQ(constraints.contact_count, 2 * static_cast<Eigen::Index>(flank.corner_pairs.size()));
+  ASSERT_EQ(constraints.contact_count, 2 * flank.contact_count());
   const Eigen::VectorXd x = random_vector(constraints.size());
   const Eigen::VectorXd u = constraints.transformation * x;
   const auto relative = [&](const std::array<int, 2>& pair) {
     const Eigen::Vector2d jump = u.segment<2>(2 * pair[0]) - u.segment<2>(2 * pair[1]);
-    return Eigen::Vector2d(flank.normal.dot(jump), flank.tangent.dot(jump));
+    return Eigen::Vector2d(flank.normal.dot(jump), flank.tangents.col(0).dot(jump));
   };
-  for (std::size_t k = 0; k < flank.corner_pairs.size(); ++k) {
-    const Eigen::Vector2d expected = x.segment<2>(constraints.internal_count + 2 * static_cast<Eigen::Index>(k));
-    EXPECT_LT((relative(flank.corner_pairs[k]) - expected).norm(), 1e-15);
-    if (k + 1 == flank.corner_pairs.size()) break;
-    const Eigen::Vector2d next = x.segment<2>(constraints.internal_count + 2 * static_cast<Eigen::Index>(k + 1));
-    EXPECT_LT((relative(flank.middle_pairs[k]) - 0.5 * (expected + next)).norm(), 1e-15);
+  for (int k = 0; k < flank.contact_count(); ++k) {
+    const std::size_t corner = static_cast<std::size_t>(2 * k);
+    const Eigen::Vector2d expected = x.segment<2>(constraints.internal_count + 2 * k);
+    EXPECT_LT((relative(flank.pairs[corner]) - expected).norm(), 1e-15);
+    if (k + 1 == flank.contact_count()) break;
+    const Eigen::Vector2d next = x.segment<2>(constraints.internal_count + 2 * k + 2);
+    EXPECT_LT((relative(flank.pairs[corner + 1]) - 0.5 * (expected + next)).norm(), 1e-15);
   }
 }
 
@@ -53,8 +54,8 @@ TEST(Constraints, ContactForcesAreConjugateToPressureTimesArea) {
   const Flank& flank = sector.flanks[0];
   const double pressure = 3e6, thickness = 0.02;
   Eigen::VectorXd force = Eigen::VectorXd::Zero(2 * sector.mesh.node_count());
-  for (std::size_t k = 0; k + 1 < flank.corner_pairs.size(); ++k) {
-    const int a = flank.corner_pairs[k][0], m = flank.middle_pairs[k][0], b = flank.corner_pairs[k + 1][0];
+  for (std::size_t k = 0; k + 2 < flank.pairs.size(); k += 2) {
+    const int a = flank.pairs[k][0], m = flank.pairs[k + 1][0], b = flank.pairs[k + 2][0];
     const double length = (sector.mesh.nodes.col(b) - sector.mesh.nodes.col(a)).norm();
     const Eigen::Vector2d total = pressure * length * thickness * flank.normal;
     force.segment<2>(2 * a) += total / 6;
@@ -133,10 +134,10 @@ TEST(Constraints, RefusesWhatDoesNotMatch) {
   for (std::array<int, 2>& pair : swapped.cyclic_pairs) std::swap(pair[0], pair[1]);
   EXPECT_THROW((void)real_constraints(swapped), InputError);
   SectorMesh twice = sector;
-  twice.flanks[0].corner_pairs.back() = twice.flanks[0].corner_pairs.front();
+  twice.flanks[0].pairs.back() = twice.flanks[0].pairs.front();
   EXPECT_THROW((void)real_constraints(twice), InputError);
   SectorMesh short_flank = sector;
-  short_flank.flanks[0].middle_pairs.pop_back();
+  short_flank.flanks[0].pairs.pop_back();
   EXPECT_THROW((void)real_constraints(short_flank), InputError);
 }
 
@@ -163,9 +164,9 @@ TEST(SectorSystem, RigidBladeOpensTheFlankWithoutStrainEnergy) {
   const SectorMesh sector = tooth();
   const SectorSystem system = build_sector_system(sector, materials, Assembler(sector.mesh));
   Eigen::VectorXd lifted = Eigen::VectorXd::Zero(2 * sector.mesh.node_count());
-  for (std::size_t e = 0; e < sector.mesh.elements.size(); ++e)
-    if (sector.mesh.region[e] == 0)
-      for (int node : sector.mesh.elements[e]) lifted[2 * node + 1] = 1;
+  for (int e = 0; e < sector.mesh.element_count(); ++e)
+    if (sector.mesh.region_of(e).body == 0)
+      for (int node : sector.mesh.element(e)) lifted[2 * node + 1] = 1;
   const Eigen::MatrixXd t(system.constraints.transformation);
   const Eigen::VectorXd x = (t.transpose() * t).ldlt().solve(t.transpose() * lifted);
   ASSERT_LT((t * x - lifted).cwiseAbs().maxCoeff(), 1e-12);

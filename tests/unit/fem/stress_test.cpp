@@ -26,7 +26,7 @@ TEST(NodalStress, IsExactForUniformStrainOnCurvedElements) {
   const Eigen::VectorXd u = (gradient * grid.mesh.nodes).reshaped();
   std::vector<int> nodes{grid.node(6, 6), grid.node(2, 2), grid.node(3, 2), grid.node(0, 1)};
   const Eigen::VectorXd stress = nodal_stress_operator(grid.mesh, materials, nodes) * u;
-  const Eigen::Vector3d expected = elasticity(materials[0], false) * Eigen::Vector3d(1e-3, 7e-4, 1.5e-3);
+  const Eigen::Vector3d expected = elasticity<Triangle6>(materials[0]) * Eigen::Vector3d(1e-3, 7e-4, 1.5e-3);
   for (Eigen::Index k = 0; k < 4; ++k) EXPECT_LT((stress.segment<3>(3 * k) - expected).norm(), 1e-12 * expected.norm());
 }
 
@@ -39,7 +39,7 @@ TEST(NodalStress, AgreesWithQuadraturePointsForLinearStress) {
     const Eigen::Vector2d p = grid.mesh.nodes.col(k);
     u.segment<2>(2 * k) << p.x() * p.x(), p.x() * p.y();
   }
-  const Eigen::Matrix3d d = elasticity(materials[0], false);
+  const Eigen::Matrix3d d = elasticity<Triangle6>(materials[0]);
   const auto exact = [&](const Eigen::Vector2d& p) {
     return Eigen::Vector3d(d * Eigen::Vector3d(2 * p.x(), p.x(), p.y()));
   };
@@ -48,39 +48,40 @@ TEST(NodalStress, AgreesWithQuadraturePointsForLinearStress) {
   const Eigen::VectorXd nodal = nodal_stress_operator(grid.mesh, materials, nodes) * u;
   for (int k : nodes) EXPECT_LT((nodal.segment<3>(3 * k) - exact(grid.mesh.nodes.col(k))).norm(), 1e-12 * d.norm());
   const StressField points = quadrature_stress(grid.mesh, materials, u);
-  for (std::size_t e = 0; e < grid.mesh.elements.size(); ++e)
-    for (std::size_t q = 0; q < kQuadraturePoints; ++q) {
-      const Eigen::Vector2d p = element_nodes(grid.mesh, e) * shape_functions(quadrature()[q].xi, quadrature()[q].eta);
-      EXPECT_LT((points.col(static_cast<Eigen::Index>(kQuadraturePoints * e + q)) - exact(p)).norm(), 1e-12 * d.norm());
+  for (int e = 0; e < grid.mesh.element_count(); ++e)
+    for (int q = 0; q < Triangle6::kPoints; ++q) {
+      const Eigen::Vector2d local = Triangle6::quadrature()[static_cast<std::size_t>(q)].local;
+      const Eigen::Vector2d p = element_nodes<Triangle6>(grid.mesh, e) * Triangle6::shape(local);
+      EXPECT_LT((points.col(Triangle6::kPoints * e + q) - exact(p)).norm(), 1e-12 * d.norm());
     }
 }
 
 TEST(VonMises, KnowsUniaxialShearAndHydrostaticStates) {
-  EXPECT_DOUBLE_EQ(von_mises(5, 0, 0, 0), 5);
-  EXPECT_DOUBLE_EQ(von_mises(0, 0, 5, 0.3), 5 * std::sqrt(3.0));
-  EXPECT_NEAR(von_mises(5, 5, 0, 0.5), 0, 1e-14);  // sigma_zz = 5 too
+  EXPECT_DOUBLE_EQ(von_mises(Eigen::Vector3d(5, 0, 0), 0), 5);
+  EXPECT_DOUBLE_EQ(von_mises(Eigen::Vector3d(0, 0, 5), 0.3), 5 * std::sqrt(3.0));
+  EXPECT_NEAR(von_mises(Eigen::Vector3d(5, 5, 0), 0.5), 0, 1e-14);  // sigma_zz = 5 too
   // Plane strain, uniaxial: s^2 (1 - nu + nu^2).
-  EXPECT_DOUBLE_EQ(von_mises(2, 0, 0, 0.3), 2 * std::sqrt(1 - 0.3 + 0.09));
+  EXPECT_DOUBLE_EQ(von_mises(Eigen::Vector3d(2, 0, 0), 0.3), 2 * std::sqrt(1 - 0.3 + 0.09));
 }
 
 TEST(VonMises, GradientMatchesDifferences) {
   const Eigen::Vector3d s(3.0, -1.0, 2.0);
-  const Eigen::Vector3d gradient = von_mises_gradient(s[0], s[1], s[2], 0.3);
+  const Eigen::Vector3d gradient = von_mises_gradient(s, 0.3);
   const double step = 1e-5;  // error step^2 of the third derivative plus 1e-16 / step
   for (int k = 0; k < 3; ++k) {
     const Eigen::Vector3d up = s + step * Eigen::Vector3d::Unit(k), down = s - step * Eigen::Vector3d::Unit(k);
-    const double difference =
-        (von_mises(up[0], up[1], up[2], 0.3) - von_mises(down[0], down[1], down[2], 0.3)) / (2 * step);
+    const double difference = (von_mises(up, 0.3) - von_mises(down, 0.3)) / (2 * step);
     EXPECT_NEAR(gradient[k], difference, 1e-9);
   }
-  EXPECT_EQ(von_mises_gradient(0, 0, 0, 0.3), Eigen::Vector3d::Zero());
+  EXPECT_EQ(von_mises_gradient(Eigen::Vector3d::Zero(), 0.3), Eigen::VectorXd(Eigen::Vector3d::Zero()));
 }
 
 TEST(MaxPrincipal, IsTheLargestEigenvalue) {
   Eigen::Matrix2d sigma;
   sigma << -4, 3, 3, 1;
-  EXPECT_NEAR(max_principal(-4, 1, 3), Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(sigma).eigenvalues()[1], 1e-14);
-  EXPECT_DOUBLE_EQ(max_principal(-4, -4, 0), -4);
+  EXPECT_NEAR(max_principal(Eigen::Vector3d(-4, 1, 3)),
+              Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(sigma).eigenvalues()[1], 1e-14);
+  EXPECT_DOUBLE_EQ(max_principal(Eigen::Vector3d(-4, -4, 0)), -4);
 }
 
 std::vector<int> outer_arc(const Grid& grid) {

@@ -33,12 +33,11 @@ inline Grid make_grid(int columns, int rows, const Map& map) {
   const auto at = [&](int i, int j) { return grid.node(i, j); };
   for (int j = 0; j < 2 * rows; j += 2)
     for (int i = 0; i < 2 * columns; i += 2) {
-      grid.mesh.elements.push_back(
-          {at(i, j), at(i + 2, j), at(i + 2, j + 2), at(i + 1, j), at(i + 2, j + 1), at(i + 1, j + 1)});
-      grid.mesh.elements.push_back(
-          {at(i, j), at(i + 2, j + 2), at(i, j + 2), at(i + 1, j + 1), at(i + 1, j + 2), at(i, j + 1)});
+      for (int node : {at(i, j), at(i + 2, j), at(i + 2, j + 2), at(i + 1, j), at(i + 2, j + 1), at(i + 1, j + 1),  //
+                       at(i, j), at(i + 2, j + 2), at(i, j + 2), at(i + 1, j + 1), at(i + 1, j + 2), at(i, j + 1)})
+        grid.mesh.connectivity.push_back(node);
     }
-  grid.mesh.region.assign(grid.mesh.elements.size(), 0);
+  grid.mesh.region.assign(static_cast<std::size_t>(grid.mesh.element_count()), 0);
   grid.mesh.regions = {{.name = "body", .body = 0, .thickness = 1.0}};
   return grid;
 }
@@ -63,9 +62,11 @@ inline void distort(Grid& grid, double amount, unsigned seed) {
   for (int j = 2; j < 2 * grid.rows; j += 2)
     for (int i = 2; i < 2 * grid.columns; i += 2)
       for (int c = 0; c < 2; ++c) grid.mesh.nodes(c, grid.node(i, j)) += shift(random);
-  for (const std::array<int, 6>& e : grid.mesh.elements)
+  for (int i = 0; i < grid.mesh.element_count(); ++i) {
+    const std::span<const int> e = grid.mesh.element(i);
     for (std::size_t k = 0; k < 3; ++k)
       grid.mesh.nodes.col(e[3 + k]) = 0.5 * (grid.mesh.nodes.col(e[k]) + grid.mesh.nodes.col(e[(k + 1) % 3]));
+  }
 }
 
 /// Bends edges: moves mid-side nodes inside the grid at random.
@@ -157,16 +158,14 @@ inline SectorMesh toothed_sector(int disk_cells, int tooth_cells, int third, int
     }
   sector.mesh.nodes.resize(2, static_cast<Eigen::Index>(nodes.size()));
   for (std::size_t k = 0; k < nodes.size(); ++k) sector.mesh.nodes.col(static_cast<Eigen::Index>(k)) = nodes[k];
-  for (std::size_t e = 0; e < grid.mesh.elements.size(); ++e) {
-    const int cell = static_cast<int>(e) / 2, radial = cell % columns, angular = cell / columns;
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    const int cell = e / 2, radial = cell % columns, angular = cell / columns;
     const bool tooth = radial >= disk_cells;
     if (tooth && (angular < third || angular >= 2 * third)) continue;
-    std::array<int, 6> element = grid.mesh.elements[e];
-    for (int& node : element) {
+    for (int node : grid.mesh.element(e)) {
       const std::size_t old = static_cast<std::size_t>(node);
-      node = tooth && tooth_copy[old] >= 0 ? tooth_copy[old] : renumbered[old];
+      sector.mesh.connectivity.push_back(tooth && tooth_copy[old] >= 0 ? tooth_copy[old] : renumbered[old]);
     }
-    sector.mesh.elements.push_back(element);
     sector.mesh.region.push_back(tooth ? 0 : 1);
   }
   sector.mesh.regions = {{.name = "tooth", .body = 0, .thickness = 0.02},
@@ -190,14 +189,19 @@ inline SectorMesh toothed_sector(int disk_cells, int tooth_cells, int third, int
   if (merged) return sector;
   Flank flank;
   flank.name = "foot";
-  flank.normal = {0, -1};
-  flank.tangent = {1, 0};
-  for (int j = last; j >= first; --j) {
-    const int disk = number(2 * disk_cells, j);
-    const int blade = tooth_copy[static_cast<std::size_t>(grid.node(2 * disk_cells, j))];
-    (j % 2 == 0 ? flank.corner_pairs : flank.middle_pairs).push_back({blade, disk});
+  flank.normal = Eigen::Vector2d(0, -1);
+  flank.tangents = Eigen::Vector2d(1, 0);
+  flank.grid = {third + 1, 1};
+  flank.position.resize(2, third + 1);
+  flank.interpolation.resize(2 * third + 1, third + 1);
+  for (int k = 0; k <= last - first; ++k) {
+    const int disk = number(2 * disk_cells, last - k);
+    const int blade = tooth_copy[static_cast<std::size_t>(grid.node(2 * disk_cells, last - k))];
+    flank.pairs.push_back({blade, disk});
+    if (k % 2 == 0) flank.position.col(k / 2) = sector.mesh.nodes.col(blade);
+    for (int i : {k / 2, (k + 1) / 2}) flank.interpolation.coeffRef(k, i) += 0.5;
   }
-  flank.gap = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(flank.corner_pairs.size()));
+  flank.gap = Eigen::VectorXd::Zero(third + 1);
   sector.flanks.push_back(flank);
   return sector;
 }

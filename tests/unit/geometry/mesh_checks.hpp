@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <span>
 #include <utility>
 
 #include "fem/mesh.hpp"
@@ -24,7 +25,7 @@ inline double exact_area(const Chain& chain) {
 inline double mesh_area(const fem::Mesh& mesh, int body) {
   double area = 0;
   for (int e = 0; e < mesh.element_count(); ++e) {
-    const auto& nodes = mesh.elements[static_cast<std::size_t>(e)];
+    const std::span<const int> nodes = mesh.element(e);
     if (mesh.regions[static_cast<std::size_t>(mesh.region[static_cast<std::size_t>(e)])].body != body) continue;
     for (const auto& [r, s] : {std::pair{1.0 / 6, 1.0 / 6}, std::pair{2.0 / 3, 1.0 / 6}, std::pair{1.0 / 6, 2.0 / 3}}) {
       const double t = 1 - r - s;
@@ -49,8 +50,9 @@ struct SideUse {
 };
 inline std::map<std::pair<int, int>, SideUse> sides(const fem::Mesh& mesh) {
   std::map<std::pair<int, int>, SideUse> use;
-  for (const auto& element : mesh.elements)
+  for (int e = 0; e < mesh.element_count(); ++e)
     for (std::size_t i = 0; i < 3; ++i) {
+      const std::span<const int> element = mesh.element(e);
       SideUse& side = use[std::minmax(element[i], element[(i + 1) % 3])];
       if (side.count++ > 0 && side.middle != element[3 + i]) side.one_middle = false;
       side.middle = element[3 + i];

@@ -13,7 +13,7 @@ fem::Mesh triangle(double x, double y) {
   fem::Mesh mesh;
   mesh.nodes.resize(2, 6);
   mesh.nodes << 0, 1, x, 0.5, (1 + x) / 2, x / 2, 0, 0, y, 0, y / 2, y / 2;
-  mesh.elements = {{0, 1, 2, 3, 4, 5}};
+  mesh.connectivity = {0, 1, 2, 3, 4, 5};
   mesh.region = {0};
   mesh.regions = {{}};
   return mesh;

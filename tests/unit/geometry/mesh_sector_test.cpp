@@ -66,8 +66,7 @@ TEST_P(SectorMeshOf, CoversTheExactSection) {
   std::set<int> in_disk;
   for (int e = 0; e < mesh_.element_count(); ++e)
     if (mesh_.region[static_cast<std::size_t>(e)] == 2)
-      in_disk.insert(mesh_.elements[static_cast<std::size_t>(e)].begin(),
-                     mesh_.elements[static_cast<std::size_t>(e)].end());
+      in_disk.insert(mesh_.element(e).begin(), mesh_.element(e).end());
   for (const auto& [side, use] : sides(mesh_)) {
     const Vector2d from = mesh_.nodes.col(side.first), to = mesh_.nodes.col(side.second);
     const double rise = (mesh_.nodes.col(use.middle) - (from + to) / 2).norm();
@@ -104,27 +103,32 @@ TEST_P(SectorMeshOf, MatchesTheFlanksInPairs) {
   for (const fem::Flank& flank : sector.flanks) {
     const bool left = flank.name == "left";
     const FlankParameters& p = left ? GetParam().parameters.left : GetParam().parameters.right;
-    ASSERT_EQ(flank.corner_pairs.size(), static_cast<std::size_t>(GetParam().sizes.flank_elements) + 1);
-    ASSERT_EQ(flank.middle_pairs.size() + 1, flank.corner_pairs.size());
-    const Vector2d neck = mesh_.nodes.col(flank.corner_pairs.front()[0]);
+    const int parts = GetParam().sizes.flank_elements;
+    ASSERT_EQ(flank.pairs.size(), static_cast<std::size_t>(2 * parts + 1));
+    ASSERT_EQ(flank.grid, (std::array<int, 2>{parts + 1, 1}));
+    const Vector2d neck = mesh_.nodes.col(flank.pairs.front()[0]);
     const double mirror = left ? -1 : 1;
+    const Vector2d tangent = flank.tangents.col(0);
     // Positions are sums of a few numbers up to 0.25 m: some 1e-16 m of rounding; directions over 5 mm: 1e-13.
-    EXPECT_NEAR(flank.tangent.x(), mirror * std::sin(p.angle), 1e-12);
-    EXPECT_NEAR(flank.tangent.y(), -std::cos(p.angle), 1e-12);
-    EXPECT_NEAR(flank.normal.x(), mirror * std::cos(p.angle), 1e-12);
-    EXPECT_NEAR(flank.normal.y(), std::sin(p.angle), 1e-12);
-    for (std::size_t k = 0; k < flank.corner_pairs.size(); ++k) {
-      const double s = static_cast<double>(k) / GetParam().sizes.flank_elements;
-      const auto& [blade, disk] = flank.corner_pairs[k];
+    EXPECT_NEAR(tangent.x(), mirror * std::sin(p.angle), 1e-12);
+    EXPECT_NEAR(tangent.y(), -std::cos(p.angle), 1e-12);
+    EXPECT_NEAR(flank.normal[0], mirror * std::cos(p.angle), 1e-12);
+    EXPECT_NEAR(flank.normal[1], std::sin(p.angle), 1e-12);
+    for (std::size_t k = 0; k < flank.pairs.size(); ++k) {
+      const double s = static_cast<double>(k) / (2 * parts);
+      const auto& [blade, disk] = flank.pairs[k];
       EXPECT_LE((mesh_.nodes.col(blade) - mesh_.nodes.col(disk)).norm(), 1e-15);
       EXPECT_NE(blade, disk);
-      EXPECT_LE((mesh_.nodes.col(blade) - neck - s * p.length * flank.tangent).norm(), 1e-15);
-      if (k == 0) continue;
-      const auto& [middle_blade, middle_disk] = flank.middle_pairs[k - 1];
-      const auto& [before, unused] = flank.corner_pairs[k - 1];
-      const Vector2d half = (mesh_.nodes.col(before) + mesh_.nodes.col(blade)) / 2;
-      EXPECT_LE((mesh_.nodes.col(middle_blade) - half).norm(), 1e-15);
-      EXPECT_LE((mesh_.nodes.col(middle_blade) - mesh_.nodes.col(middle_disk)).norm(), 1e-15);
+      EXPECT_LE((mesh_.nodes.col(blade) - neck - s * p.length * tangent).norm(), 1e-15);
+      if (k % 2 == 0) {
+        EXPECT_EQ(flank.position.col(static_cast<Eigen::Index>(k / 2)), mesh_.nodes.col(blade));
+      }
+    }
+    // Linear interpolation gives every pair's place from those of the contact nodes, up to rounding.
+    const Eigen::MatrixXd places = flank.position * flank.interpolation.transpose();
+    for (std::size_t k = 0; k < flank.pairs.size(); ++k) {
+      const Vector2d place = places.col(static_cast<Eigen::Index>(k));
+      EXPECT_LE((place - mesh_.nodes.col(flank.pairs[k][0])).norm(), 1e-15);
     }
   }
 }
@@ -179,7 +183,7 @@ TEST_P(SectorMeshOf, SeparatesTheRegions) {
   const double foot = edge(profile_.blade, "aerofoil_right").start.y();
   for (int e = 0; e < mesh_.element_count(); ++e) {
     const int region = mesh_.region[static_cast<std::size_t>(e)];
-    for (int node : mesh_.elements[static_cast<std::size_t>(e)]) {
+    for (int node : mesh_.element(e)) {
       const double above = mesh_.nodes(1, node) - foot;
       if (region == 1) {
         EXPECT_GE(above, -1e-15);

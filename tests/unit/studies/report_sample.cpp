@@ -86,7 +86,7 @@ DesignRecord sample_design(double depth_um) {
                                  .profile_depth_m = Numbers(24, 1e-7)};
   design.fields.mesh.nodes.resize(2, 6);
   design.fields.mesh.nodes << 0, 1, 0, 0.5, 0.5, 0, 0, 0, 1, 0, 0.5, 0.5;
-  design.fields.mesh.elements = {{0, 1, 2, 3, 4, 5}};
+  design.fields.mesh.connectivity = {0, 1, 2, 3, 4, 5};
   design.fields.mesh.region = {0};
   design.fields.mesh.regions = {{.name = "blade_root", .body = 0, .thickness = 0.04, .plane_stress = false}};
   design.fields.displacement_m = Numbers(12, 1e-5);

@@ -46,7 +46,7 @@ fem::Mesh square() {
   mesh.nodes.resize(2, 9);
   mesh.nodes << 0, 1, 1, 0, 0.5, 1, 0.5, 0, 0.6,  //
       0, 0, 1, 1, 0, 0.5, 1, 0.5, 0.4;
-  mesh.elements = {{0, 1, 2, 4, 5, 8}, {0, 2, 3, 8, 6, 7}};
+  mesh.connectivity = {0, 1, 2, 4, 5, 8, 0, 2, 3, 8, 6, 7};
   mesh.region = {0, 1};
   mesh.regions = {{.name = "blade_root", .body = 0, .thickness = 1}, {.name = "disk", .body = 1, .thickness = 1}};
   return mesh;

@@ -24,11 +24,11 @@ struct Manufactured {
   }
   Eigen::Vector3d stress(const Eigen::Vector2d& p) const {
     const double cc = std::cos(a * p.x()) * std::cos(b * p.y()), ss = std::sin(a * p.x()) * std::sin(b * p.y());
-    return elasticity(material, false) * Eigen::Vector3d(a * cc, c * b * cc, -(b + c * a) * ss);
+    return elasticity<Triangle6>(material) * Eigen::Vector3d(a * cc, c * b * cc, -(b + c * a) * ss);
   }
   // -div sigma = -G Laplace u - (lambda + G) grad div u.
   Eigen::Vector2d body_force(const Eigen::Vector2d& p) const {
-    const Eigen::Matrix3d d = elasticity(material, false);
+    const Eigen::Matrix3d d = elasticity<Triangle6>(material);
     const double shear = d(2, 2), sum = d(0, 1) + shear, divergence = a + c * b;
     const Eigen::Vector2d u = displacement(p);
     return shear * (a * a + b * b) * u + sum * divergence * Eigen::Vector2d(a * u.x(), b * u.y() / c);
@@ -47,32 +47,31 @@ Errors errors_on(int cells) {
   Eigen::VectorXd exact(2 * grid.mesh.nodes.cols()), force = Eigen::VectorXd::Zero(exact.size());
   for (Eigen::Index k = 0; k < grid.mesh.nodes.cols(); ++k)
     exact.segment<2>(2 * k) = problem.displacement(grid.mesh.nodes.col(k));
-  for (std::size_t e = 0; e < grid.mesh.elements.size(); ++e) {
-    const ElementNodes nodes = element_nodes(grid.mesh, e);
-    for (const QuadraturePoint& point : quadrature()) {
-      const Eigen::Matrix<double, 6, 1> n = shape_functions(point.xi, point.eta);
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    const ElementNodes<Triangle6> nodes = element_nodes<Triangle6>(grid.mesh, e);
+    for (const QuadraturePoint<2>& point : Triangle6::quadrature()) {
+      const Triangle6::Shape n = Triangle6::shape(point.local);
       const Eigen::Vector2d body = problem.body_force(nodes * n);
-      const double area = point.weight * plane_gradients(nodes, point.xi, point.eta).determinant;
+      const double area = point.weight * spatial_gradients<Triangle6>(nodes, point.local).determinant;
       for (std::size_t a = 0; a < 6; ++a)
-        force.segment<2>(2 * grid.mesh.elements[e][a]) += area * n[static_cast<Eigen::Index>(a)] * body;
+        force.segment<2>(2 * grid.mesh.element(e)[a]) += area * n[static_cast<Eigen::Index>(a)] * body;
     }
   }
   const Eigen::VectorXd u = testing::solve_held(full.stiffness, force, testing::outline_dofs(grid), exact);
   const StressField stress = quadrature_stress(grid.mesh, materials, u);
-  const Eigen::Matrix3d compliance = elasticity(problem.material, false).inverse();
+  const Eigen::Matrix3d compliance = elasticity<Triangle6>(problem.material).inverse();
   Errors errors;
-  for (std::size_t e = 0; e < grid.mesh.elements.size(); ++e) {
-    const ElementNodes nodes = element_nodes(grid.mesh, e);
-    ElementNodes local;
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    const ElementNodes<Triangle6> nodes = element_nodes<Triangle6>(grid.mesh, e);
+    ElementNodes<Triangle6> local;
     for (std::size_t a = 0; a < 6; ++a)
-      local.col(static_cast<Eigen::Index>(a)) = u.segment<2>(2 * grid.mesh.elements[e][a]);
-    for (std::size_t q = 0; q < kQuadraturePoints; ++q) {
-      const QuadraturePoint& point = quadrature()[q];
-      const Eigen::Matrix<double, 6, 1> n = shape_functions(point.xi, point.eta);
+      local.col(static_cast<Eigen::Index>(a)) = u.segment<2>(2 * grid.mesh.element(e)[a]);
+    for (int q = 0; q < Triangle6::kPoints; ++q) {
+      const QuadraturePoint<2>& point = Triangle6::quadrature()[static_cast<std::size_t>(q)];
+      const Triangle6::Shape n = Triangle6::shape(point.local);
       const Eigen::Vector2d place = nodes * n;
-      const double area = point.weight * plane_gradients(nodes, point.xi, point.eta).determinant;
-      const Eigen::Vector3d wrong =
-          stress.col(static_cast<Eigen::Index>(kQuadraturePoints * e + q)) - problem.stress(place);
+      const double area = point.weight * spatial_gradients<Triangle6>(nodes, point.local).determinant;
+      const Eigen::Vector3d wrong = stress.col(Triangle6::kPoints * e + q) - problem.stress(place);
       errors.displacement += area * (local * n - problem.displacement(place)).squaredNorm();
       errors.energy += area * wrong.dot(compliance * wrong);
     }

@@ -48,11 +48,8 @@ struct Ring {
       };
       for (int k = 0; k < n; ++k)
         if (image[static_cast<std::size_t>(k)] < 0) mesh.nodes.col(ring_node(k)) = turn * sector.mesh.nodes.col(k);
-      for (std::array<int, 6> element : sector.mesh.elements) {
-        for (int& node : element) node = ring_node(node);
-        mesh.elements.push_back(element);
-        mesh.region.push_back(0);
-      }
+      for (int node : sector.mesh.connectivity) mesh.connectivity.push_back(ring_node(node));
+      mesh.region.insert(mesh.region.end(), sector.mesh.region.begin(), sector.mesh.region.end());
       for (int node : sector.bore_nodes) on_bore[static_cast<std::size_t>(ring_node(node))] = true;
     }
     std::vector<Eigen::Triplet<double>> entries;
