@@ -18,12 +18,9 @@ AerofoilForm::AerofoilForm(const Profile& profile, const ProfileParameters& para
   tip_thickness_ = 2 * side.end.x();
 }
 
-Eigen::Vector2d AerofoilForm::place(double s, double xi, double eta) const {
+Eigen::Vector2d AerofoilForm::chord_point(double s, double eta) const {
   const double zeta = eta * (root_chord_ + s * (tip_chord_ - root_chord_)) / 2;
-  const double across = xi * (edge_fraction_ + (1 - edge_fraction_) * (1 - eta * eta));
-  const double angle = stagger_ + s * twist_;
-  const double c = std::cos(angle), sine = std::sin(angle);
-  return {across * c + zeta * sine + lean_ * s * s, zeta * c - across * sine};
+  return {zeta * std::sin(angle(s)) + lean_ * s * s, zeta * std::cos(angle(s))};
 }
 
 double AerofoilForm::volume() const {

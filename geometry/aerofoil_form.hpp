@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 
 #include "geometry/parameters.hpp"
 #include "geometry/profile.hpp"
@@ -8,15 +9,15 @@
 
 namespace dovetail::geometry {
 
-/// The aerofoil as a solid: where a point of the plane aerofoil comes to lie. With s the fraction of the span (0 at
-/// the upper ends of the blends, 1 at the tip), xi the distance from the centre line in the section and eta from -1
-/// (edge at lower z) to 1 along the chord,
+/// The aerofoil as a solid. A point of the plane aerofoil at the fraction s of the span (0 at the upper ends of the
+/// blends, 1 at the tip) and the distance xi from the centre line comes to lie, eta from -1 (edge at lower z) to 1
+/// along the chord, at
 ///
+///   x = xi f cos(beta) + zeta sin(beta) + lean s^2,
+///   z = zeta cos(beta) - xi f sin(beta),     y unchanged,
 ///   zeta = eta c(s)/2,                       c from chord to tip_chord, linear,
 ///   f    = e + (1 - e)(1 - eta^2),           e = edge_thickness_fraction,
-///   beta = stagger + s twist,
-///   x = xi f cos(beta) + zeta sin(beta) + lean s^2,
-///   z = zeta cos(beta) - xi f sin(beta),     y unchanged.
+///   beta = stagger + s twist.
 ///
 /// So every section y = const is turned about the radial line through x = z = 0 and its area is that of c(s) times
 /// the plane thickness times (2 + e)/3.
@@ -26,14 +27,22 @@ class AerofoilForm {
 
   /// Span fraction of a point of the plane aerofoil.
   [[nodiscard]] double span_fraction(double y) const { return (y - root_) / (tip_ - root_); }
-  /// (x, z) of a point, see above.
-  [[nodiscard]] Eigen::Vector2d place(double s, double xi, double eta) const;
+  /// (x, z) of the chord's point at s and eta, xi = 0.
+  [[nodiscard]] Eigen::Vector2d chord_point(double s, double eta) const;
+  /// (x, z) of the unit vector across the chord.
+  [[nodiscard]] Eigen::Vector2d across(double s) const { return {std::cos(angle(s)), -std::sin(angle(s))}; }
+  /// f.
+  [[nodiscard]] double fullness(double eta) const { return edge_fraction_ + (1 - edge_fraction_) * (1 - eta * eta); }
+  /// Half the plane aerofoil's thickness at s = 0, m.
+  [[nodiscard]] double half_root_thickness() const { return root_thickness_ / 2; }
   /// Volume above the blends, m3: closed form.
   [[nodiscard]] double volume() const;
 
  private:
-  double root_, tip_;                      // y of both ends
-  double root_thickness_, tip_thickness_;  // of the section there
+  [[nodiscard]] double angle(double s) const { return stagger_ + s * twist_; }
+
+  double root_ = 0, tip_ = 0;                      // y of both ends
+  double root_thickness_ = 0, tip_thickness_ = 0;  // of the section there
   double root_chord_, tip_chord_, stagger_, twist_, lean_, edge_fraction_;
 };
 

@@ -5,6 +5,8 @@
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 #include <cassert>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 namespace dovetail::geometry {
@@ -12,35 +14,55 @@ namespace {
 
 using Eigen::Vector2d;
 
+/// In place of values that are to be found.
+constexpr double kFree = std::numeric_limits<double>::quiet_NaN();
+
 std::size_t index(int i) {
   return static_cast<std::size_t>(i);
 }
 
-/// 1, 0, or -1 where the weight is to be found.
-std::vector<int> held(const CornerMesh& mesh, const Chain& chain) {
-  std::vector<int> value(mesh.nodes.size(), -1);
-  const double neck = edge(chain, "neck_right").end.y();
+/// 0 where the sweep of the root holds.
+std::vector<double> held_root(const CornerMesh& mesh, const Chain& chain) {
+  std::vector<double> value(mesh.nodes.size(), kFree);
   // The boundary's own nodes lie on this level up to rounding.
-  constexpr double kRounding = 1e-12;
+  const double neck = edge(chain, "neck_right").end.y() + 1e-12;
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
-    if (mesh.nodes[i].y() <= neck + kRounding) value[i] = 0;
+    if (mesh.nodes[i].y() <= neck) value[i] = 0;
   for (std::size_t e = 0; e < chain.size(); ++e)
     if (chain[e].name.starts_with("platform_side"))
-      for (int node : mesh.edge_nodes[e]) value[index(node)] = 0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    if (mesh.region[t] == 1)
-      for (int node : mesh.triangles[t]) value[index(node)] = 1;
+      for (const int node : mesh.edge_nodes[e]) value[index(node)] = 0;
   return value;
 }
 
-}  // namespace
+std::vector<double> held_chord(const CornerMesh& mesh, const Chain& chain) {
+  std::vector<double> value = held_root(mesh, chain);
+  const double side = edge(chain, "platform_side_right").start.x();
+  const double foot = edge(chain, "platform_top_right").end.x();
+  for (std::size_t e = 0; e < chain.size(); ++e)
+    if (chain[e].name.starts_with("platform_top") || chain[e].name.starts_with("platform_bottom"))
+      for (const int node : mesh.edge_nodes[e])
+        value[index(node)] = (side - std::abs(mesh.nodes[index(node)].x())) / (side - foot);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (mesh.region[t] == 1)
+      for (const int node : mesh.triangles[t]) value[index(node)] = 1;
+  return value;
+}
 
-Eigen::VectorXd morph_weights(const CornerMesh& mesh, const Chain& reference) {
-  const std::vector<int> value = held(mesh, reference);
+std::vector<double> held_thickness(const CornerMesh& mesh, const Chain& chain) {
+  std::vector<double> value = held_root(mesh, chain);
+  const double half = edge(chain, "aerofoil_right").start.x();
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (mesh.region[t] == 1)
+      for (const int node : mesh.triangles[t]) value[index(node)] = mesh.nodes[index(node)].x() / half;
+  return value;
+}
+
+/// Continues given values into the nodes whose value is NaN.
+Eigen::VectorXd continued(const CornerMesh& mesh, const std::vector<double>& value) {
   std::vector<int> place(value.size(), -1);
   int free = 0;
   for (std::size_t i = 0; i < value.size(); ++i)
-    if (value[i] < 0) place[i] = free++;
+    if (std::isnan(value[i])) place[i] = free++;
 
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::VectorXd load = Eigen::VectorXd::Zero(free);
@@ -54,10 +76,10 @@ Eigen::VectorXd morph_weights(const CornerMesh& mesh, const Chain& reference) {
     const Eigen::Matrix<double, 3, 2> gradient = local * jacobian.inverse();
     const Eigen::Matrix3d conduction = gradient * gradient.transpose();  // area times 1/area
     for (int i = 0; i < 3; ++i) {
-      const int row = place[index(triangle[static_cast<std::size_t>(i)])];
+      const int row = place[index(triangle[index(i)])];
       if (row < 0) continue;
       for (int j = 0; j < 3; ++j) {
-        const std::size_t node = index(triangle[static_cast<std::size_t>(j)]);
+        const std::size_t node = index(triangle[index(j)]);
         if (place[node] >= 0)
           entries.emplace_back(row, place[node], conduction(i, j));
         else
@@ -74,8 +96,14 @@ Eigen::VectorXd morph_weights(const CornerMesh& mesh, const Chain& reference) {
   Eigen::VectorXd weights(static_cast<Eigen::Index>(value.size()));
   for (std::size_t i = 0; i < value.size(); ++i)
     weights[static_cast<Eigen::Index>(i)] = place[i] >= 0 ? solution[place[i]] : value[i];
-  // Obtuse triangles may overstep the bounds a little.
-  return weights.cwiseMax(0.0).cwiseMin(1.0);
+  return weights;
+}
+
+}  // namespace
+
+MorphWeights morph_weights(const CornerMesh& mesh, const Chain& reference) {
+  return {.chord = continued(mesh, held_chord(mesh, reference)),
+          .thickness = continued(mesh, held_thickness(mesh, reference))};
 }
 
 }  // namespace dovetail::geometry

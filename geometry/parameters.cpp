@@ -126,6 +126,16 @@ const auto& size_fields() {
                1,
                {.lower = 2, .upper = 2000},
                "Element edges along the aerofoil's span."},
+      Field<M>{"blend_fraction",
+               &M::blend_fraction,
+               1,
+               {.lower = 0.05, .upper = 2},
+               "Element size on the blends of neck, shank, platform and aerofoil as a fraction of their radius."},
+      Field<M>{"growth",
+               &M::growth,
+               1,
+               {.lower = 0.05, .upper = 2},
+               "Growth of the element size with the distance from where a small one is wanted."},
   };
   return fields;
 }

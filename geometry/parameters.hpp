@@ -53,6 +53,8 @@ struct MeshSizes {
   double fillet_fraction = 0.1;  ///< element size on a fillet as a fraction of its radius
   double bulk_size = 3e-3;       ///< largest element size in the blade root and disk, m
   int aerofoil_elements = 24;    ///< element edges along the aerofoil's span
+  double blend_fraction = 0.4;   ///< element size on a blend (no stress is read there) as a fraction of its radius
+  double growth = 0.25;          ///< of the element size per distance from where a small one is wanted
 };
 
 }  // namespace dovetail::geometry

@@ -43,7 +43,10 @@ SectionReference::SectionReference(const ProfileParameters& parameters, const Me
     : SectionReference(build_profile(symmetric(parameters)), sizes) {}
 
 SectionReference::SectionReference(const Profile& profile, const MeshSizes& sizes)
-    : blade(profile.blade, sizes), disk(profile.disk, sizes), topology(blade.corners, disk.corners, profile) {}
+    : blade_chain(profile.blade),
+      blade(profile.blade, sizes),
+      disk(profile.disk, sizes),
+      topology(blade.corners, disk.corners, profile) {}
 
 MeshedSector SectionReference::mesh_of(const Profile& profile, const ProfileParameters& parameters) const {
   MeshedSector result;

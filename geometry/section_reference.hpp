@@ -27,6 +27,7 @@ struct ReferenceBody {
 /// The mesh topology of one reference design, which every design on it shares. The design is made symmetric first
 /// (both flanks the mean of the given ones), so that the mesh is a mirror image of itself.
 struct SectionReference {
+  Chain blade_chain;  ///< the reference blade's boundary
   ReferenceBody blade, disk;
   SectorTopology topology;
 

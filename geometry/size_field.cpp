@@ -7,8 +7,6 @@
 namespace dovetail::geometry {
 namespace {
 
-constexpr double kGrowth = 0.25;
-
 struct Segment {
   Eigen::Vector2d start, end;
   const Edge* part_of;
@@ -45,7 +43,7 @@ double wanted_on(const Edge& e, const MeshSizes& sizes) {
   if (e.name.starts_with("flank")) return e.length() / sizes.flank_elements;
   if (!e.is_arc()) return sizes.bulk_size;
   const auto named = [&e](const char* part) { return e.name.find(part) != std::string::npos; };
-  if (named("blend")) return 0.4 * e.radius;
+  if (named("blend")) return sizes.blend_fraction * e.radius;
   return (named("fillet") ? 1 : 2) * sizes.fillet_fraction * e.radius;
 }
 
@@ -68,7 +66,7 @@ double SizeField::operator()(const Eigen::Vector2d& x) const {
 }
 
 SizeField element_sizes(const Chain& chain, const MeshSizes& sizes) {
-  SizeField field(sizes.bulk_size, kGrowth);
+  SizeField field(sizes.bulk_size, sizes.growth);
   const std::vector<Segment> boundary = polyline(chain);
   for (const Edge& e : chain) {
     const double wanted = wanted_on(e, sizes);

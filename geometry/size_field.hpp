@@ -29,10 +29,10 @@ class SizeField {
 /// Sizes asked for by one body of the section:
 /// - a bearing flank: its length / flank_elements;
 /// - a fillet: fillet_fraction * radius, other arcs twice that: the peak stress sits in the fillets;
-/// - a blend (no stress is read there): 0.4 radius;
+/// - a blend (no stress is read there): blend_fraction * radius;
 /// - a wall of thickness t, measured along the inward normal of the boundary: t/2, i.e. at least two
 ///   quadratic elements through every wall;
-/// - away from these the size grows by a quarter of the distance up to bulk_size.
+/// - away from these the size grows by `growth` times the distance up to bulk_size.
 [[nodiscard]] SizeField element_sizes(const Chain& chain, const MeshSizes& sizes);
 
 }  // namespace dovetail::geometry

@@ -23,8 +23,7 @@ namespace dovetail::geometry {
 /// Weights and topology come from the reference alone, so positions are as smooth in all parameters as the profile.
 /// Whether a design is meshed afresh is decided on its section as in MeshFamily; `quality` is that of the wedges.
 ///
-/// Node i of the plane mesh at height l (0 the lowest z) is node l * (plane nodes) + i; the tip node and the axial
-/// nodes are at z = 0. neck_nodes stay empty.
+/// Node i of the plane mesh at height l (0 the lowest z) is node l * (plane nodes) + i; see solid_layers.hpp.
 class SolidFamily {
  public:
   /// Throws InputError when a size is out of range, the contact grid is finer than the mesh, or the boundary of the
