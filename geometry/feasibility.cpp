@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "geometry/exact_section.hpp"
+#include "geometry/solid_rules.hpp"
 
 namespace dovetail::geometry {
 
@@ -41,6 +42,10 @@ Rule overlap_rule(double overlap, double flank_length) {
                       : "blade and disk have only their flanks in common"};
 }
 
+bool all_kept(const std::vector<Rule>& rules) {
+  return std::all_of(rules.begin(), rules.end(), [](const Rule& rule) { return rule.margin >= 0; });
+}
+
 }  // namespace
 
 Feasibility check_feasibility(const ProfileParameters& parameters, const FeasibilityLimits& limits) {
@@ -65,8 +70,16 @@ Feasibility check_feasibility(const ProfileParameters& parameters, const Feasibi
     result.overlap_area = overlap > kOverlapNoise ? overlap : 0;
     result.rules.push_back(overlap_rule(result.overlap_area, parameters.left.length + parameters.right.length));
   }
-  result.feasible =
-      std::all_of(result.rules.begin(), result.rules.end(), [](const Rule& rule) { return rule.margin >= 0; });
+  result.feasible = all_kept(result.rules);
+  return result;
+}
+
+Feasibility check_feasibility(const ProfileParameters& parameters, const SolidParameters& solid,
+                              const FeasibilityLimits& limits) {
+  Feasibility result = check_feasibility(parameters, limits);
+  const std::vector<Rule> rules = solid_rules(parameters, solid);
+  result.feasible = result.feasible && all_kept(rules);
+  result.rules.insert(result.rules.end(), rules.begin(), rules.end());
   return result;
 }
 

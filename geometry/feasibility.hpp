@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "geometry/profile.hpp"
+#include "geometry/solid_parameters.hpp"
 
 namespace dovetail::geometry {
 
@@ -56,5 +57,9 @@ inline constexpr double kShortestStraight = 0.05e-3;
 /// These three are flat where they are kept: an optimiser is led by the closed forms. Throws InputError when a
 /// parameter or limit is out of range. Cost: some milliseconds.
 [[nodiscard]] Feasibility check_feasibility(const ProfileParameters& parameters, const FeasibilityLimits& limits = {});
+
+/// The same with the rules of the solid sector (solid_rules.hpp) last.
+[[nodiscard]] Feasibility check_feasibility(const ProfileParameters& parameters, const SolidParameters& solid,
+                                            const FeasibilityLimits& limits = {});
 
 }  // namespace dovetail::geometry

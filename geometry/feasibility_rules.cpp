@@ -1,52 +1,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "geometry/feasibility.hpp"
 #include "geometry/measures.hpp"
+#include "geometry/rule_list.hpp"
 
 namespace dovetail::geometry {
 
 namespace {
-
-constexpr double kMillimetre = 1e-3;
-constexpr double kDegree = std::numbers::pi / 180;
-
-/// The list under construction.
-class RuleList {
- public:
-  /// `value` must be at least `bound`; both in m.
-  void at_least(std::string name, const std::string& what, double value, double bound, const std::string& of_what,
-                double scale = kMillimetre) {
-    add(std::move(name), what, value / kMillimetre, bound / kMillimetre, of_what, "mm", (value - bound) / scale);
-  }
-
-  void straight(const std::string& part, const std::string& what, double length) {
-    at_least(part + "_fits", "the straight part of " + what, length, kShortestStraight,
-             "to leave room for the fillets beside it");
-  }
-
-  void angle_at_least(std::string name, const std::string& what, double value, double bound,
-                      const std::string& of_what) {
-    add(std::move(name), what, value / kDegree, bound / kDegree, of_what, "degrees", (value - bound) / (45 * kDegree));
-  }
-
-  std::vector<Rule> take() { return std::move(rules_); }
-
- private:
-  void add(std::string name, const std::string& what, double value, double bound, const std::string& of_what,
-           const char* unit, double margin) {
-    const double difference = std::abs(value - bound);
-    rules_.push_back(
-        {.name = std::move(name),
-         .margin = margin,
-         .sentence = fmt::format("{} is {:.4g} {}; it must be at least {:.4g} {} {} ({:.4g} {} {})", what, value, unit,
-                                 bound, unit, of_what, difference, unit, margin < 0 ? "short" : "to spare")});
-  }
-
-  std::vector<Rule> rules_;
-};
 
 void walls(RuleList& rules, const ProfileParameters& p, const Measures& m, double thinnest) {
   const auto wall = [&](const char* name, const char* what, double value) {

@@ -77,7 +77,8 @@ class Sweep {
       const double lost = thickness * (1 - aerofoil_.fullness(eta));
       const Eigen::Vector2d chord = aerofoil_.chord_point(s, eta), across = aerofoil_.across(s);
       nodes(0, i) += weight * (chord.x() - shift + xi * (across.x() - 1)) - lost * across.x();
-      nodes(2, i) += weight * (chord.y() - z + xi * across.y()) - lost * across.y();
+      // Square: an axial displacement that fades sooner keeps the platform's end faces flatter.
+      nodes(2, i) += weight * (chord.y() - z) + (weight * weight * xi - lost) * across.y();
     }
     return nodes;
   }

@@ -1,0 +1,68 @@
+#include "geometry/solid_rules.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+#include "geometry/profile.hpp"
+#include "geometry/rule_list.hpp"
+#include "geometry/slot_sweep.hpp"
+
+namespace dovetail::geometry {
+namespace {
+
+using Eigen::Vector2d;
+
+void platform(RuleList& rules, const Profile& profile, const ProfileParameters& p, const SolidParameters& solid) {
+  const double width = p.platform_width / 2 - edge(profile.blade, "platform_top_right").end.x();
+  const double tangent = std::tan(solid.skew_angle);
+  const double off = p.chord / 2 * std::abs(std::sin(solid.stagger) - std::cos(solid.stagger) * tangent);
+  rules.at_least("aerofoil_on_platform", "the width of the platform beside the aerofoil's edge", width - off,
+                 kLeastPlatformShare * width, "as a fifth of that in mid-chord");
+  const double at_ends = std::abs(p.chord * std::sin(solid.stagger) - p.slot_length * tangent) / 2;
+  rules.at_least("aerofoil_reaches_slot_ends", "the axial extent of the aerofoil's root",
+                 p.chord * std::cos(solid.stagger), p.slot_length * (kLeastPlatformShare + at_ends / width),
+                 "for the platform's end faces to meet its edges");
+}
+
+/// Distances to the cuts where the skew makes them smallest. Below the rim the slot moves further than the cuts, the
+/// platform above it less far.
+void cuts(RuleList& rules, const Profile& profile, const ProfileParameters& p, const SolidParameters& solid) {
+  const double half_pitch = std::numbers::pi / p.sectors;
+  const double end = std::copysign(p.slot_length / 2, solid.skew_angle);
+  for (const int side : {-1, 1}) {
+    const char* name = side < 0 ? "left" : "right";
+    const auto named = [name](const char* part) { return std::string(part) + "_" + name; };
+    const auto to_cut = [&](const Vector2d& at, double z) {
+      const Vector2d back = Eigen::Rotation2D<double>(turn_at(p, solid, z)) * at;
+      return back.y() * std::sin(half_pitch) - side * back.x() * std::cos(half_pitch);
+    };
+    const double towards = side * end;
+    const Profile near = section_at(profile, p, solid, towards), far = section_at(profile, p, solid, -towards);
+    const Edge& under = edge(far.blade, named("platform_bottom"));
+    const Edge& fillet = edge(near.disk, named("slot_fillet"));
+    const Edge& mouth = edge(near.disk, named("mouth"));
+    const std::string at_end = std::string(" to the sector's ") + name + " cut at the end of the slot";
+    rules.at_least(named("platform") + "_within_cut_at_ends", "the distance of the platform" + at_end,
+                   to_cut(side > 0 ? under.end : under.start, -towards), 0, "for neighbouring platforms not to touch");
+    rules.at_least(named("slot") + "_within_cut_at_ends", "the distance of the slot fillet" + at_end,
+                   to_cut(fillet.center, towards) - fillet.radius, 0, "for the slot to stay within its sector");
+    rules.at_least(named("mouth") + "_within_cut_at_ends", "the distance of the slot's mouth" + at_end,
+                   to_cut(side > 0 ? mouth.start : mouth.end, towards), 0, "for the slot to stay within its sector");
+  }
+}
+
+}  // namespace
+
+std::vector<Rule> solid_rules(const ProfileParameters& parameters, const SolidParameters& solid) {
+  (void)checked(solid);
+  const Profile profile = build_profile(parameters);
+  RuleList rules;
+  platform(rules, profile, parameters, solid);
+  cuts(rules, profile, parameters, solid);
+  rules.at_least("axial_relief_fits", "the length of the slot", parameters.slot_length / std::cos(solid.skew_angle),
+                 2 * solid.axial_relief_length, "for the relieved zones at its ends not to meet");
+  return rules.take();
+}
+
+}  // namespace dovetail::geometry
