@@ -29,6 +29,11 @@ void RuleList::angle_at_least(std::string name, const std::string& what, double 
   add(std::move(name), what, value / kDegree, bound / kDegree, of_what, "degrees", (value - bound) / (45 * kDegree));
 }
 
+void RuleList::share_at_least(std::string name, const std::string& what, double value, double bound,
+                              const std::string& of_what) {
+  add(std::move(name), what, 100 * value, 100 * bound, of_what, "%", value - bound);
+}
+
 void RuleList::add(std::string name, const std::string& what, double value, double bound, const std::string& of_what,
                    const char* unit, double margin) {
   const double difference = std::abs(value - bound);

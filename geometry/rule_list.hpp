@@ -20,6 +20,10 @@ class RuleList {
   void angle_at_least(std::string name, const std::string& what, double value, double bound,
                       const std::string& of_what);
 
+  /// `value` must be at least `bound`; both fractions, written in per cent. The margin is their difference.
+  void share_at_least(std::string name, const std::string& what, double value, double bound,
+                      const std::string& of_what);
+
   [[nodiscard]] std::vector<Rule> take() { return std::move(rules_); }
 
  private:
