@@ -65,14 +65,14 @@ Eigen::VectorXd wear_bars(const CandidateResult& result, const response::SteadyO
   if (!partial.settled) return {};
   const reduction::ContactNodes& contact = result.model.reduction.model.contact;
   // Of what one node more or less in the zones would change, edges between nodes leave a few per cent: on dovetails of
-  // 12 to 64 edges per flank 1 to 5 per cent.
-  constexpr double kEdge = 0.1;
+  // 12 to 64 edges per flank 1 to 5 per cent. Edges that did not settle may be anywhere in between.
+  const double edge = asymptote.edge_status == Status::converged ? 0.1 : 1.0;
   const double bracket = asymptote.volume_bracket[1] - asymptote.volume_bracket[0];
-  volume = std::abs(wear::worn_volume(contact, partial.depth) - asymptote.interpolated_volume) + kEdge * bracket;
+  volume = std::abs(wear::worn_volume(contact, partial.depth) - asymptote.interpolated_volume) + edge * bracket;
   depth = std::abs(partial.depth.maxCoeff() - asymptote.interpolated_largest_depth) +
-          kEdge * std::abs(asymptote.largest_depth - asymptote.interpolated_largest_depth);
+          edge * std::abs(asymptote.largest_depth - asymptote.interpolated_largest_depth);
   if (asymptote.interpolated_volume > 0)
-    depth += kEdge * bracket / asymptote.interpolated_volume * asymptote.interpolated_largest_depth / 2;
+    depth += edge * bracket / asymptote.interpolated_volume * asymptote.interpolated_largest_depth / 2;
   if (!result.held) return partial.depth;
   volume *= result.asymptote->interpolated_volume / asymptote.interpolated_volume;
   depth *= result.asymptote->interpolated_largest_depth / asymptote.interpolated_largest_depth;

@@ -28,13 +28,20 @@ void place_edges(Release& release, double threshold, int limit, Asymptote& resul
   if (release.model().directions() != 2) return;  // in space the edge is a line through many nodes
   const PartialRelease partial = release_partially(release, result.unworn, threshold, limit);
   result.edge_status = partial.status;
-  if (!partial.settled) return;
+  // Zones that went on growing: the last ones that bear stand for the answer, and the nodal one bounds it.
+  if (!partial.settled && partial.passes == 0) {
+    result.volume_bracket[0] = 0.0;
+    return;
+  }
   const reduction::ContactNodes& contact = release.model().contact();
   result.share = partial.share;
   result.interpolated_depth = partial.depth;
   result.interpolated_volume = worn_volume(contact, partial.depth);
   result.interpolated_largest_depth = partial.depth.size() == 0 ? 0.0 : partial.depth.maxCoeff();
   result.volume_bracket.fill(result.interpolated_volume);
+  if (!partial.settled)
+    result.volume_bracket = {std::min(result.interpolated_volume, result.worn_volume),
+                             std::max(result.interpolated_volume, result.worn_volume)};
   for (const bool outside : {false, true}) {
     const VectorXd whole = outside ? VectorXd(partial.share.array().ceil()) : VectorXd(partial.share.array().floor());
     if (whole == partial.share) continue;

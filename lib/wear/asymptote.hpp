@@ -75,7 +75,9 @@ struct Asymptote {
   Eigen::VectorXd interpolated_depth;       ///< [Nc] m
   Eigen::VectorXd share;                    ///< [Nc] part of each node that is worn off, see PartialRelease
   std::array<double, 2> volume_bracket{};   ///< m^3, lower and upper
-  Status edge_status = Status::converged;   ///< of the states it takes; otherwise the nodal answer is repeated
+  /// Of the states it takes. Otherwise the zones had not settled: the last ones found stand and volume_bracket
+  /// reaches to the nodal answer, or, when there are none, that stands and volume_bracket begins at 0.
+  Status edge_status = Status::converged;
 
   Eigen::VectorXd unworn_rate;  ///< [Nc] dW of the unworn state, m per cycle
   Eigen::VectorXd rate;         ///< [Nc] dW of the worn state, m per cycle (no asymptote: the steady one)

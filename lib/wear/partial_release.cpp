@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "wear/flank_lines.hpp"
+#include "wear/passes.hpp"
 #include "wear/worn_zones.hpp"
 
 namespace dovetail::wear {
@@ -15,14 +16,15 @@ namespace {
 
 // Shares nearer to an end than this are at it: the springs would be numerically rigid or absent.
 constexpr double kEnd = 1e-4;
+// Shares that move by less than this have settled: it is far below what the place of an edge is known to.
+constexpr double kSettled = 1e-3;
 
-NodeInPass look_at(const Release& release, const response::SteadyState& state, Index i, double share,
-                   double threshold) {
+NodeInPass look_at(const Release& release, const response::SteadyState& state, Index i, double share, bool slips) {
   const response::NodeSummary& summary = state.nodes[static_cast<std::size_t>(i)];
   NodeInPass node;
   node.load = summary.max_normal_force;
   node.loaded = share < 1 && summary.carries_load;
-  node.slips = node.loaded && summary.wear_rate > threshold;
+  node.slips = node.loaded && slips;
   if (node.slips)
     node.excess = slip_excess(release.model(), state, i);
   else if (node.loaded)
@@ -49,17 +51,28 @@ PartialRelease release_partially(Release& release, const response::SteadyState& 
   result.state = unworn;
   for (result.passes = 0; result.passes < limit; ++result.passes) {
     VectorXd share = result.share;
+    // What happens inside the zones holds nothing up.
+    std::vector<bool> inside(static_cast<std::size_t>(share.size()));
+    for (Index i = 0; i < share.size(); ++i) inside[static_cast<std::size_t>(i)] = share[i] >= 0.5;
+    const std::vector<bool> slips = wear_off(result.state, inside, threshold);
     for (std::size_t l = 0; l < lines.size(); ++l) {
       std::vector<NodeInPass> nodes;
-      for (const int i : lines[l]) nodes.push_back(look_at(release, result.state, i, result.share[i], threshold));
+      for (const int i : lines[l])
+        nodes.push_back(look_at(release, result.state, i, result.share[i], slips[static_cast<std::size_t>(i)]));
       zones[l].extend(nodes);
       share(lines[l]) = rounded(zones[l].share());
     }
-    if (share == result.share) {
+    if ((share - result.share).cwiseAbs().maxCoeff() < kSettled) {
       result.settled = true;
       break;
     }
     response::SteadyState state = release.solve_shared(share, result.state.displacement);
+    if (state.status != Status::converged && state.status != Status::interrupted) {
+      // Half the way first: the state there is a better guess.
+      const response::SteadyState half =
+          release.solve_shared(rounded(0.5 * (result.share + share)), result.state.displacement);
+      if (half.status == Status::converged) state = release.solve_shared(share, half.displacement);
+    }
     result.status = state.status;
     if (state.status != Status::converged) break;
     result.share = share;

@@ -14,7 +14,7 @@ namespace dovetail::wear {
 /// still bears. The zones grow over the passes by the slip next to them (WornZones).
 struct PartialRelease {
   Status status = Status::converged;
-  bool settled = false;   ///< nothing outside the zones slips; otherwise nothing holds or a state failed
+  bool settled = false;   ///< nothing outside the zones slips; otherwise the last state found stands for the answer
   Eigen::VectorXd share;  ///< [Nc]
   Eigen::VectorXd depth;  ///< W [Nc], m
   int passes = 0;

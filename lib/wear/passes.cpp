@@ -21,19 +21,30 @@ std::vector<bool> loaded_nodes(const response::SteadyState& state, const std::ve
 
 Passes::Passes(Index nodes) : released(static_cast<std::size_t>(nodes), false), touching(released) {}
 
+std::vector<bool> wear_off(const response::SteadyState& state, const std::vector<bool>& done, double threshold) {
+  constexpr double kWaits = 0.02;
+  double fastest = 0.0;
+  for (std::size_t i = 0; i < done.size(); ++i)
+    if (!done[i]) fastest = std::max(fastest, state.nodes[i].wear_rate);
+  std::vector<bool> off(done.size());
+  for (std::size_t i = 0; i < off.size(); ++i) {
+    const response::NodeSummary& node = state.nodes[i];
+    off[i] = !done[i] && node.carries_load && node.wear_rate > threshold &&
+             !(node.separates && node.wear_rate < kWaits * fastest);
+  }
+  return off;
+}
+
 Ending release_slipping(Release& release, double threshold, int limit, const Control& control, Passes& passes) {
   for (;; ++passes.count) {
     const std::vector<bool> loaded = loaded_nodes(passes.state, passes.released);
+    const std::vector<bool> slips = wear_off(passes.state, passes.released, threshold);
     std::vector<bool> next = passes.released;
     bool slipping = false;
     bool held = false;
     for (std::size_t i = 0; i < next.size(); ++i) {
-      if (!loaded[i]) continue;
-      const bool slips = passes.state.wear_rate[static_cast<Index>(i)] > threshold;
-      if (slips)
-        next[i] = slipping = true;
-      else
-        held = true;
+      if (slips[i]) next[i] = slipping = true;
+      held = held || (loaded[i] && !slips[i]);
     }
     if (!slipping) return Ending::settled;
     if (passes.count >= limit) {

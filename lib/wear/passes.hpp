@@ -26,8 +26,15 @@ struct Passes {
   Status status = Status::converged;
 };
 
-/// Releases every loaded node that wears by more than `threshold` m per cycle, solves again, and so on, beginning with
-/// `passes.state`. At most `limit` passes.
+/// Whether a pass releases each node [Nc]: those not `done` that wear by more than `threshold` m per cycle under load.
+/// A node that touches at times only waits, however, while another is more than 50 times as fast: it slips a little
+/// where it touches down and lifts off as long as the joint moves as it does, and when the fast nodes have come to rest
+/// it has hardly worn and may touch without slip.
+[[nodiscard]] std::vector<bool> wear_off(const response::SteadyState& state, const std::vector<bool>& done,
+                                         double threshold);
+
+/// Releases every loaded node that wears by more than `threshold` m per cycle (`wear_off`), solves again, and so on,
+/// beginning with `passes.state`. At most `limit` passes.
 [[nodiscard]] Ending release_slipping(Release& release, double threshold, int limit, const Control& control,
                                       Passes& passes);
 
