@@ -29,7 +29,7 @@ inline Grid make_grid(int columns, int rows, const Map& map) {
   grid.mesh.nodes.resize(2, (2 * columns + 1) * (2 * rows + 1));
   for (int j = 0; j <= 2 * rows; ++j)
     for (int i = 0; i <= 2 * columns; ++i)
-      grid.mesh.nodes.col(grid.node(i, j)) = map(0.5 * i / columns, 0.5 * j / rows);
+      grid.mesh.nodes.col(grid.node(i, j)).head<2>() = map(0.5 * i / columns, 0.5 * j / rows);
   const auto at = [&](int i, int j) { return grid.node(i, j); };
   for (int j = 0; j < 2 * rows; j += 2)
     for (int i = 0; i < 2 * columns; i += 2) {
@@ -157,7 +157,8 @@ inline SectorMesh toothed_sector(int disk_cells, int tooth_cells, int third, int
       }
     }
   sector.mesh.nodes.resize(2, static_cast<Eigen::Index>(nodes.size()));
-  for (std::size_t k = 0; k < nodes.size(); ++k) sector.mesh.nodes.col(static_cast<Eigen::Index>(k)) = nodes[k];
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    sector.mesh.nodes.col(static_cast<Eigen::Index>(k)).head<2>() = nodes[k];
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     const int cell = e / 2, radial = cell % columns, angular = cell / columns;
     const bool tooth = radial >= disk_cells;
@@ -183,8 +184,8 @@ inline SectorMesh toothed_sector(int disk_cells, int tooth_cells, int third, int
         place = 0.5 * (sector.mesh.nodes.col(number(2 * disk_cells, j - 1)) +
                        sector.mesh.nodes.col(number(2 * disk_cells, j + 1)));
       place.y() = flank_radius;
-      sector.mesh.nodes.col(renumbered[old]) = place;
-      if (tooth_copy[old] >= 0) sector.mesh.nodes.col(tooth_copy[old]) = place;
+      sector.mesh.nodes.col(renumbered[old]).head<2>() = place;
+      if (tooth_copy[old] >= 0) sector.mesh.nodes.col(tooth_copy[old]).head<2>() = place;
     }
   if (merged) return sector;
   Flank flank;

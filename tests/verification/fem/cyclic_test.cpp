@@ -8,6 +8,7 @@
 
 #include "fem/glued_modes.hpp"
 #include "fem/sector_system.hpp"
+#include "tests/unit/fem/extruded_mesh.hpp"
 #include "tests/unit/fem/structured_mesh.hpp"
 
 namespace dovetail::fem {
@@ -23,6 +24,17 @@ SectorMesh lopsided_sector() {
   return testing::annulus_sector(grid, kSectors);
 }
 
+/// The same in space, one layer, twisted so that no cross-section is like another; held axially at the bore's foot.
+SectorMesh lopsided_solid() {
+  SectorMesh sector = testing::extrude(lopsided_sector(), 1, 0.06, 1);
+  const Eigen::Index level = sector.mesh.nodes.cols() / 3;
+  sector.mesh.nodes.col(2 * level + 14) += Eigen::Vector3d(0.01, 0.02, 0.015);
+  sector.mesh.nodes.col(level + 12) += Eigen::Vector3d(0.004, -0.003, 0.006);
+  for (int node : sector.bore_nodes)
+    if (node < level) sector.axial_nodes.push_back(node);
+  return sector;
+}
+
 /// The whole ring, sector k turned clockwise by k sector angles and joined at the cuts; bore held tangentially.
 struct Ring {
   Mesh mesh;
@@ -35,11 +47,15 @@ struct Ring {
     int kept = 0;
     for (std::size_t k = 0; k < number.size(); ++k)
       if (image[k] < 0) number[k] = kept++;
-    mesh.nodes.resize(2, kSectors * kept);
+    const int d = sector.mesh.dimensions();
+    mesh.kind = sector.mesh.kind;
+    mesh.nodes.resize(d, kSectors * kept);
     mesh.regions = sector.mesh.regions;
-    std::vector<bool> on_bore(static_cast<std::size_t>(kSectors * kept), false);
+    std::vector<bool> on_bore(static_cast<std::size_t>(kSectors * kept), false), axial = on_bore;
     for (int s = 0; s < kSectors; ++s) {
-      const Eigen::Matrix2d turn = Eigen::Rotation2D<double>(-2 * std::numbers::pi * s / kSectors).toRotationMatrix();
+      Eigen::MatrixXd turn = Eigen::MatrixXd::Identity(d, d);
+      turn.topLeftCorner<2, 2>() = Eigen::Rotation2D<double>(-2 * std::numbers::pi * s / kSectors).toRotationMatrix();
+      const Eigen::MatrixXd turned = turn * sector.mesh.nodes;
       // The right cut of a sector is the left cut of the next one clockwise.
       const auto ring_node = [&](int node) {
         const int left = image[static_cast<std::size_t>(node)];
@@ -47,21 +63,23 @@ struct Ring {
                         : (s + 1) % kSectors * kept + number[static_cast<std::size_t>(left)];
       };
       for (int k = 0; k < n; ++k)
-        if (image[static_cast<std::size_t>(k)] < 0) mesh.nodes.col(ring_node(k)) = turn * sector.mesh.nodes.col(k);
+        if (image[static_cast<std::size_t>(k)] < 0) mesh.nodes.col(ring_node(k)) = turned.col(k);
       for (int node : sector.mesh.connectivity) mesh.connectivity.push_back(ring_node(node));
       mesh.region.insert(mesh.region.end(), sector.mesh.region.begin(), sector.mesh.region.end());
       for (int node : sector.bore_nodes) on_bore[static_cast<std::size_t>(ring_node(node))] = true;
+      for (int node : sector.axial_nodes) axial[static_cast<std::size_t>(ring_node(node))] = true;
     }
     std::vector<Eigen::Triplet<double>> entries;
     int column = 0;
     for (int k = 0; k < mesh.node_count(); ++k) {
-      const Eigen::Vector2d radial = mesh.nodes.col(k).normalized();
+      const Eigen::Vector2d radial = mesh.nodes.col(k).head<2>().normalized();
       for (int c = 0; c < 2; ++c)
-        entries.emplace_back(2 * k + c, on_bore[static_cast<std::size_t>(k)] ? column : column + c,
+        entries.emplace_back(d * k + c, on_bore[static_cast<std::size_t>(k)] ? column : column + c,
                              on_bore[static_cast<std::size_t>(k)] ? radial[c] : 1.0);
       column += on_bore[static_cast<std::size_t>(k)] ? 1 : 2;
+      if (d == 3 && !axial[static_cast<std::size_t>(k)]) entries.emplace_back(d * k + 2, column++, 1.0);
     }
-    selection.resize(2 * mesh.nodes.cols(), column);
+    selection.resize(d * mesh.nodes.cols(), column);
     selection.setFromTriplets(entries.begin(), entries.end());
   }
 };
@@ -71,8 +89,11 @@ Eigen::VectorXd sorted(std::vector<double> values) {
   return Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
-TEST(CyclicSymmetry, NodalDiametersTogetherAreTheFullRing) {
-  const SectorMesh sector = lopsided_sector();
+class CyclicSymmetry : public ::testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Dimensions, CyclicSymmetry, ::testing::Values(2, 3));
+
+TEST_P(CyclicSymmetry, NodalDiametersTogetherAreTheFullRing) {
+  const SectorMesh sector = GetParam() == 2 ? lopsided_sector() : lopsided_solid();
   const std::vector<Material> materials{Material{}};
   const Ring ring(sector);
   const FullMatrices full_ring = Assembler(ring.mesh).stiffness_and_mass(ring.mesh, materials);
