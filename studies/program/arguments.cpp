@@ -69,47 +69,58 @@ void define_study_commands(CLI::App& app, Arguments& a) {
 }
 
 void define_file_commands(CLI::App& app, Arguments& a) {
-  CLI::App* import =
+  CLI::App* import_model =
       app.add_subcommand("import", "Write a reduced model given as Matrix Market files and TOML as HDF5");
-  import->footer(
+  import_model->footer(
       "MODEL.toml says format = \"dovetail-reduced-model\", version = 1, names the files `mass`, `damping` and\n"
       "`stiffness`, and has a section [contact] (normal, tangential, area, gap, friction, wear_coefficient, one entry\n"
       "per node), sections [[force]] (dof, harmonic, cosine, sine) and [[output]] (name, dofs, factors); dofs count\n"
       "from 0. `response` and `wear` read it directly, too.");
-  import->add_option("INPUT", a.import.input, "The model (TOML)")->required()->type_name("");
-  import->add_option("-o,--output", a.import.model, "The model file to write")->type_name("MODEL.h5")->required();
-  import->callback([&a] { a.command = [&a](const Streams& s) { return run_import(a.import, s);
-};
-}  // namespace
-);
+  import_model->add_option("INPUT", a.import.input, "The model (TOML)")->required()->type_name("");
+  import_model->add_option("-o,--output", a.import.model, "The model file to write")->type_name("MODEL.h5")->required();
+  import_model->callback([&a] { a.command = [&a](const Streams& s) { return run_import(a.import, s); }; });
 
-CLI::App* geometry = app.add_subcommand(
-    "export", "Write geometry or fields of a finished run's best design or of a study, or matrices of a model");
-std::string formats;
-for (const std::string_view format : export_formats()) formats += std::string(format) + ", ";
-geometry->footer(
-    "matrix-market writes a reduced model (of a model file, a study or a run's best design) as FILE.toml and, beside\n"
-    "it, FILE.mass.mtx, FILE.damping.mtx and FILE.stiffness.mtx; `import` turns them into HDF5 again, bit by bit.");
-geometry->add_option("INPUT", a.geometry.input, "Directory of a run, a study file, or a reduced model")
-    ->required()
-    ->type_name("");
-geometry->add_option("--format", a.geometry.format, "One of " + formats + std::string(kMatrixMarket))
-    ->type_name("NAME")
-    ->required();
-geometry->add_option("-o,--output", a.geometry.file, "The file to write")->type_name("FILE")->required();
-add_set(*geometry, a);
-geometry->callback([&a] {
-  a.command = [&a](const Streams& s) {
-    a.geometry.overrides = a.overrides();
-    return run_export(a.geometry, s);
-  };
-});
+  CLI::App* geometry = app.add_subcommand(
+      "export",
+      "Write geometry, finite elements or fields of a run's best design or of a study, or matrices of a model");
+  std::string formats;
+  for (const std::string_view format : export_formats()) formats += std::string(format) + ", ";
+  geometry->footer(
+      "inp writes the sector's finite elements for CalculiX (units mm, tonne, s): centrifugal load at the study's "
+      "speed,\n"
+      "then natural frequencies; --nodal-diameter, --modes and --contact choose what is asked for.\n"
+      "matrix-market writes a reduced model (of a model file, a study or a run's best design) as FILE.toml and, "
+      "beside\n"
+      "it, FILE.mass.mtx, FILE.damping.mtx and FILE.stiffness.mtx; `import` turns them into HDF5 again, bit by bit.");
+  geometry->add_option("INPUT", a.geometry.input, "Directory of a run, a study file, or a reduced model")
+      ->required()
+      ->type_name("");
+  geometry->add_option("--format", a.geometry.format, "One of " + formats + std::string(kMatrixMarket))
+      ->type_name("NAME")
+      ->required();
+  geometry->add_option("-o,--output", a.geometry.file, "The file to write")->type_name("FILE")->required();
+  geometry
+      ->add_option("--nodal-diameter", a.geometry.deck.nodal_diameters,
+                   "inp: nodal diameters of the frequency steps, separated by commas (default: the study's)")
+      ->delimiter(',')
+      ->type_name("N");
+  geometry->add_option("--modes", a.geometry.deck.modes, "inp: modes per nodal diameter")
+      ->check(CLI::PositiveNumber)
+      ->type_name("N");
+  geometry->add_flag("--contact", a.geometry.deck.contact, "inp: flanks in frictional contact, not glued");
+  add_set(*geometry, a);
+  geometry->callback([&a] {
+    a.command = [&a](const Streams& s) {
+      a.geometry.overrides = a.overrides();
+      return run_export(a.geometry, s);
+    };
+  });
 
-CLI::App* report = app.add_subcommand("report", "Write the report of a run again, from its stored results");
-report->add_option("DIR", a.report.directory, "Directory of the run")->required()->type_name("");
-report->add_option("-o,--output", a.report.file, "The page to write")->type_name("FILE.html")->required();
-report->callback([&a] { a.command = [&a](const Streams& s) { return run_report(a.report, s); }; });
-}  // namespace dovetail::studies
+  CLI::App* report = app.add_subcommand("report", "Write the report of a run again, from its stored results");
+  report->add_option("DIR", a.report.directory, "Directory of the run")->required()->type_name("");
+  report->add_option("-o,--output", a.report.file, "The page to write")->type_name("FILE.html")->required();
+  report->callback([&a] { a.command = [&a](const Streams& s) { return run_report(a.report, s); }; });
+}
 
 }  // namespace
 

@@ -7,6 +7,7 @@
 #include "core/replace_file.hpp"
 #include "reduction/model_file.hpp"
 #include "studies/program/commands.hpp"
+#include "studies/program/deck_export.hpp"
 #include "studies/program/engine.hpp"
 #include "studies/program/export.hpp"
 #include "studies/program/field_export.hpp"
@@ -85,6 +86,11 @@ int run_export(const ExportOptions& options, const Streams& streams) {
     throw InputError(Violation{
         .file = {}, .key = "--format", .value = options.format, .allowed = allowed + " " + std::string(kMatrixMarket)});
   }
+  if (!is_deck_format(options.format) && options.deck != DeckOptions{})
+    throw InputError(Violation{.file = {},
+                               .key = "--format",
+                               .value = options.format,
+                               .allowed = "must be inp with --nodal-diameter, --modes or --contact"});
   check_replaceable(options.file);
   const bool of_run = fs::is_directory(options.input);
   const auto design = [&] {
@@ -98,6 +104,8 @@ int run_export(const ExportOptions& options, const Streams& streams) {
                                .allowed = "is a reduced model: it has matrices (--format matrix-market), no geometry"});
   if (is_field_format(options.format))
     export_fields(fields_of(options, of_run), options.file);
+  else if (is_deck_format(options.format))
+    export_deck(load_study(design(), options.overrides).scene, options.deck, options.file);
   else
     export_section(load_study(design(), options.overrides).scene, options.format, options.file);
   streams.out << options.file << ": written\n";

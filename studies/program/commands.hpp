@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/options.hpp"
+#include "studies/program/deck_export.hpp"
 #include "studies/program/run_engine.hpp"
 #include "studies/program/study.hpp"
 
@@ -138,6 +139,7 @@ struct ExportOptions {
   std::vector<Override> overrides;
   std::string format;
   std::string file;
+  DeckOptions deck;  ///< of the format inp
 };
 int run_export(const ExportOptions& options, const Streams& streams);
 

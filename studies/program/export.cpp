@@ -12,7 +12,7 @@
 namespace dovetail::studies {
 
 std::span<const std::string_view> export_formats() {
-  static constexpr std::array<std::string_view, 3> formats{"dxf", "svg", "vtu"};
+  static constexpr std::array<std::string_view, 4> formats{"dxf", "svg", "vtu", "inp"};
   return formats;
 }
 
@@ -25,8 +25,12 @@ bool is_field_format(std::string_view format) {
   return format == "vtu";
 }
 
+bool is_deck_format(std::string_view format) {
+  return format == "inp";
+}
+
 void export_section(const optimizer::Scene& scene, const std::string& format, const std::filesystem::path& file) {
-  assert(is_export_format(format) && !is_field_format(format));
+  assert(is_export_format(format) && !is_field_format(format) && !is_deck_format(format));
   const std::vector<geometry::Layer> layers = geometry::section_layers(scene.geometry);
   if (format == "dxf")
     geometry::write_dxf(file, layers);
