@@ -116,8 +116,8 @@ const SolidParameters& checked(const SolidParameters& solid) {
   return solid;
 }
 
-const SolidSizes& checked(const SolidSizes& sizes, const MeshSizes& section) {
-  std::vector<Violation> found = violations(sizes, "mesh");
+std::vector<Violation> contradictions(const SolidSizes& sizes, const MeshSizes& section) {
+  std::vector<Violation> found;
   const auto no_finer = [&found](const char* key, int contact, const char* mesh_key, int mesh) {
     if (contact > mesh)
       found.push_back({.file = {},
@@ -128,6 +128,12 @@ const SolidSizes& checked(const SolidSizes& sizes, const MeshSizes& section) {
   };
   no_finer("contact_flank_elements", sizes.contact_flank_elements, "flank_elements", section.flank_elements);
   no_finer("contact_slot_elements", sizes.contact_slot_elements, "slot_elements", sizes.slot_elements);
+  return found;
+}
+
+const SolidSizes& checked(const SolidSizes& sizes, const MeshSizes& section) {
+  std::vector<Violation> found = violations(sizes, "mesh");
+  for (Violation& finer : contradictions(sizes, section)) found.push_back(std::move(finer));
   if (!found.empty()) throw InputError(std::move(found));
   return sizes;
 }

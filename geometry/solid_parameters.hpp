@@ -34,6 +34,8 @@ struct SolidSizes {
 
 /// Throws InputError when a parameter is out of range.
 const SolidParameters& checked(const SolidParameters& solid);
+/// A contact grid finer than the mesh.
+[[nodiscard]] std::vector<Violation> contradictions(const SolidSizes& sizes, const MeshSizes& section);
 /// Throws InputError when a size is out of range or the contact grid is finer than the mesh.
 const SolidSizes& checked(const SolidSizes& sizes, const MeshSizes& section);
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "fem/stress.hpp"
+#include "geometry/solid_rules.hpp"
 #include "optimizer/stopwatch.hpp"
 #include "reduction/static_condensation.hpp"
 
@@ -69,6 +70,14 @@ Status geometric_stiffness(const Scene& scene, const CandidateModel& candidate, 
   return Status::converged;
 }
 
+/// The rules of the section, and in space those of the solid.
+geometry::Feasibility feasibility_of(const Scene& scene) {
+  geometry::FeasibilityLimits limits = scene.limits;
+  limits.friction = scene.contact.friction;
+  return scene.in_space() ? geometry::check_feasibility(scene.geometry, scene.solid, limits)
+                          : geometry::check_feasibility(scene.geometry, limits);
+}
+
 std::string first_broken(const geometry::Feasibility& feasibility, std::vector<std::string>& messages) {
   for (const geometry::Rule& rule : feasibility.rules)
     if (rule.margin < 0) messages.push_back(rule.sentence);
@@ -81,18 +90,24 @@ std::vector<fem::Material> materials(const Scene& scene) {
   return {scene.blade, scene.disk};
 }
 
-ModelBuilder::ModelBuilder(const Scene& reference) : sizes_(reference.mesh) {
+ModelBuilder::ModelBuilder(const Scene& reference) : sizes_(reference.mesh), solid_sizes_(reference.solid_mesh) {
   if (std::vector<Violation> found = violations(reference); !found.empty()) throw InputError(std::move(found));
   try {
-    family_.emplace(reference.geometry, sizes_);
+    if (reference.in_space())
+      solid_family_.emplace(reference.geometry, sizes_, solid_sizes_);
+    else
+      section_family_.emplace(reference.geometry, sizes_);
   } catch (const InputError&) {
     // All ranges hold, so the boundary crosses itself: no reason to refuse candidates whose own does not.
   }
 }
 
-geometry::MeshedSector ModelBuilder::mesh_of(const geometry::ProfileParameters& parameters) const {
-  if (family_) return family_->mesh_of(parameters);
-  geometry::MeshedSector own = geometry::mesh_sector(parameters, sizes_);
+geometry::MeshedSector ModelBuilder::mesh_of(const Scene& scene) const {
+  if (section_family_) return section_family_->mesh_of(scene.geometry);
+  if (solid_family_) return solid_family_->mesh_of(scene.geometry, scene.solid);
+  geometry::MeshedSector own = scene.in_space()
+                                   ? geometry::mesh_solid(scene.geometry, scene.solid, sizes_, solid_sizes_)
+                                   : geometry::mesh_sector(scene.geometry, sizes_);
   own.remeshed = true;
   own.note = "The reference design cannot be meshed, so this design is its own reference. " + own.note;
   return own;
@@ -103,9 +118,7 @@ CandidateModel ModelBuilder::build(const Scene& scene) const {
   CandidateModel candidate;
   Stopwatch watch;
 
-  geometry::FeasibilityLimits limits = scene.limits;
-  limits.friction = scene.contact.friction;
-  candidate.feasibility = geometry::check_feasibility(scene.geometry, limits);
+  candidate.feasibility = feasibility_of(scene);
   candidate.timings_s["feasibility"] = watch.lap();
   if (!candidate.feasibility.feasible) {
     candidate.status = first_broken(candidate.feasibility, candidate.messages);
@@ -113,7 +126,7 @@ CandidateModel ModelBuilder::build(const Scene& scene) const {
   }
 
   try {
-    candidate.mesh = mesh_of(scene.geometry);
+    candidate.mesh = mesh_of(scene);
   } catch (const InputError& error) {
     candidate.status = std::string("mesh: ") + error.what();
     return candidate;

@@ -10,6 +10,7 @@
 #include "fem/sector_system.hpp"
 #include "geometry/feasibility.hpp"
 #include "geometry/mesh_motion.hpp"
+#include "geometry/solid_family.hpp"
 #include "optimizer/scene.hpp"
 #include "reduction/massless_boundary.hpp"
 #include "response/preload.hpp"
@@ -47,15 +48,19 @@ class ModelBuilder {
   explicit ModelBuilder(const Scene& reference);
 
   /// Stages in order: feasibility, mesh motion, assembly, preload without geometric stiffness (for the stresses it
-  /// comes from), stiffness at speed, reduction, preload. The scene's mesh sizes must be the reference's.
+  /// comes from), stiffness at speed, reduction, preload. The scene's type and mesh sizes must be the
+  /// reference's.
   /// Throws InputError for a scene that violates its ranges.
   [[nodiscard]] CandidateModel build(const Scene& scene) const;
 
  private:
-  [[nodiscard]] geometry::MeshedSector mesh_of(const geometry::ProfileParameters& parameters) const;
+  [[nodiscard]] geometry::MeshedSector mesh_of(const Scene& scene) const;
 
   geometry::MeshSizes sizes_;
-  std::optional<geometry::MeshFamily> family_;  ///< absent when the reference cannot be meshed
+  geometry::SolidSizes solid_sizes_;
+  // The one of the reference's type; absent when the reference cannot be meshed.
+  std::optional<geometry::MeshFamily> section_family_;
+  std::optional<geometry::SolidFamily> solid_family_;
 };
 
 /// The section at standstill as finite elements, no preload: for exports and frequencies of the bare geometry.

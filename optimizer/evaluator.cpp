@@ -25,11 +25,14 @@ double hertz(double omega) {
 void static_responses(const Scene& scene, const CandidateModel& model, Evaluation& evaluation) {
   std::map<std::string, double>& responses = evaluation.responses;
   const geometry::Profile profile = geometry::build_profile(scene.geometry);
-  responses["mass_kg"] = geometry::mass(scene.geometry, scene.blade.density, scene.disk.density).blade;
+  const std::vector<fem::Material> bodies = materials(scene);
+  responses["mass_kg"] = scene.in_space()
+                             ? fem::body_mass(model.mesh.sector.mesh, bodies, 0)
+                             : geometry::mass(scene.geometry, scene.blade.density, scene.disk.density).blade;
   responses["post_width_m"] = geometry::measure(profile, scene.geometry).post;
 
   const double load = scene.loading.speed * scene.loading.speed;
-  responses["neck_tension_pa"] = load * fem::neck_tension(model.mesh.sector, materials(scene)).mean_stress;
+  responses["neck_tension_pa"] = load * fem::neck_tension(model.mesh.sector, bodies).mean_stress;
 
   const fem::ContactSurface& surface = model.system.contact;
   responses["contact_pressure_max_pa"] =

@@ -1,125 +1,7 @@
 #include "optimizer/scene.hpp"
 
-#include <array>
 #include <cmath>
-#include <numbers>
 #include <type_traits>
-
-namespace dovetail {
-
-template <>
-std::span<const Field<fem::Material>> option_table<fem::Material>() {
-  using M = fem::Material;
-  static const std::array<Field<M>, 3> table{
-      Field<M>{.key = "youngs_modulus_gpa",
-               .member = &M::youngs_modulus,
-               .si_per_unit = 1e9,
-               .range = kPositive,
-               .help = "Young's modulus"},
-      Field<M>{.key = "poisson_ratio",
-               .member = &M::poisson_ratio,
-               .range = {.lower = 0, .upper = 0.5, .upper_open = true},
-               .help = "Poisson's ratio"},
-      Field<M>{.key = "density_kg_m3", .member = &M::density, .range = kPositive, .help = "mass density"}};
-  return table;
-}
-
-template <>
-std::span<const Field<optimizer::ContactProperties>> option_table<optimizer::ContactProperties>() {
-  using C = optimizer::ContactProperties;
-  static const std::array<Field<C>, 2> table{
-      Field<C>{.key = "friction",
-               .member = &C::friction,
-               .range = {.lower = 0, .upper = 2},
-               .help = "Coulomb coefficient of friction of the flanks"},
-      Field<C>{.key = "wear_coefficient_per_pa",
-               .member = &C::wear_coefficient,
-               .range = kNonNegative,
-               .help = "Archard's k_w: wear depth per pressure and slipped distance"}};
-  return table;
-}
-
-template <>
-std::span<const Field<optimizer::Loading>> option_table<optimizer::Loading>() {
-  using L = optimizer::Loading;
-  static const std::array<Field<L>, 6> table{
-      Field<L>{.key = "speed_rpm",
-               .member = &L::speed,
-               .si_per_unit = std::numbers::pi / 30,
-               .range = kPositive,
-               .help = "rotation speed, revolutions per minute",
-               .required = true},
-      Field<L>{.key = "nodal_diameter",
-               .member = &L::nodal_diameter,
-               .range = kNonNegative,
-               .help = "nodal diameters of the vibration around the disk"},
-      Field<L>{.key = "mode",
-               .member = &L::mode,
-               .range = {.lower = 1, .upper = 100},
-               .help = "which mode of that nodal diameter is excited, counted from 1 (glued flanks)"},
-      Field<L>{.key = "tip_force_n",
-               .member = &L::tip_force,
-               .range = kPositive,
-               .help = "amplitude of the tangential force on the aerofoil's tip",
-               .required = true},
-      Field<L>{.key = "damping_ratio",
-               .member = &L::damping_ratio,
-               .range = {.lower = 0, .upper = 1, .lower_open = true, .upper_open = true},
-               .help = "modal damping ratio, friction not counted"},
-      Field<L>{.key = "follow",
-               .member = &L::follow,
-               .help = "what drives the wear; fixed: the unworn resonance, resonance: that of the joint as it wears",
-               .choices = {"fixed", "resonance"}}};
-  return table;
-}
-
-template <>
-std::span<const Field<optimizer::SolverSettings>> option_table<optimizer::SolverSettings>() {
-  using S = optimizer::SolverSettings;
-  static const std::array<Field<S>, 7> table{
-      Field<S>{.key = "harmonics",
-               .member = &S::harmonics,
-               .range = {.lower = 1, .upper = 200},
-               .help = "harmonics of the periodic motion"},
-      Field<S>{.key = "samples",
-               .member = &S::samples,
-               .range = {.lower = 8, .upper = 65536},
-               .help = "instants per period at which the contact is marched"},
-      Field<S>{.key = "modes",
-               .member = &S::modes,
-               .range = {.lower = 1, .upper = 500},
-               .help = "free-interface modes kept in the reduced model"},
-      Field<S>{.key = "tolerance",
-               .member = &S::tolerance,
-               .range = {.lower = 1e-14, .upper = 1e-2},
-               .help = "relative residual at which a steady state counts as converged"},
-      Field<S>{.key = "solver",
-               .member = &S::solver,
-               .help = "algorithm for the nonlinear equations; powell_fd: with finite differences, for comparison",
-               .choices = {"auto", "newton", "powell", "powell_fd"}},
-      Field<S>{.key = "pseudo_penalty_n_per_m",
-               .member = &S::pseudo_penalty,
-               .range = kNonNegative,
-               .help = "pseudo-penalty of all contact nodes; 0: from the model, the local contact stiffness"},
-      Field<S>{.key = "pseudo_penalty_normal_n_per_m",
-               .member = &S::pseudo_penalty_normal,
-               .range = kNonNegative,
-               .help = "pseudo-penalty in the normal direction; 0: as pseudo_penalty_n_per_m"}};
-  return table;
-}
-
-template <>
-std::span<const Field<optimizer::Scene>> option_table<optimizer::Scene>() {
-  using S = optimizer::Scene;
-  static const std::array<Field<S>, 1> table{Field<S>{.key = "type",
-                                                      .member = &S::type,
-                                                      .help = "what is modelled: a plane section of one sector",
-                                                      .required = true,
-                                                      .choices = {"section"}}};
-  return table;
-}
-
-}  // namespace dovetail
 
 namespace dovetail::optimizer {
 
@@ -277,10 +159,12 @@ std::vector<Violation> contradictions(const Scene& scene) {
                   "must be >= 2 * solver.harmonics + 2 = " + std::to_string(2 * scene.solver.harmonics + 2));
   if (scene.loading.nodal_diameter != 0)
     contradiction("scene.nodal_diameter", scene.loading.nodal_diameter,
-                  "must be 0: of a section, the vibration with nodal diameter 0 is computed");
+                  "must be 0: with friction, the vibration of nodal diameter 0 is computed");
   if (scene.loading.mode > scene.solver.modes)
     contradiction("scene.mode", scene.loading.mode,
                   "must be <= solver.modes = " + std::to_string(scene.solver.modes) + ", the modes kept");
+  if (scene.in_space())
+    for (Violation& finer : geometry::contradictions(scene.solid_mesh, scene.mesh)) found.push_back(std::move(finer));
   return found;
 }
 

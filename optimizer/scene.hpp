@@ -9,6 +9,7 @@
 #include "core/options.hpp"
 #include "fem/material.hpp"
 #include "geometry/parameters.hpp"
+#include "geometry/solid_parameters.hpp"
 
 namespace dovetail::optimizer {
 
@@ -41,14 +42,18 @@ struct SolverSettings {
 
 /// One fully specified candidate: everything the evaluator needs, in SI.
 struct Scene {
-  std::string type = "section";
+  std::string type = "section";  ///< section: plane, solid and solid_mesh do not count | sector: in space
   geometry::ProfileParameters geometry;
+  geometry::SolidParameters solid;
   geometry::FeasibilityLimits limits;
   fem::Material blade, disk;
   ContactProperties contact;
   Loading loading;
   geometry::MeshSizes mesh;
+  geometry::SolidSizes solid_mesh;
   SolverSettings solver;
+
+  [[nodiscard]] bool in_space() const { return type == "sector"; }
 };
 
 }  // namespace dovetail::optimizer
@@ -132,6 +137,7 @@ void visit_tables(AnyScene& scene, Visitor&& visit) {
   visit("scene", scene, option_table<Scene>());
   visit("scene", scene.loading, scene_loading_fields());
   visit("geometry", scene.geometry, option_table<geometry::ProfileParameters>());
+  visit("geometry", scene.solid, option_table<geometry::SolidParameters>());
   visit("geometry.left", scene.geometry.left, option_table<geometry::FlankParameters>());
   visit("geometry.right", scene.geometry.right, option_table<geometry::FlankParameters>());
   visit("limits", scene.limits, option_table<geometry::FeasibilityLimits>());
@@ -140,6 +146,7 @@ void visit_tables(AnyScene& scene, Visitor&& visit) {
   visit("contact", scene.contact, option_table<ContactProperties>());
   visit("loading", scene.loading, loading_fields());
   visit("mesh", scene.mesh, option_table<geometry::MeshSizes>());
+  visit("mesh", scene.solid_mesh, option_table<geometry::SolidSizes>());
   visit("solver", scene.solver, option_table<SolverSettings>());
 }
 

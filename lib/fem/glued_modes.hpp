@@ -3,10 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <complex>
-#include <span>
-#include <vector>
 
-#include "core/status.hpp"
 #include "fem/constraints.hpp"
 #include "numerics/sparse_modes.hpp"
 
@@ -29,17 +26,5 @@ extern template numerics::Modes<std::complex<double>> glued_modes(const Eigen::S
                                                                   const Constraints<std::complex<double>>&,
                                                                   const numerics::ModesOptions&,
                                                                   numerics::SparseCholesky<std::complex<double>>&);
-
-/// Natural frequencies of the glued bladed disk over its nodal diameters.
-struct NodalDiameterFrequencies {
-  std::vector<int> nodal_diameters;
-  Eigen::MatrixXd frequency;   ///< [diameters, modes] Hz, ascending; negative for -sqrt(-lambda)/(2 pi) (unstable)
-  std::vector<Status> status;  ///< per diameter
-};
-
-/// Computes them for the diameters asked for (each 0..sectors/2), or all when the list is empty.
-[[nodiscard]] NodalDiameterFrequencies nodal_diameter_frequencies(
-    const SectorMesh& sector, const Eigen::SparseMatrix<double>& stiffness, const Eigen::SparseMatrix<double>& mass,
-    BoreSupport bore, const numerics::ModesOptions& options, std::span<const int> nodal_diameters = {});
 
 }  // namespace dovetail::fem

@@ -20,10 +20,6 @@ namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-/// Wear below this share of a wear coefficient's typical rate is none: the program's threshold of 1e-15 m per cycle is
-/// meant for coefficients of 1e-13 1/Pa.
-constexpr double kThresholdPerCoefficient = 1e-2;  // m Pa
-
 Numbers list(const Eigen::Ref<const Eigen::VectorXd>& values) {
   return {values.data(), values.data() + values.size()};
 }
@@ -33,7 +29,7 @@ class Study {
   Study(const optimizer::Scene& scene, const ComputeOptions& options)
       : options_(options), steady_(optimizer::steady_options(scene.solver)) {
     results_.scene = scene;
-    threshold_ = kThresholdPerCoefficient * scene.contact.wear_coefficient;
+    threshold_ = rate_threshold(scene);
   }
 
   Results run() {
@@ -225,6 +221,11 @@ Numbers of_flank(const report::ContactRecord& contact, const Numbers& values, st
   for (std::size_t i = 0; i < std::min(values.size(), contact.flank.size()); ++i)
     if (contact.flank[i] == flank) chosen.push_back(values[i]);
   return chosen;
+}
+
+double rate_threshold(const optimizer::Scene& scene) {
+  constexpr double kPerCoefficient = 1e-2;  // m Pa
+  return kPerCoefficient * scene.contact.wear_coefficient;
 }
 
 Results compute(const optimizer::Scene& scene, const ComputeOptions& options) {

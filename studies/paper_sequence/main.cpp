@@ -14,11 +14,12 @@ int main(int argc, char** argv) {
   using namespace dovetail;
   CLI::App app{"Vibration and fretting wear of a bladed disk in a plane section, figure by figure."};
   std::string folder, study_file, commit = "unknown";
-  bool quick = false;
+  bool quick = false, converge = false;
   app.add_option("folder", folder, "Folder of report.html, the CSV files and the JSON files")->required();
   app.add_option("--study", study_file, "Study file of the scene")->required();
   app.add_option("--commit", commit, "Commit of the sources, to be recorded");
   app.add_flag("--quick", quick, "A coarse mesh and few steps, in seconds: a look at the page");
+  app.add_flag("--convergence", converge, "Also over mesh, modes, harmonics and samples: a table");
   CLI11_PARSE(app, argc, argv);
   const auto begin = std::chrono::steady_clock::now();
   const auto passed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(); };
@@ -31,15 +32,21 @@ int main(int argc, char** argv) {
     numerics::set_blas_threads(1);
     studies::Study study = studies::load_study(study_file);
     if (quick) {
-      study.scene.mesh.flank_elements = 16;
-      study.scene.mesh.aerofoil_elements = 12;
+      study.scene.mesh.flank_elements = study.scene.in_space() ? 6 : 16;
+      study.scene.mesh.aerofoil_elements = study.scene.in_space() ? 6 : 12;
       study.scene.mesh.bulk_size *= 1.6;
+      study.scene.solid_mesh.slot_elements = 4;
       options.curve_points = 21;
       options.history_steps = 16;
       options.curve_states = 4;
       options.nodal_diameter_modes = 2;
     }
     paper_sequence::Results results = paper_sequence::compute(study.scene, options);
+    if (converge) {
+      paper_sequence::ConvergenceOptions levels{.progress = options.progress};
+      if (quick) levels = {.mesh_factors = {1.25, 1}, .modes = {20}, .harmonics = {1, 3}, .samples = {64, 128}};
+      results.convergence = paper_sequence::convergence(study.scene, levels);
+    }
     results.quick = quick;
     results.study_text = study.text;
     results.commit = commit;

@@ -164,6 +164,11 @@ std::string page_html(const Results& r) {
         figures_of({wearing_response_figure(r), wearing_power_figure(r), amplitude_course_figure(r), drift_figure(r)}) +
         "</section>\n";
   }
+  if (!r.convergence.empty())
+    text +=
+        "<section><h2>Convergence</h2>\n<p>One setting changed at a time; changes against the study\u2019s own, in "
+        "bold.</p>\n" +
+        convergence_table(r.convergence) + "</section>\n";
   return text + "<section><h2>Where the two differ</h2>\n<ul>\n" + words.differences + kDifferences +
          "</ul>\n</section>\n" + provenance(r) + "</main></body></html>\n";
 }

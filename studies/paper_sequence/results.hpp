@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "optimizer/scene.hpp"
+#include "studies/paper_sequence/convergence.hpp"
 #include "studies/report/run_record.hpp"
 
 namespace dovetail::paper_sequence {
@@ -46,16 +47,17 @@ struct Results {
   Numbers frequency_hz, glued_amplitude_m;
   std::vector<WornState> states;  ///< unworn first, asymptote last
   History history;
-  double asymptote_volume_m3 = 0;     ///< with the edges of the worn zones between nodes
-  double nodal_volume_m3 = 0;         ///< with whole nodes, as a history wears
-  double certificate = 0;             ///< largest rate the asymptote leaves over the unworn one
-  double resonance_wear_ratio = 0;    ///< largest rate of the history's last state over the first largest one
-  Numbers unequal_flanks_volume_m3;   ///< worn off the left and right flank when their angles differ; or empty
-  double unequal_flanks_degrees = 0;  ///< by how much
-  std::vector<std::string> failures;  ///< what did not converge, in sentences
+  double asymptote_volume_m3 = 0;           ///< with the edges of the worn zones between nodes
+  double nodal_volume_m3 = 0;               ///< with whole nodes, as a history wears
+  double certificate = 0;                   ///< largest rate the asymptote leaves over the unworn one
+  double resonance_wear_ratio = 0;          ///< largest rate of the history's last state over the first largest one
+  Numbers unequal_flanks_volume_m3;         ///< worn off the left and right flank when their angles differ; or empty
+  double unequal_flanks_degrees = 0;        ///< by how much
+  std::vector<ConvergenceRow> convergence;  ///< empty when not asked for
+  std::vector<std::string> failures;        ///< what did not converge, in sentences
 
   /// A sector in space, not a plane section.
-  [[nodiscard]] bool in_space() const { return scene.type == "sector"; }
+  [[nodiscard]] bool in_space() const { return scene.in_space(); }
 };
 
 /// Rates, depths and volumes of one flank.

@@ -94,6 +94,18 @@ Json results_json(const Results& r) {
                      {"solves", h.solves},
                      {"jacobians", h.jacobians}};
   json["unequal_flanks"] = {{"degrees", r.unequal_flanks_degrees}, {"volume_m3", r.unequal_flanks_volume_m3}};
+  json["convergence"] = Json::array();
+  for (const ConvergenceRow& row : r.convergence)
+    json["convergence"].push_back({{"kind", row.kind},
+                                   {"setting", row.setting},
+                                   {"reference", row.reference},
+                                   {"status", row.status},
+                                   {"frequency_hz", row.frequency_hz},
+                                   {"pressure_mean_pa", row.pressure_mean_pa},
+                                   {"pressure_max_pa", row.pressure_max_pa},
+                                   {"dissipated_energy_j", row.energy_j},
+                                   {"asymptotic_wear_volume_m3", row.volume_m3},
+                                   {"seconds", row.seconds}});
   return json;
 }
 

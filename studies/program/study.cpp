@@ -56,6 +56,7 @@ void read_scene(SectionReader& root, optimizer::Scene& scene, Problems& problems
 
   SectionReader geometry = section("geometry");
   geometry.fields(scene.geometry, option_table<geometry::ProfileParameters>());
+  geometry.fields(scene.solid, option_table<geometry::SolidParameters>());
   read_flanks(geometry, scene, problems);
   geometry.finish();
 
@@ -84,6 +85,7 @@ void read_scene(SectionReader& root, optimizer::Scene& scene, Problems& problems
 
   SectionReader mesh = section("mesh");
   mesh.fields(scene.mesh, option_table<geometry::MeshSizes>());
+  mesh.fields(scene.solid_mesh, option_table<geometry::SolidSizes>());
   mesh.finish();
 
   SectionReader solver = section("solver");

@@ -77,6 +77,8 @@ std::string scene_sections() {
   text += lines(scene, option_table<Scene>()) + lines(scene.loading, optimizer::scene_loading_fields());
   text += header("geometry", "Dimensions of the section of one sector; x is tangential, y radial.");
   text += lines(scene.geometry, option_table<geometry::ProfileParameters>());
+  text += "\n# What only a sector in space has; a plane section leaves it aside.\n";
+  text += lines(scene.solid, option_table<geometry::SolidParameters>());
   text += "\n# Both flanks; a section [geometry.left] or [geometry.right] with the same keys overrides one of them.\n";
   text += lines(scene.geometry.left, flanks);
   text += header("limits", "Rules every design has to keep besides fitting together.");
@@ -91,6 +93,8 @@ std::string scene_sections() {
   text += lines(scene.loading, optimizer::loading_fields());
   text += header("mesh", "Sizes of the finite elements.");
   text += lines(scene.mesh, option_table<geometry::MeshSizes>());
+  text += "\n# Along the slot, and of the contact on it.\n";
+  text += lines(scene.solid_mesh, option_table<geometry::SolidSizes>());
   text += header("solver", "Sizes and tolerances of the contact computation.");
   text += lines(scene.solver, option_table<optimizer::SolverSettings>());
   return text;

@@ -8,8 +8,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "fem/diameter_frequencies.hpp"
 #include "fem/element.hpp"
-#include "fem/glued_modes.hpp"
 #include "fem/stress.hpp"
 #include "geometry/flank_form.hpp"
 #include "response/frequency_response.hpp"
@@ -34,27 +34,22 @@ ContactRecord contact_places(const CandidateModel& model) {
   const fem::ContactSurface& surface = model.system.contact;
   ContactRecord record;
   for (const fem::Flank& flank : model.mesh.sector.flanks) record.flank_names.push_back(flank.name);
-  Eigen::VectorXd start;
-  for (Eigen::Index i = 0; i < surface.count(); ++i) {
-    if (i == 0 || surface.flank(i) != surface.flank(i - 1)) start = surface.position.col(i);
-    record.flank.push_back(surface.flank(i));
-    record.along_m.push_back((surface.position.col(i) - start).norm());
-    record.x_m.push_back(surface.position(0, i));
-    record.y_m.push_back(surface.position(1, i));
-  }
-  return record;
-}
-
-ContactRecord contact_record(const CandidateResult& result) {
-  const fem::ContactSurface& surface = result.model.system.contact;
-  ContactRecord record = contact_places(result.model);
-  record.area_m2 = list(surface.area);
-  record.gap_m = list(surface.gap);
-  record.preload_pressure_pa = list(result.model.preload.pressure);
-  if (result.asymptote) {
-    record.wear_rate_m_per_cycle = list(result.asymptote->unworn_rate);
-    record.depth_m = list(result.asymptote->depth);
-    record.interpolated_depth_m = list(result.asymptote->interpolated_depth);
+  Eigen::Index first = 0;
+  for (std::size_t f = 0; f < model.mesh.sector.flanks.size(); ++f) {
+    const fem::Flank& flank = model.mesh.sector.flanks[f];
+    const Eigen::Index count = flank.contact_count();
+    const auto position = surface.position.middleCols(first, count);
+    const Eigen::MatrixXd place = flank.tangents.transpose() * (position.colwise() - position.col(0));
+    // In space the slot is as long to both sides of its middle.
+    const double middle = place.rows() > 1 ? (place.row(1).minCoeff() + place.row(1).maxCoeff()) / 2 : 0;
+    for (Eigen::Index i = 0; i < count; ++i) {
+      record.flank.push_back(static_cast<std::int64_t>(f));
+      record.along_m.push_back(place(0, i));
+      record.across_m.push_back(place.rows() > 1 ? place(1, i) - middle : 0);
+      record.x_m.push_back(position(0, i));
+      record.y_m.push_back(position(1, i));
+    }
+    first += count;
   }
   return record;
 }
@@ -149,9 +144,9 @@ void add_curves(const Scene& scene, const CandidateResult& result, const DesignR
 
 void add_nodal_diameters(const CandidateModel& model, const DesignRecordOptions& options, DesignRecord& record) {
   if (options.nodal_diameter_modes < 1) return;
-  const fem::NodalDiameterFrequencies found =
-      fem::nodal_diameter_frequencies(model.mesh.sector, model.stiffness, model.system.full.mass,
-                                      fem::BoreSupport::tangential, {.count = options.nodal_diameter_modes});
+  const fem::NodalDiameterFrequencies found = fem::nodal_diameter_frequencies(
+      model.mesh.sector, model.stiffness, model.system.full.mass, fem::BoreSupport::tangential,
+      {.modes = {.count = options.nodal_diameter_modes}, .tolerance = 1e-6});
   NodalDiameterRecord& out = record.nodal_diameters;
   out.nodal_diameter.assign(found.nodal_diameters.begin(), found.nodal_diameters.end());
   out.modes = found.frequency.cols();
@@ -239,6 +234,20 @@ void add_history(const Scene& scene, const CandidateResult& result, const Design
 }
 
 }  // namespace
+
+ContactRecord contact_record(const CandidateResult& result) {
+  const fem::ContactSurface& surface = result.model.system.contact;
+  ContactRecord record = contact_places(result.model);
+  record.area_m2 = list(surface.area);
+  record.gap_m = list(surface.gap);
+  record.preload_pressure_pa = list(result.model.preload.pressure);
+  if (result.asymptote) {
+    record.wear_rate_m_per_cycle = list(result.asymptote->unworn_rate);
+    record.depth_m = list(result.asymptote->depth);
+    record.interpolated_depth_m = list(result.asymptote->interpolated_depth);
+  }
+  return record;
+}
 
 DesignRecord make_design_record(const Scene& scene, const CandidateResult& result, const DesignRecordOptions& options) {
   DesignRecord record;

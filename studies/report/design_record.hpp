@@ -16,6 +16,9 @@ struct DesignRecordOptions {
   bool fields = true;            ///< mesh, displacement and von Mises stress of the preload
 };
 
+/// Where the contact nodes are, their preload and, as far as they were computed, first rates and worn depths.
+[[nodiscard]] ContactRecord contact_record(const optimizer::CandidateResult& result);
+
 /// A design with its curves. What the evaluation computed is copied; response curves (unworn, worn, glued) around the
 /// resonance, frequencies over nodal diameters and the wear history are computed. Never throws for what a candidate is
 /// like: pieces after the stage that failed stay empty, with a sentence in `notes`.

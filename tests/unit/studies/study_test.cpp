@@ -142,14 +142,32 @@ TEST(Study, SectionsThatAreNoneAreRefused) {
 
 TEST(Study, AnEmptyFileMissesWhatIsRequired) {
   const std::string told = complaints("");
-  EXPECT_THAT(told, HasSubstr("s.toml: scene.type: is missing; it must be section"));
+  EXPECT_THAT(told, HasSubstr("s.toml: scene.type: is missing; it must be one of section sector"));
   EXPECT_THAT(told, HasSubstr("s.toml: geometry.flank_angle_deg: is missing"));
   EXPECT_THAT(told, Not(HasSubstr("objective")));
 }
 
 TEST(Study, OtherSceneTypesAreRefused) {
   EXPECT_THAT(complaints(replaced(sample(), "type = \"section\"", "type = \"solid\"")),
-              HasSubstr("scene.type = \"solid\": must be section"));
+              HasSubstr("scene.type = \"solid\": must be one of section sector"));
+}
+
+TEST(Study, ASectorHasKeysOfItsOwnAndASectionMayCarryThem) {
+  for (const char* type : {"section", "sector"}) {
+    std::string text = replaced(sample(), "type = \"section\"", std::string("type = \"") + type + '"');
+    text = replaced(replaced(text, "skew_angle_deg = 0", "skew_angle_deg = 20"), "stagger_deg = 0", "stagger_deg = 30");
+    const Study study = read(text);
+    EXPECT_EQ(study.scene.type, type);
+    EXPECT_DOUBLE_EQ(study.scene.solid.skew_angle, 20 * std::numbers::pi / 180);
+    EXPECT_DOUBLE_EQ(optimizer::parameter(study.scene, "geometry.stagger_deg"), 30);
+  }
+}
+
+TEST(Study, AContactGridFinerThanTheMeshIsRefused) {
+  const std::string fine = replaced(sample(), "contact_slot_elements = 0", "contact_slot_elements = 9");
+  EXPECT_EQ(complaints(fine), "");  // a section has no grid along the slot
+  EXPECT_THAT(complaints(replaced(fine, "type = \"section\"", "type = \"sector\"")),
+              HasSubstr("mesh.contact_slot_elements = 9: must not exceed slot_elements (8)"));
 }
 
 TEST(Study, FlankKeysSetBothSidesAndOneSideOverrides) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "fem/diameter_frequencies.hpp"
 #include "fem/glued_modes.hpp"
 #include "fem/sector_system.hpp"
 #include "tests/unit/fem/extruded_mesh.hpp"
@@ -120,7 +121,7 @@ TEST_P(CyclicSymmetry, NodalDiametersTogetherAreTheFullRing) {
 
   // The Lanczos path finds the lowest of each diameter.
   const NodalDiameterFrequencies frequencies =
-      nodal_diameter_frequencies(sector, full.stiffness, full.mass, BoreSupport::tangential, {.count = 6});
+      nodal_diameter_frequencies(sector, full.stiffness, full.mass, BoreSupport::tangential, {.modes = {.count = 6}});
   std::vector<double> lowest;
   for (std::size_t k = 0; k < frequencies.nodal_diameters.size(); ++k) {
     EXPECT_EQ(frequencies.status[k], Status::converged);
@@ -169,6 +170,34 @@ TEST(GluedModes, GluedFlanksAreTheMergedMesh) {
     ASSERT_EQ(first.status[0], Status::converged);
     ASSERT_EQ(second.status[0], Status::converged);
     EXPECT_LT((first.frequency - second.frequency).norm(), 1e-9 * first.frequency.norm()) << diameter;
+  }
+}
+
+/// A sector of a thick disk, a little lopsided.
+SectorMesh disk_sector(int sectors, int columns, int rows) {
+  testing::Grid grid = testing::make_grid(columns, rows, testing::annular_sector(0.12, 0.25, sectors));
+  grid.mesh.nodes(1, grid.node(columns, 2)) += 0.002;
+  return testing::annulus_sector(grid, sectors);
+}
+
+/// Every diameter of a sector of 47 within the tolerance, with fewer than half of the sparse problems.
+TEST(NodalDiameters, AreFoundFromModesOfAFewOfThem) {
+  constexpr int kBlades = 47;
+  const SectorMesh sector = disk_sector(kBlades, 4, 3);
+  const std::vector<Material> materials{Material{}};
+  const FullMatrices full = Assembler(sector.mesh).stiffness_and_mass(sector.mesh, materials);
+  const numerics::ModesOptions modes{.count = 6, .tolerance = 1e-11};
+  const NodalDiameterFrequencies exact =
+      nodal_diameter_frequencies(sector, full.stiffness, full.mass, BoreSupport::tangential, {.modes = modes});
+  for (const double tolerance : {1e-4, 1e-6, 1e-8}) {
+    const NodalDiameterFrequencies found = nodal_diameter_frequencies(
+        sector, full.stiffness, full.mass, BoreSupport::tangential, {.modes = modes, .tolerance = tolerance});
+    EXPECT_EQ(found.status, exact.status);
+    const Eigen::MatrixXd relative = (found.frequency - exact.frequency).cwiseQuotient(exact.frequency);
+    EXPECT_LT(relative.maxCoeff(), tolerance);
+    EXPECT_GT(relative.minCoeff(), -1e-9);  // Ritz values come from above
+    const auto solved = std::count(found.solved.begin(), found.solved.end(), true);
+    EXPECT_LT(solved, tolerance < 1e-7 ? 16 : 12) << tolerance;
   }
 }
 

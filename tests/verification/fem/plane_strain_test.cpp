@@ -4,7 +4,7 @@
 #include <memory>
 #include <numbers>
 
-#include "fem/glued_modes.hpp"
+#include "fem/diameter_frequencies.hpp"
 #include "fem/stress.hpp"
 #include "reduction/static_condensation.hpp"
 #include "response/preload.hpp"
@@ -39,7 +39,7 @@ TEST_F(ExtrudedSection, HasTheGluedFrequenciesOfPlaneStrainAtEveryNodalDiameter)
   const FullMatrices a = Assembler(plane.mesh).stiffness_and_mass(plane.mesh, materials);
   const FullMatrices b = Assembler(solid.mesh).stiffness_and_mass(solid.mesh, materials);
   // The plane modes are the lowest of the solid: its next ones vary along z, with two half waves in 30 mm.
-  const numerics::ModesOptions options{.count = 6, .tolerance = 1e-11};
+  const DiameterOptions options{.modes = {.count = 6, .tolerance = 1e-11}};
   for (const std::vector<int> diameters{0, 1, 4}; int diameter : diameters) {
     const std::vector<int> one{diameter};
     const auto flat = nodal_diameter_frequencies(plane, a.stiffness, a.mass, BoreSupport::tangential, options, one);

@@ -1,0 +1,215 @@
+#include "fem/diameter_frequencies.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "fem/glued_modes.hpp"
+
+namespace dovetail::fem {
+
+namespace {
+
+using Complex = std::complex<double>;
+using Sparse = Eigen::SparseMatrix<double>;
+
+/// A(phase) = A0 + e^{i phase} A1 + e^{-i phase} A1^T over the internal dofs.
+struct PhaseMatrix {
+  Sparse constant, turning;
+};
+
+/// T(phase) = Ta + e^{i phase} Tb: the parts from the transformation of one nodal diameter.
+std::pair<Sparse, Sparse> transformation_parts(const SectorMesh& sector, BoreSupport bore) {
+  const Constraints<Complex> one = complex_constraints(sector, bore, 1);
+  const double phase = 2 * std::numbers::pi / sector.sectors;
+  const Eigen::SparseMatrix<Complex> glued = one.transformation.leftCols(one.internal_count);
+  const Sparse turning = Sparse(glued.imag()) / std::sin(phase);
+  const Sparse constant = Sparse(glued.real()) - std::cos(phase) * turning;
+  return {constant.pruned(1.0, 1e-14), turning.pruned(1.0, 1e-14)};
+}
+
+PhaseMatrix phase_matrix(const Sparse& full, const Sparse& a, const Sparse& b) {
+  const Sparse full_a = full * a, full_b = full * b;
+  const Sparse at = a.transpose(), bt = b.transpose();
+  const Sparse of_a = at * full_a, of_b = bt * full_b;
+  return {.constant = of_a + of_b, .turning = at * full_b};
+}
+
+/// Rayleigh-Ritz at any phase on a growing real basis.
+class RitzBasis {
+ public:
+  RitzBasis(const SectorMesh& sector, const Sparse& stiffness, const Sparse& mass, BoreSupport bore) {
+    const auto [a, b] = transformation_parts(sector, bore);
+    stiffness_ = phase_matrix(stiffness, a, b);
+    mass_ = phase_matrix(mass, a, b);
+  }
+
+  /// Real and imaginary parts of the modes, as far as they are new directions.
+  template <class Vectors>
+  void add(const Vectors& modes) {
+    for (Eigen::Index m = 0; m < modes.cols(); ++m) {
+      add_direction(modes.col(m).real());
+      add_direction(modes.col(m).imag());
+    }
+    update(stiffness_, reduced_stiffness_);
+    update(mass_, reduced_mass_);
+  }
+
+  /// The lowest `count` eigenvalues.
+  [[nodiscard]] Eigen::VectorXd eigenvalues(double phase, Eigen::Index count) const {
+    if (basis_.cols() < count) return {};  // nothing converged so far
+    Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXcd> solver(reduced_stiffness_.at(phase),
+                                                                      reduced_mass_.at(phase), Eigen::EigenvaluesOnly);
+    return solver.eigenvalues().head(count);
+  }
+
+ private:
+  struct Reduced {
+    Eigen::MatrixXd constant, turning;
+    [[nodiscard]] Eigen::MatrixXcd at(double phase) const {
+      Eigen::MatrixXcd result(constant.rows(), constant.cols());
+      result.real() = constant + std::cos(phase) * (turning + turning.transpose());
+      result.imag() = std::sin(phase) * (turning - turning.transpose());
+      return result;
+    }
+  };
+
+  /// Gram-Schmidt, twice; what is left of a direction in the basis already is noise.
+  void add_direction(Eigen::VectorXd direction) {
+    const double length = direction.norm();
+    if (!(length > 0)) return;
+    direction /= length;
+    for (int pass = 0; pass < 2; ++pass)
+      if (basis_.cols() > 0) direction -= basis_ * (basis_.transpose() * direction);
+    constexpr double kNew = 1e-7;
+    const double left = direction.norm();
+    if (left < kNew) return;
+    basis_.conservativeResize(direction.size(), basis_.cols() + 1);
+    basis_.col(basis_.cols() - 1) = direction / left;
+  }
+
+  void update(const PhaseMatrix& matrix, Reduced& reduced) const {
+    const Eigen::Index old = reduced.constant.rows(), size = basis_.cols(), fresh = size - old;
+    const Eigen::MatrixXd constant = matrix.constant * basis_.rightCols(fresh);
+    const Eigen::MatrixXd turning = matrix.turning * basis_.rightCols(fresh);
+    const Eigen::MatrixXd turned = matrix.turning.transpose() * basis_.rightCols(fresh);
+    reduced.constant.conservativeResize(size, size);
+    reduced.turning.conservativeResize(size, size);
+    reduced.constant.rightCols(fresh) = basis_.transpose() * constant;
+    reduced.constant.bottomLeftCorner(fresh, old) = reduced.constant.topRightCorner(old, fresh).transpose();
+    reduced.turning.rightCols(fresh) = basis_.transpose() * turning;
+    reduced.turning.bottomLeftCorner(fresh, old) = turned.transpose() * basis_.leftCols(old);
+  }
+
+  PhaseMatrix stiffness_, mass_;
+  Eigen::MatrixXd basis_;
+  Reduced reduced_stiffness_, reduced_mass_;
+};
+
+double signed_hertz(double eigenvalue) {
+  return std::copysign(std::sqrt(std::abs(eigenvalue)), eigenvalue) / (2 * std::numbers::pi);
+}
+
+class Diameters {
+ public:
+  Diameters(const SectorMesh& sector, const Sparse& stiffness, const Sparse& mass, BoreSupport bore,
+            const DiameterOptions& options, std::span<const int> list)
+      : sector_(sector), stiffness_(stiffness), mass_(mass), bore_(bore), options_(options) {
+    result_.nodal_diameters.assign(list.begin(), list.end());
+    if (list.empty()) {
+      result_.nodal_diameters.resize(static_cast<std::size_t>(sector.sectors / 2 + 1));
+      std::iota(result_.nodal_diameters.begin(), result_.nodal_diameters.end(), 0);
+    }
+    result_.frequency.setConstant(static_cast<Eigen::Index>(result_.nodal_diameters.size()), options.modes.count,
+                                  std::numeric_limits<double>::quiet_NaN());
+    result_.status.assign(result_.nodal_diameters.size(), Status::iteration_limit);
+    result_.solved.assign(result_.nodal_diameters.size(), false);
+  }
+
+  NodalDiameterFrequencies run() {
+    const std::size_t count = result_.nodal_diameters.size();
+    // Two samples and one between are worth a basis; one or two sectors have no phase to follow.
+    const bool ritz = options_.tolerance > 0 && count > 3 && sector_.sectors > 2;
+    if (ritz) basis_.emplace(sector_, stiffness_, mass_, bore_);
+    if (!ritz) {
+      for (std::size_t k = 0; k < count; ++k) solve(k);
+      return std::move(result_);
+    }
+    solve(0);
+    solve(count - 1);
+    bisect(0, count - 1);
+    for (std::size_t k = 0; k < count; ++k) {
+      if (result_.solved[k]) continue;
+      if (const Eigen::VectorXd ritz_values = predicted(k); ritz_values.size() > 0)
+        store(k, ritz_values, Status::converged);
+      else
+        solve(k);
+    }
+    return std::move(result_);
+  }
+
+ private:
+  /// Solves in the middle of what lies between two solved diameters until the prediction there holds.
+  void bisect(std::size_t from, std::size_t to) {
+    if (to - from < 2) return;
+    const std::size_t middle = from + (to - from) / 2;
+    const Eigen::VectorXd expected = predicted(middle);
+    const Eigen::VectorXd found = solve(middle);
+    const bool holds = result_.status[middle] == Status::converged && expected.size() == found.size() &&
+                       ((expected - found).array().abs() <= 2 * options_.tolerance * found.array().abs()).all();
+    if (holds) return;  // an eigenvalue errs twice as much as its frequency
+    bisect(from, middle);
+    bisect(middle, to);
+  }
+
+  [[nodiscard]] Eigen::VectorXd predicted(std::size_t k) const {
+    const double phase = 2 * std::numbers::pi * result_.nodal_diameters[k] / sector_.sectors;
+    return basis_->eigenvalues(phase, options_.modes.count);
+  }
+
+  Eigen::VectorXd solve(std::size_t k) {
+    const int diameter = result_.nodal_diameters[k];
+    result_.solved[k] = true;
+    const auto keep = [&](const auto& modes) -> Eigen::VectorXd {
+      store(k, modes.eigenvalues, modes.status);
+      if (basis_ && modes.status == Status::converged) basis_->add(modes.vectors);
+      return modes.eigenvalues;
+    };
+    if (diameter == 0 || 2 * diameter == sector_.sectors)
+      return keep(glued_modes(stiffness_, mass_, real_constraints(sector_, bore_, diameter), options_.modes, real_));
+    return keep(
+        glued_modes(stiffness_, mass_, complex_constraints(sector_, bore_, diameter), options_.modes, complex_));
+  }
+
+  void store(std::size_t k, const Eigen::VectorXd& eigenvalues, Status status) {
+    result_.status[k] = status;
+    for (Eigen::Index m = 0; m < eigenvalues.size(); ++m)
+      result_.frequency(static_cast<Eigen::Index>(k), m) = signed_hertz(eigenvalues[m]);
+  }
+
+  const SectorMesh& sector_;
+  const Sparse &stiffness_, &mass_;
+  BoreSupport bore_;
+  const DiameterOptions& options_;
+  NodalDiameterFrequencies result_;
+  std::optional<RitzBasis> basis_;
+  // One analysis per scalar type serves all diameters: the patterns do not depend on the phase.
+  numerics::SparseCholesky<double> real_;
+  numerics::SparseCholesky<Complex> complex_;
+};
+
+}  // namespace
+
+NodalDiameterFrequencies nodal_diameter_frequencies(const SectorMesh& sector, const Sparse& stiffness,
+                                                    const Sparse& mass, BoreSupport bore,
+                                                    const DiameterOptions& options,
+                                                    std::span<const int> nodal_diameters) {
+  return Diameters(sector, stiffness, mass, bore, options, nodal_diameters).run();
+}
+
+}  // namespace dovetail::fem

@@ -1,0 +1,174 @@
+#include "studies/paper_sequence/convergence.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "optimizer/evaluator.hpp"
+#include "optimizer/stopwatch.hpp"
+#include "studies/paper_sequence/compute.hpp"
+#include "studies/report/html.hpp"
+#include "studies/report/units.hpp"
+#include "wear/asymptote.hpp"
+
+namespace dovetail::paper_sequence {
+namespace {
+
+int divided(int count, double factor, int least) {
+  return std::max(least, static_cast<int>(std::lround(count / factor)));
+}
+
+/// Every element larger by `factor`.
+optimizer::Scene coarser(optimizer::Scene scene, double factor) {
+  scene.mesh.flank_elements = divided(scene.mesh.flank_elements, factor, 2);
+  scene.mesh.aerofoil_elements = divided(scene.mesh.aerofoil_elements, factor, 2);
+  scene.mesh.fillet_fraction = std::min(1.0, scene.mesh.fillet_fraction * factor);
+  scene.mesh.bulk_size *= factor;
+  scene.solid_mesh.slot_elements = divided(scene.solid_mesh.slot_elements, factor, 1);
+  return scene;
+}
+
+class Convergence {
+ public:
+  Convergence(const optimizer::Scene& scene, const ConvergenceOptions& options) : scene_(scene), options_(options) {}
+
+  std::vector<ConvergenceRow> run() {
+    for (const double factor : options_.mesh_factors) over_mesh(factor);
+    for (const int modes : options_.modes) over_modes(modes);
+    for (const int harmonics : options_.harmonics) over_harmonics(harmonics);
+    for (const int samples : options_.samples) over_samples(samples);
+    return std::move(rows_);
+  }
+
+ private:
+  void say(const std::string& what) const {
+    if (options_.progress) options_.progress("convergence: " + what);
+  }
+
+  void over_mesh(double factor) {
+    const optimizer::Scene scene = coarser(scene_, factor);
+    const bool own = factor == 1;
+    say(fmt::format("element sizes x {:g}", factor));
+    optimizer::Stopwatch watch;
+    const optimizer::CandidateModel model = optimizer::ModelBuilder(scene).build(scene);
+    std::string setting = fmt::format("{} elements along a flank", scene.mesh.flank_elements);
+    if (scene.in_space()) setting += fmt::format(", {} along the slot", scene.solid_mesh.slot_elements);
+    if (model.sizes.contains("dofs")) setting += fmt::format(", {:.0f} unknowns", model.sizes.at("dofs"));
+    add({.kind = "mesh", .setting = setting, .reference = own}, model, scene, watch);
+    if (own) own_ = model;
+  }
+
+  void over_modes(int modes) {
+    optimizer::Scene scene = scene_;
+    scene.solver.modes = modes;
+    const bool own = modes == scene_.solver.modes;
+    say(fmt::format("{} modes", modes));
+    optimizer::Stopwatch watch;
+    const optimizer::CandidateModel model = optimizer::ModelBuilder(scene).build(scene);
+    add({.kind = "modes", .setting = std::to_string(modes), .reference = own}, model, scene, watch);
+    if (own) own_ = model;
+  }
+
+  void over_harmonics(int harmonics) {
+    optimizer::Scene scene = scene_;
+    scene.solver.harmonics = harmonics;
+    say(fmt::format("{} harmonics", harmonics));
+    optimizer::Stopwatch watch;
+    add({.kind = "harmonics", .setting = std::to_string(harmonics), .reference = harmonics == scene_.solver.harmonics},
+        own_model(), scene, watch);
+  }
+
+  void over_samples(int samples) {
+    optimizer::Scene scene = scene_;
+    scene.solver.samples = samples;
+    say(fmt::format("{} samples", samples));
+    optimizer::Stopwatch watch;
+    add({.kind = "samples", .setting = std::to_string(samples), .reference = samples == scene_.solver.samples},
+        own_model(), scene, watch);
+  }
+
+  const optimizer::CandidateModel& own_model() {
+    if (!own_) own_ = optimizer::ModelBuilder(scene_).build(scene_);
+    return *own_;
+  }
+
+  void add(ConvergenceRow row, const optimizer::CandidateModel& model, const optimizer::Scene& scene,
+           optimizer::Stopwatch& watch) {
+    row.status = model.converged() ? measure(row, model, scene) : model.status;
+    row.seconds = watch.lap();
+    rows_.push_back(std::move(row));
+  }
+
+  static std::string measure(ConvergenceRow& row, const optimizer::CandidateModel& model,
+                             const optimizer::Scene& scene) {
+    const Eigen::VectorXd& pressure = model.preload.pressure;
+    const Eigen::VectorXd& area = model.system.contact.area;
+    row.pressure_mean_pa = pressure.dot(area) / area.sum();
+    row.pressure_max_pa = pressure.maxCoeff();
+    const response::SteadyOptions steady = optimizer::steady_options(scene.solver);
+    const double glued = model.reduction.glued_frequencies(scene.loading.mode - 1);
+    const response::Resonance unworn = response::resonance(model.condensed, glued, {}, steady);
+    if (unworn.status != Status::converged) return "resonance: " + std::string(to_string(unworn.status));
+    row.frequency_hz = unworn.omega / (2 * std::numbers::pi);
+    row.energy_j = unworn.state.friction_energy;
+    const wear::Asymptote found =
+        wear::asymptote(model.condensed, unworn.omega, {}, steady,
+                        {.rate_threshold = rate_threshold(scene), .arbitration = "unsettled"}, &unworn.state);
+    row.volume_m3 = found.interpolated_volume;
+    return found.verdict == wear::Verdict::asymptote ? "converged" : std::string(wear::to_string(found.verdict));
+  }
+
+  const optimizer::Scene& scene_;
+  const ConvergenceOptions& options_;
+  std::optional<optimizer::CandidateModel> own_;
+  std::vector<ConvergenceRow> rows_;
+};
+
+/// "+0.12 %" against the reference's value.
+std::string change(double value, double reference) {
+  if (!std::isfinite(value) || !(reference > 0)) return "\u2013";
+  const double per_cent = 100 * (value / reference - 1);
+  if (per_cent == 0) return "0";
+  return (per_cent > 0 ? "+" : "") + report::significant(per_cent, 2) + "\u00a0%";
+}
+
+}  // namespace
+
+std::vector<ConvergenceRow> convergence(const optimizer::Scene& scene, const ConvergenceOptions& options) {
+  return Convergence(scene, options).run();
+}
+
+std::string convergence_table(const std::vector<ConvergenceRow>& rows) {
+  std::string text =
+      "<div class=\"scroll\"><table><thead><tr><th class=\"text\">what changes</th><th class=\"text\">setting</th>"
+      "<th>resonance</th><th>mean pressure</th><th>largest pressure</th><th>dissipated energy</th><th>worn volume</th>"
+      "<th>time (s)</th></tr></thead><tbody>\n";
+  for (const ConvergenceRow& row : rows) {
+    const auto own = std::find_if(rows.begin(), rows.end(), [&](const ConvergenceRow& other) {
+      return other.kind == row.kind && other.reference;
+    });
+    text += fmt::format("<tr{}><td class=\"text\">{}</td><td class=\"text\">{}</td>",
+                        row.reference ? " class=\"aim\"" : "", row.kind, report::escape(row.setting));
+    if (row.status != "converged" && row.frequency_hz == 0) {
+      text += "<td colspan=\"5\">" + report::escape(row.status) + "</td>";
+    } else if (row.reference || own == rows.end()) {
+      text += fmt::format("<td>{} Hz</td><td>{} MPa</td><td>{} MPa</td><td>{} mJ</td><td>{} mm\u00b3</td>",
+                          report::significant(row.frequency_hz, 7), report::significant(row.pressure_mean_pa / 1e6, 4),
+                          report::significant(row.pressure_max_pa / 1e6, 4),
+                          report::significant(row.energy_j / 1e-3, 4), report::significant(row.volume_m3 / 1e-9, 4));
+    } else {
+      text +=
+          fmt::format("<td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>",
+                      change(row.frequency_hz, own->frequency_hz), change(row.pressure_mean_pa, own->pressure_mean_pa),
+                      change(row.pressure_max_pa, own->pressure_max_pa), change(row.energy_j, own->energy_j),
+                      row.status == "converged" ? change(row.volume_m3, own->volume_m3) : report::escape(row.status));
+    }
+    text += fmt::format("<td>{}</td></tr>\n", report::significant(row.seconds, 2));
+  }
+  return text + "</tbody></table></div>\n";
+}
+
+}  // namespace dovetail::paper_sequence

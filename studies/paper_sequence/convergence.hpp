@@ -1,0 +1,40 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "optimizer/scene.hpp"
+
+namespace dovetail::paper_sequence {
+
+/// What the sequence stands on, computed with one setting changed.
+struct ConvergenceRow {
+  std::string kind = {};     ///< "mesh", "modes", "harmonics", "samples"
+  std::string setting = {};  ///< "10 x 6 contact elements per flank, 61 000 unknowns"
+  bool reference = false;    ///< as the study
+  std::string status = "converged";
+  double frequency_hz = 0;      ///< unworn resonance
+  double pressure_mean_pa = 0;  ///< after spin-up
+  double pressure_max_pa = 0;   ///< of the nodes, the sharp edges included
+  double energy_j = 0;          ///< dissipated per period at the unworn resonance
+  double volume_m3 = 0;         ///< worn off when wear has come to rest there
+  double seconds = 0;
+};
+
+struct ConvergenceOptions {
+  std::vector<double> mesh_factors{1.6, 1.25, 1, 0.8};  ///< on all element sizes, coarsest first
+  std::vector<int> modes{10, 20, 40};
+  std::vector<int> harmonics{1, 3, 5, 7};
+  std::vector<int> samples{64, 128, 256, 512};
+  std::function<void(const std::string&)> progress = {};
+};
+
+/// The same quantities over mesh, modes, harmonics and samples, one of them changed at a time. The study's own setting
+/// is in every list. Cost: a whole evaluation per mesh and number of modes, less for the others.
+[[nodiscard]] std::vector<ConvergenceRow> convergence(const optimizer::Scene& scene, const ConvergenceOptions& options);
+
+/// A table for the page: changes against the study's setting.
+[[nodiscard]] std::string convergence_table(const std::vector<ConvergenceRow>& rows);
+
+}  // namespace dovetail::paper_sequence
