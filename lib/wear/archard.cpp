@@ -1,5 +1,6 @@
 #include "wear/archard.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace dovetail::wear {
@@ -17,6 +18,14 @@ reduction::ReducedModel worn_model(const reduction::ReducedModel& model, const E
 double cycle_jump(const Eigen::VectorXd& rate, double increment) {
   const double largest = rate.size() == 0 ? 0.0 : rate.maxCoeff();
   return largest > 0.0 ? increment / largest : std::numeric_limits<double>::infinity();
+}
+
+double largest_penetration(const response::CondensedModel& model, const response::SteadyState& state) {
+  double penetration = 0.0;
+  for (Eigen::Index i = 0; i < model.nodes(); ++i)
+    penetration = std::max(penetration, state.nodes[static_cast<std::size_t>(i)].max_normal_force /
+                                            model.local_stiffness()[i * model.directions()]);
+  return penetration;
 }
 
 }  // namespace dovetail::wear

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "reduction/reduced_model.hpp"
+#include "response/steady_state.hpp"
 
 namespace dovetail::wear {
 
@@ -16,5 +17,8 @@ namespace dovetail::wear {
 /// Number of cycles in which the fastest node loses `increment`, dN = W_tot / max_i dW_i [Salles 2009, eq. 21-22].
 /// `rate` is dW [Nc] m per cycle; infinite where nothing wears.
 [[nodiscard]] double cycle_jump(const Eigen::VectorXd& rate, double increment);
+
+/// Largest lambda_N of a node over its own normal stiffness, m: the depth over which its load changes when it wears.
+[[nodiscard]] double largest_penetration(const response::CondensedModel& model, const response::SteadyState& state);
 
 }  // namespace dovetail::wear

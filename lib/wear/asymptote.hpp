@@ -11,6 +11,7 @@
 #include "core/options.hpp"
 #include "core/status.hpp"
 #include "response/steady_state.hpp"
+#include "wear/certificate.hpp"
 #include "wear/control.hpp"
 
 namespace dovetail::wear {
@@ -48,6 +49,9 @@ struct AsymptoteOptions {
   // in (0, 1]. With a remaining rate above this fraction of the unworn one (and above rate_threshold), or when that
   // state cannot be solved, the verdict is not_converged.
   double certificate_limit = 1e-2;
+  // Check the certificate at 2H+1 harmonics and 2N samples, too. Above its limit there the worn state rests at these
+  // settings only: `doubt` says so.
+  bool certify_finer = true;
 };
 
 /// Another state in which nothing wears.
@@ -83,10 +87,14 @@ struct Asymptote {
   Eigen::VectorXd rate;         ///< [Nc] dW of the worn state, m per cycle (no asymptote: the steady one)
   /// Largest rate with gap g + W and contact everywhere over the largest unworn rate; NaN when not computed.
   double certificate = 0.0;
+  /// The same at 2H+1 harmonics and 2N samples, of the depth that is the answer; `harmonics` 0 when not asked for.
+  Certificate finer;
+  bool holds_finer = false;  ///< `finer` is within certificate_limit
   /// Why the direct answer was in doubt: "" (not at all), nothing_holds (every loaded node slips), pass_failed,
   /// certificate (above its limit), lift_off (a worn node touched at times only), reload (a node worn off on the way
-  /// did not need to), worst_first (releasing the fastest nodes first does not end there, or reloads) or always (asked
-  /// for).
+  /// did not need to), worst_first (releasing the fastest nodes first does not end there, or reloads), near_slip (a
+  /// node that sticks has less than 5 % of its friction to spare), finer_settings (the certificate is above its limit
+  /// at finer settings) or always (asked for).
   std::string doubt;
   std::string decided_by = "release";    ///< release | history: what `depth` and `verdict` are from
   bool confirmed_by_history = false;     ///< the history was run to an end and has decided

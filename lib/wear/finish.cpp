@@ -12,6 +12,9 @@ Finish finish_by_release(const std::shared_ptr<const response::CondensedModel>& 
                          const Control& control) {
   constexpr double kStillWears = 1e-5;
   constexpr int kPasses = 10;
+  // Rates that die out like n^-p, p > 4/3, leave less than this many times rate times cycles.
+  constexpr double kTail = 3.0;
+  constexpr double kSlack = 1e-3;  // depth that neighbours wear after them, relative to the largest
   response::ContactCondition worn = start;
   worn.wear_depth = depth;
   const double largest = depth.maxCoeff();
@@ -24,7 +27,9 @@ Finish finish_by_release(const std::shared_ptr<const response::CondensedModel>& 
   const Ending ending = release_slipping(release, threshold, kPasses, {}, passes);
   if (ending == Ending::settled) {
     result.depth = release.depth(passes.released, passes.state);
-    if ((result.depth - depth).maxCoeff() <= close * largest) {
+    const Eigen::VectorXd change = result.depth - depth;
+    const Eigen::VectorXd left = kTail * cycles * state.wear_rate;
+    if (change.maxCoeff() <= close * largest && (change - left).maxCoeff() <= kSlack * largest) {
       result.steady = release.solve_worn(result.depth, state.displacement);
       result.done = result.steady.status == Status::converged &&
                     result.steady.wear_rate.maxCoeff() <= std::max(threshold, state.wear_rate.maxCoeff());

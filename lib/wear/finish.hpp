@@ -19,8 +19,9 @@ struct Finish {
 
 /// Releases the nodes that would go on wearing: where nodes touch at times only, rates die out like a power of the
 /// cycles and leave depth to be worn after any of them. A node counts when its rate times the cycles so far is more
-/// than 1e-5 of the largest depth. Not done where releasing them moves any depth by more than `close` of the largest:
-/// then the nodes carry what others would have to take over, and the history is better left as it is.
+/// than 1e-5 of the largest depth. Not done where releasing them moves any depth by more than `close` of the largest,
+/// or by more than their rates can still wear, a few times rate times cycles: then the nodes carry what others would
+/// have to take over, they come to rest in contact, and the history is better left as it is.
 [[nodiscard]] Finish finish_by_release(const std::shared_ptr<const response::CondensedModel>& model, double omega,
                                        const response::ContactCondition& start, const response::SteadyOptions& steady,
                                        const response::SteadyState& state, const Eigen::VectorXd& depth, double cycles,

@@ -84,14 +84,6 @@ class Run {
   response::ResonanceOptions resonance_;
 };
 
-double largest_penetration(const response::CondensedModel& model, const response::SteadyState& state) {
-  double penetration = 0.0;
-  for (Index i = 0; i < model.nodes(); ++i)
-    penetration = std::max(penetration, state.nodes[static_cast<std::size_t>(i)].max_normal_force /
-                                            model.local_stiffness()[i * model.directions()]);
-  return penetration;
-}
-
 void store(const std::vector<Record>& records, Index nodes, History& result) {
   const auto count = static_cast<Index>(records.size());
   result.cycles.resize(count);
@@ -117,6 +109,8 @@ std::string_view to_string(HistoryEnd end) {
   switch (end) {
     case HistoryEnd::worn_out:
       return "worn_out";
+    case HistoryEnd::steady_rate:
+      return "steady_rate";
     case HistoryEnd::cycles:
       return "cycles";
     case HistoryEnd::steps:

@@ -49,7 +49,14 @@ struct HistoryOptions {
 };
 
 /// Why a history ended.
-enum class HistoryEnd { worn_out, cycles, steps, failed, interrupted };
+enum class HistoryEnd {
+  worn_out,     ///< rates died out
+  steady_rate,  ///< rates levelled out under load; only implicit histories look for it
+  cycles,       ///< as many as asked for
+  steps,        ///< used up
+  failed,       ///< no step could be solved however short
+  interrupted,
+};
 [[nodiscard]] std::string_view to_string(HistoryEnd end);
 
 /// Wear over cycles; entry 0 is the unworn state, S = accepted steps + 1.

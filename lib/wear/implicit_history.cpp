@@ -8,6 +8,7 @@
 #include "wear/archard.hpp"
 #include "wear/finish.hpp"
 #include "wear/implicit_step.hpp"
+#include "wear/start.hpp"
 
 namespace dovetail::wear {
 
@@ -50,42 +51,22 @@ bool levelled_out(const std::vector<Record>& records, double penetration, const 
 
 }  // namespace
 
-std::string_view to_string(ImplicitEnd end) {
-  switch (end) {
-    case ImplicitEnd::worn_out:
-      return "worn_out";
-    case ImplicitEnd::steady_rate:
-      return "steady_rate";
-    case ImplicitEnd::steps:
-      return "steps";
-    case ImplicitEnd::failed:
-      return "failed";
-    case ImplicitEnd::interrupted:
-      return "interrupted";
-  }
-  return "unknown";
-}
-
 ImplicitHistory implicit_history(const std::shared_ptr<const response::CondensedModel>& model, double omega,
                                  const response::ContactCondition& start, const response::SteadyOptions& steady,
                                  const ImplicitHistoryOptions& options, const response::SteadyState* unworn,
                                  const Control& control) {
   if (std::vector<Violation> wrong = violations(options, "implicit_history"); !wrong.empty())
     throw InputError(std::move(wrong));
-  if (std::count(start.released.begin(), start.released.end(), 0) != std::ssize(start.released))
-    throw InputError({.file = {},
-                      .key = "start.released",
-                      .value = "some nodes",
-                      .allowed = "must release no node: which ones wear off is the answer"});
+  require_nothing_released(start);
   ImplicitHistory result;
   std::vector<Record> records;
-  const auto finish = [&](ImplicitEnd end, Status status) {
+  const auto finish = [&](HistoryEnd end, Status status) {
     result.end = end;
     result.status = status;
     store(model->contact(), records, result);
     return std::move(result);
   };
-  if (control.stopped()) return finish(ImplicitEnd::interrupted, Status::interrupted);
+  if (control.stopped()) return finish(HistoryEnd::interrupted, Status::interrupted);
   response::SteadyOptions settings = steady;
   settings.linearise = true;
   if (unworn != nullptr && unworn->linearisation) {
@@ -96,20 +77,19 @@ ImplicitHistory implicit_history(const std::shared_ptr<const response::Condensed
     result.jacobians = result.steady.iterations;
     result.evaluations = result.steady.evaluations;
   }
-  if (result.steady.status != Status::converged) return finish(ImplicitEnd::failed, result.steady.status);
+  if (result.steady.status != Status::converged) return finish(HistoryEnd::failed, result.steady.status);
 
-  for (Index i = 0; i < model->nodes(); ++i)
-    result.largest_penetration =
-        std::max(result.largest_penetration, result.steady.nodes[static_cast<std::size_t>(i)].max_normal_force /
-                                                 model->local_stiffness()[i * model->directions()]);
+  result.largest_penetration = largest_penetration(*model, result.steady);
   WearPoint point{.displacement = result.steady.displacement,
                   .depth = start.wear_depth.size() > 0 ? start.wear_depth : VectorXd(VectorXd::Zero(model->nodes())),
                   .rate = result.steady.wear_rate};
   const VectorXd first_depth = point.depth;
-  records.push_back({.cycles = 0.0, .depth = point.depth, .rate = point.rate});
-  const double first_rate = point.rate.size() > 0 ? point.rate.maxCoeff() : 0.0;
+  double cycles = options.start_cycles;
+  records.push_back({.cycles = cycles, .depth = point.depth, .rate = point.rate});
+  const double start_rate = point.rate.size() > 0 ? point.rate.maxCoeff() : 0.0;
+  const double first_rate = options.reference_rate > 0.0 ? options.reference_rate : start_rate;
   const double worn_out = std::max(options.rate_threshold, options.rate_fraction * first_rate);
-  if (!(first_rate > worn_out)) return finish(ImplicitEnd::worn_out, Status::converged);
+  if (!(start_rate > worn_out)) return finish(HistoryEnd::worn_out, Status::converged);
 
   ImplicitStage stage(model, start, settings, result.steady);
   const auto count = [&] {
@@ -117,17 +97,20 @@ ImplicitHistory implicit_history(const std::shared_ptr<const response::Condensed
     result.jacobians += stage.jacobians();
     result.evaluations += stage.evaluations();
   };
-  const auto leave = [&](ImplicitEnd end, Status status) {
+  const auto leave = [&](HistoryEnd end, Status status) {
     if (records.size() > 1) result.steady = stage.described(point);
     count();
     return finish(end, status);
   };
   // Early on a finish must hardly move anything: what the released nodes leave to others still has to wear in time.
-  constexpr double kCloseBefore = 0.02;
-  constexpr double kCloseAtEnd = 0.05;
+  constexpr double kCloseBefore = 3e-3;
+  constexpr double kCloseAtEnd = 5e-3;
+  // Rate times cycles, relative to the depth, that ends a history without a finish, and the rate that ends any.
+  constexpr double kNothingLeft = 1e-4;
+  constexpr double kSilent = 1e-3;
   double finish_below = 1e-2;
   double jump = cycle_jump(point.rate, options.first_increment * result.largest_penetration);
-  double cycles = 0.0;
+  const double limit = options.cycles > 0.0 ? options.cycles : kInfinity;
   // After a step whose equations could not be solved the next ones grow slowly.
   constexpr int kRecovery = 3;
   constexpr double kSlowGrowth = 1.5;
@@ -138,7 +121,10 @@ ImplicitHistory implicit_history(const std::shared_ptr<const response::Condensed
   constexpr int kJumps = 20;
   Status failure = Status::iteration_limit;
   for (int i = 0; i < options.steps; ++i) {
-    if (control.stopped()) return leave(ImplicitEnd::interrupted, Status::interrupted);
+    if (control.stopped()) return leave(HistoryEnd::interrupted, Status::interrupted);
+    if (cycles >= limit) return leave(HistoryEnd::cycles, Status::converged);
+    const bool last_step = jump >= limit - cycles;
+    if (last_step) jump = limit - cycles;
     WearPoint next = point;
     VectorXd error;
     failure = implicit_step(stage, jump, options.stage_iterations, next, error);
@@ -164,7 +150,7 @@ ImplicitHistory implicit_history(const std::shared_ptr<const response::Condensed
         result.evaluations += found.evaluations;
       }
       if (result.jumps == kJumps || found.status != Status::converged)
-        return leave(ImplicitEnd::failed, failure == Status::converged ? Status::stalled : failure);
+        return leave(HistoryEnd::failed, failure == Status::converged ? Status::stalled : failure);
       ++result.jumps;
       count();
       stage = ImplicitStage(model, start, settings, found);
@@ -175,23 +161,30 @@ ImplicitHistory implicit_history(const std::shared_ptr<const response::Condensed
       continue;
     }
     point = std::move(next);
-    cycles += jump;
+    cycles = last_step ? limit : cycles + jump;
     records.push_back({.cycles = cycles, .depth = point.depth, .rate = point.rate});
     control.report(static_cast<int>(records.size()) - 1, worn_volume(model->contact(), point.depth),
                    point.rate.maxCoeff());
     const double fastest = point.rate.maxCoeff();
-    const bool done = fastest <= worn_out;
-    if (done || (options.finish && fastest <= finish_below * first_rate)) {
+    const bool quiet = fastest <= worn_out;
+    if (quiet && !options.finish) {
+      result.steady = stage.described(point);
+      count();
+      return finish(HistoryEnd::worn_out, Status::converged);
+    }
+    if (quiet || fastest <= finish_below * first_rate) {
       const response::SteadyState reached = stage.described(point);
       Finish last;
-      if (options.finish) {
+      if (fastest <= finish_below * first_rate) {
         last = finish_by_release(model, omega, start, steady, reached, point.depth, cycles,
-                                 done ? kCloseAtEnd : kCloseBefore, control);
+                                 quiet ? kCloseAtEnd : kCloseBefore, control);
         result.solves += last.solves;
         result.jacobians += last.jacobians;
         finish_below = 0.1 * fastest / first_rate;
       }
-      if (done || last.done) {
+      // Where finishing is no way out the tail is followed until it leaves nothing.
+      const double left = fastest * cycles / point.depth.maxCoeff();
+      if (last.done || (quiet && (left <= kNothingLeft || fastest <= kSilent * worn_out))) {
         result.steady = last.done ? last.steady : reached;
         result.finished = last.done;
         count();
@@ -199,15 +192,38 @@ ImplicitHistory implicit_history(const std::shared_ptr<const response::Condensed
           result.finish_change = (last.depth - point.depth).cwiseAbs().maxCoeff();
           records.push_back({.cycles = kInfinity, .depth = last.depth, .rate = last.steady.wear_rate});
         }
-        return finish(ImplicitEnd::worn_out, Status::converged);
+        return finish(HistoryEnd::worn_out, Status::converged);
       }
     }
     if (levelled_out(records, result.largest_penetration, options))
-      return leave(ImplicitEnd::steady_rate, Status::converged);
+      return leave(HistoryEnd::steady_rate, Status::converged);
     jump *= std::clamp(0.9 / std::cbrt(std::max(ratio, 1e-6)), 0.3, recovering > 0 ? kSlowGrowth : options.growth);
     recovering = std::max(0, recovering - 1);
   }
-  return leave(ImplicitEnd::steps, failure == Status::converged ? Status::iteration_limit : failure);
+  if (cycles >= limit) return leave(HistoryEnd::cycles, Status::converged);
+  return leave(HistoryEnd::steps, failure == Status::converged ? Status::iteration_limit : failure);
+}
+
+History as_history(const ImplicitHistory& implicit, const response::CondensedModel& model) {
+  const Index count = implicit.cycles.size() - (implicit.finished ? 1 : 0);
+  History history{.status = implicit.status,
+                  .end = implicit.end,
+                  .cycles = implicit.cycles.head(count),
+                  .worn_volume = implicit.worn_volume.head(count),
+                  .depth = implicit.depth.topRows(count),
+                  .rate = implicit.rate.topRows(count),
+                  .amplitude = VectorXd::Constant(count, std::nan("")),
+                  .frequency = VectorXd::Constant(count, implicit.steady.omega),
+                  .steady = implicit.steady,
+                  .final_depth = implicit.depth.rows() > 0 ? VectorXd(implicit.depth.bottomRows(1).transpose())
+                                                           : VectorXd(VectorXd::Zero(model.nodes())),
+                  .finished = implicit.finished,
+                  .solves = implicit.solves,
+                  .jacobians = implicit.jacobians,
+                  .rejected = implicit.rejected};
+  history.final_volume = worn_volume(model.contact(), history.final_depth);
+  if (count > 0 && implicit.steady.amplitudes.size() > 0) history.amplitude[count - 1] = implicit.steady.amplitudes[0];
+  return history;
 }
 
 }  // namespace dovetail::wear

@@ -3,12 +3,12 @@
 #include <Eigen/Core>
 #include <memory>
 #include <span>
-#include <string_view>
 
 #include "core/options.hpp"
 #include "core/status.hpp"
 #include "response/steady_state.hpp"
 #include "wear/control.hpp"
+#include "wear/history.hpp"
 
 namespace dovetail::wear {
 
@@ -22,6 +22,8 @@ struct ImplicitHistoryOptions {
   double growth = 3.0;
   // >= 1. Steps at most, accepted and rejected.
   int steps = 300;
+  // >= 0. Cycles at most, 0: no limit; the last step is cut to end there exactly.
+  double cycles = 0.0;
   // >= 1. Jacobians per stage of a step before it is cut.
   int stage_iterations = 10;
   // in [0, 1). Worn out when the largest rate fell below this fraction of the first one.
@@ -35,22 +37,16 @@ struct ImplicitHistoryOptions {
   double level_change = 1e-3;
   // Finish a worn-out history by releasing the nodes that still wear, so that no bias of the last rates remains.
   bool finish = true;
+  // >= 0. Cycles that `start` has behind it, when a history is resumed.
+  double start_cycles = 0.0;
+  // >= 0. Largest rate of its first state, m per cycle, which rate_fraction refers to; 0: that of `start`.
+  double reference_rate = 0.0;
 };
-
-/// Why an implicit history ended.
-enum class ImplicitEnd {
-  worn_out,     ///< rates died out
-  steady_rate,  ///< rates level out under load: there is no asymptote
-  steps,        ///< steps used up
-  failed,       ///< no step could be solved however short: see `status`
-  interrupted,
-};
-[[nodiscard]] std::string_view to_string(ImplicitEnd end);
 
 /// Wear over cycles in large steps; entry 0 is the unworn state, S = accepted steps + 1 (one more when finished).
 struct ImplicitHistory {
   Status status = Status::converged;
-  ImplicitEnd end = ImplicitEnd::steps;
+  HistoryEnd end = HistoryEnd::steps;
   Eigen::VectorXd cycles;            ///< [S]; infinite for the finished state
   Eigen::VectorXd worn_volume;       ///< [S] m^3
   Eigen::MatrixXd depth;             ///< [S, Nc] m
@@ -85,6 +81,10 @@ struct ImplicitHistory {
                                                const ImplicitHistoryOptions& options = {},
                                                const response::SteadyState* unworn = nullptr,
                                                const Control& control = {});
+
+/// The same as a history like the explicit ones: a finish at the end becomes its final depth, and the amplitude is
+/// known of the last state only.
+[[nodiscard]] History as_history(const ImplicitHistory& implicit, const response::CondensedModel& model);
 
 }  // namespace dovetail::wear
 

@@ -96,6 +96,9 @@ std::span<const Field<wear::AsymptoteOptions>> option_table<wear::AsymptoteOptio
                      .member = &Options::certificate_limit,
                      .range = {.lower = 0, .upper = 1, .lower_open = true},
                      .help = "largest remaining wear rate, relative to the unworn one, of a certified worn state"},
+      Field<Options>{.key = "certify_finer",
+                     .member = &Options::certify_finer,
+                     .help = "check the certificate at 2H+1 harmonics and 2N samples"},
   };
   return fields;
 }
@@ -117,6 +120,8 @@ std::span<const Field<wear::ImplicitHistoryOptions>> option_table<wear::Implicit
                      .range = {.lower = 1, .lower_open = true},
                      .help = "largest growth of the step from one to the next"},
       Field<Options>{.key = "steps", .member = &Options::steps, .range = {.lower = 1}, .help = "steps at most"},
+      Field<Options>{
+          .key = "cycles", .member = &Options::cycles, .range = kNonNegative, .help = "cycles at most; 0: no limit"},
       Field<Options>{.key = "stage_iterations",
                      .member = &Options::stage_iterations,
                      .range = {.lower = 1},
@@ -139,6 +144,15 @@ std::span<const Field<wear::ImplicitHistoryOptions>> option_table<wear::Implicit
                      .range = {.lower = 0, .upper = 1, .lower_open = true, .upper_open = true},
                      .help = "change of the largest rate, while the depth doubles, below which it has levelled out"},
       Field<Options>{.key = "finish", .member = &Options::finish, .help = "finish by the direct method"},
+      Field<Options>{.key = "start_cycles",
+                     .member = &Options::start_cycles,
+                     .range = kNonNegative,
+                     .help = "cycles behind the start of a resumed history"},
+      Field<Options>{.key = "reference_rate_um_per_cycle",
+                     .member = &Options::reference_rate,
+                     .si_per_unit = 1e-6,
+                     .range = kNonNegative,
+                     .help = "largest rate of the first state of a resumed history; 0: that of the start"},
   };
   return fields;
 }

@@ -42,8 +42,27 @@ void validate(const WearOptions& options) {
   }
   if (options.band_points < 1) bad("--band-points", std::to_string(options.band_points), "must be >= 1");
   if (band && options.frequency_hz) bad("--frequency", "", "has no meaning with --follow band");
-  if (options.method != "history" && (options.cycles || options.steps || options.increment_m))
-    bad("--cycles, --steps, --increment", "", "only have a meaning with --method history");
+  if (options.history_tolerance && !(*options.history_tolerance >= 0 && *options.history_tolerance <= 0.5))
+    bad("--history-tolerance", shortest(*options.history_tolerance), "must be >= 0 and <= 0.5");
+  if (options.method != "history") {
+    if (options.cycles || options.steps || options.increment_m || options.history_tolerance)
+      bad("--cycles, --steps, --increment, --history-tolerance", "", "only have a meaning with --method history");
+    if (options.integrator != "explicit" || !options.resume.empty() || options.curves > 0)
+      bad("--integrator, --resume, --curves", "", "only have a meaning with --method history");
+  }
+  if (options.integrator == "implicit") {
+    if (options.follow == "resonance") bad("--follow", options.follow, "needs --integrator explicit");
+    if (options.increment_m)
+      bad("--increment", "", "has no meaning with --integrator implicit: see --history-tolerance");
+  }
+  if (!options.resume.empty() && (band || options.error_bars || options.spread))
+    bad("--resume", options.resume, "goes on with one history: no --follow band, --error-bars or --spread");
+  if (options.curves < 0 || options.curve_points < 1) bad("--curves, --curve-points", "", "must be >= 0 and >= 1");
+  if (options.curve_from_hz.has_value() != options.curve_to_hz.has_value())
+    bad("--curve-from, --curve-to", "", "need each other");
+  for (const auto& [option, hz] :
+       {std::pair{"--curve-from", options.curve_from_hz}, std::pair{"--curve-to", options.curve_to_hz}})
+    if (hz && !kFrequencies.contains(*hz)) bad(option, shortest(*hz), kFrequencies.phrase());
   if (!found.empty()) throw InputError(std::move(found));
 }
 
@@ -137,12 +156,30 @@ std::string follow_words(const std::string& follow) {
   return follow == "resonance" ? "at first; following the resonance" : "held";
 }
 
+/// The wear that goes on at the worn state, as a share of the unworn rate.
+std::string certificate_words(const wear::Asymptote& asymptote) {
+  std::string text = fmt::format("remaining_rate  {:.2g} of the unworn one", asymptote.certificate);
+  const wear::Certificate& finer = asymptote.finer;
+  if (finer.harmonics > 0) {
+    text += finer.status == Status::converged ? fmt::format("; {:.2g}", finer.remaining)
+                                              : "; not known (" + std::string(to_string(finer.status)) + ")";
+    text += fmt::format(" at {} harmonics, {} samples{}", finer.harmonics, finer.samples,
+                        asymptote.holds_finer ? "" : ": raise --harmonics and --samples");
+  }
+  text += "\n";
+  if (!asymptote.doubt.empty())
+    text += fmt::format("doubt           {}{}\n", asymptote.doubt,
+                        asymptote.confirmed_by_history && asymptote.holds_finer ? ", settled by the history" : "");
+  return text;
+}
+
 std::string summary(const WearQuestion& question, const WearAnswer& answer) {
   std::string text = fmt::format("status          {}\nfrequency_hz    {:.9g} ({})\nworn_volume_m3  {:.6g}\n",
                                  answer.status, question.frequency_hz, follow_words(question.follow), answer.volume);
   if (answer.asymptote && answer.worn_out())
     text += fmt::format("  edges between nodes {:.6g}\n", answer.asymptote->interpolated_volume);
   text += fmt::format("largest_depth_m {:.6g}\nsolves          {}\n", answer.largest_depth(), answer.solves);
+  if (answer.asymptote && answer.worn_out()) text += certificate_words(*answer.asymptote);
   if (!question.spread) return text;
   for (const wear::SpreadRange& range : question.spread->ranges)
     text += fmt::format("spread {:<18} volume {:.4g} to {:.4g} m^3, depth {:.4g} to {:.4g} m ({}{})\n", range.source,
@@ -224,6 +261,7 @@ int run_wear(const WearOptions& given, const Streams& streams) {
     if (!from.found()) return WornState{};
     return worn_state(wear_answer(options, model, from, {}, control));
   };
+  if (answer.history && options.curves > 0) answer.curves = worn_curves(options, loaded, *answer.history, control);
   if (automatic) question.automatic = WearQuestion::Automatic{*automatic, accuracy(options.solver)};
   if (options.error_bars) question.bars = worn_bars(loaded, worn_state(answer), again);
   if (options.spread) question.spread = spread_of(options, loaded, at, answer, control);

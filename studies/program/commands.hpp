@@ -111,7 +111,12 @@ struct WearOptions {
   int band_points = 11;
   std::optional<double> cycles;       ///< history
   std::optional<int> steps;           ///< history
-  std::optional<double> increment_m;  ///< history
+  std::optional<double> increment_m;  ///< history; absent: a hundredth of the depth that release comes to
+  std::optional<double> history_tolerance;
+  std::string integrator = "explicit";  ///< of a history: explicit | implicit
+  std::string resume;                   ///< JSON of the history to go on with, or empty
+  int curves = 0, curve_points = 60;    ///< response curves along a history
+  std::optional<double> curve_from_hz, curve_to_hz;
   bool error_bars = false;
   bool spread = false;
   std::string json;

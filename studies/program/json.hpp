@@ -47,11 +47,13 @@ struct WearQuestion {
 /// {"method", "status", "follow", "frequency_hz", "frequencies_hz":[S], "cycles":[S], "worn_volume_m3":[S],
 /// "depth_m":[Nc], "final_wear_rate_m_per_cycle":[Nc], "solves", "settings":{"harmonics", "samples", "tolerance",
 /// "solver"[, "automatic"]}[, "error_bars":{"worn_volume_m3", "largest_depth_m"}][, "spread"][, "band"]}.
-/// A history adds "ended", "finished" (depth_m is then the direct method's, from the history's end) and
-/// "final_worn_volume_m3". An asymptote has S = 1 and cycles [null] and adds "interpolated_volume_m3" and
-/// "interpolated_depth_m":[Nc] with the worn zones' edges between nodes, "volume_bracket_m3":[2], "certificate",
-/// "decided_by", "doubt", "confirmed_by_history" and "other_states"; its `frequencies_hz` are those of the successive
-/// asymptotes when the resonance is followed.
+/// A history adds "ended", "finished" (depth_m is then the direct method's, from the history's end),
+/// "final_worn_volume_m3", "amplitude_m":[S], "depths_m":[S][Nc], "wear_rates_m_per_cycle":[S][Nc], "history" (how it
+/// was computed) and, when asked for, "response_curves". An asymptote has S = 1 and cycles [null] and adds
+/// "interpolated_volume_m3" and "interpolated_depth_m":[Nc] with the worn zones' edges between nodes,
+/// "volume_bracket_m3":[2], "certificate", "finer_certificate":{"harmonics", "samples", "status", "remaining",
+/// "holds"}, "decided_by", "doubt", "confirmed_by_history" and "other_states"; its `frequencies_hz` are those of the
+/// successive asymptotes when the resonance is followed.
 [[nodiscard]] std::string wear_json(const WearQuestion& question, const WearAnswer& answer);
 
 /// "asymptote" | "no_asymptote" | "not_converged": a history that ended at the cycles asked for is "no_asymptote".

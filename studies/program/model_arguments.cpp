@@ -92,8 +92,10 @@ void define_model_commands(CLI::App& app, Arguments& a) {
       "\"status\", \"follow\", \"frequency_hz\", \"frequencies_hz\", \"cycles\", \"worn_volume_m3\", \"depth_m\",\n"
       "\"final_wear_rate_m_per_cycle\", \"solves\", \"settings\"[, \"error_bars\", \"spread\", \"band\"]}; an "
       "asymptote adds\n"
-      "\"interpolated_volume_m3\", \"interpolated_depth_m\", \"volume_bracket_m3\", \"certificate\" and "
-      "\"other_states\".\n"
+      "\"interpolated_volume_m3\", \"interpolated_depth_m\", \"volume_bracket_m3\", \"certificate\" "
+      "(largest\nremaining wear rate over the unworn one), \"finer_certificate\" (at 2H+1 harmonics and 2N samples) "
+      "and\n\"other_states\"; a history \"depths_m\" and \"wear_rates_m_per_cycle\" of every state, \"history\" "
+      "(its options)\nand \"response_curves\".\n"
       "\"spread\" holds, per source, \"status\", \"nominal\", \"low\", \"high\", \"profile_change\" and every member. "
       "A history "
       "that\n"
@@ -115,9 +117,30 @@ void define_model_commands(CLI::App& app, Arguments& a) {
   wear->add_option("--band-to", a.wear.band_to_hz, "Last frequency of the band")->type_name("HZ");
   wear->add_option("--band-points", a.wear.band_points, "Frequencies of the band (default: 11)")->type_name("N");
   wear->add_option("--cycles", a.wear.cycles, "history: end after so many cycles")->type_name("N");
-  wear->add_option("--steps", a.wear.steps, "history: steps at most (default: 200)")->type_name("N");
-  wear->add_option("--increment", a.wear.increment_m, "history: largest increase of depth per step, m (default: 1e-7)")
+  wear->add_option("--steps", a.wear.steps, "history: steps at most (default: 1000)")->type_name("N");
+  wear->add_option("--increment", a.wear.increment_m,
+                   "explicit history: largest increase of depth per step, m (default: a hundredth of the largest depth "
+                   "of the directly computed worn state, or of the elastic penetration where there is none)")
       ->type_name("M");
+  wear->add_option("--integrator", a.wear.integrator,
+                   "history: explicit, by increments of depth; or implicit, in large steps of controlled error "
+                   "(default: explicit)")
+      ->type_name("WHICH")
+      ->check(CLI::IsMember({"explicit", "implicit"}));
+  wear->add_option("--history-tolerance", a.wear.history_tolerance,
+                   "history: local error per step relative to the depth (default: explicit 0, increments as they are; "
+                   "implicit 2e-4)")
+      ->type_name("X");
+  wear->add_option("--resume", a.wear.resume,
+                   "history: go on from the last state in this file, which --json of another history has written")
+      ->type_name("FILE");
+  wear->add_option("--curves", a.wear.curves,
+                   "history: response curves of so many of its states, evenly spaced in worn volume (default: 0)")
+      ->type_name("N");
+  wear->add_option("--curve-points", a.wear.curve_points, "Frequencies of each curve (default: 60)")->type_name("M");
+  wear->add_option("--curve-from", a.wear.curve_from_hz, "First frequency of the curves (default: around the peaks)")
+      ->type_name("HZ");
+  wear->add_option("--curve-to", a.wear.curve_to_hz, "Last frequency of the curves")->type_name("HZ");
   wear->add_flag(
       "--error-bars", a.wear.error_bars,
       "How far harmonics, samples and pseudo-penalty may have moved volume and depth: four computations more");

@@ -58,6 +58,34 @@ Json band_json(const WearBand& band) {
   return json;
 }
 
+Json rows(const Eigen::MatrixXd& matrix) {
+  Json list = Json::array();
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) list.push_back(numbers(Eigen::VectorXd(matrix.row(i).transpose())));
+  return list;
+}
+
+Json choice_json(const HistoryChoice& choice) {
+  const wear::HistoryOptions& options = choice.options;
+  Json json{{"integrator", choice.integrator}, {"tolerance", number(options.tolerance)}, {"steps", options.steps}};
+  if (choice.integrator == "explicit") json["increment_m"] = number(options.increment);
+  if (choice.depth_scale > 0) json["depth_scale_m"] = number(choice.depth_scale);
+  json["cycles"] = options.cycles > 0 ? number(options.cycles) : Json(nullptr);
+  json["start_cycles"] = number(options.start_cycles);
+  json["rate_threshold_m_per_cycle"] = number(options.rate_threshold);
+  if (!choice.resumed_from.empty()) json["resumed_from"] = choice.resumed_from;
+  return json;
+}
+
+Json curves_json(const std::vector<WornCurve>& curves) {
+  Json list = Json::array();
+  for (const WornCurve& curve : curves)
+    list.push_back(Json{{"cycles", number(curve.cycles)},
+                        {"worn_volume_m3", number(curve.worn_volume)},
+                        {"frequency_hz", numbers(curve.frequency_hz)},
+                        {"amplitude_m", numbers(curve.amplitude)}});
+  return list;
+}
+
 void add_history(const wear::History& history, Json& json) {
   const Eigen::Index last = history.depth.rows() - 1;
   json["ended"] = std::string(wear::to_string(history.end));
@@ -66,6 +94,9 @@ void add_history(const wear::History& history, Json& json) {
   json["depth_m"] = numbers(history.final_depth);
   json["final_worn_volume_m3"] = number(history.final_volume);
   json["finished"] = history.finished;
+  json["amplitude_m"] = numbers(history.amplitude);
+  json["depths_m"] = rows(history.depth);
+  json["wear_rates_m_per_cycle"] = rows(history.rate);
   json["final_wear_rate_m_per_cycle"] =
       last < 0 ? Json::array() : numbers(Eigen::VectorXd(history.rate.row(last).transpose()));
 }
@@ -91,6 +122,12 @@ void add_asymptote(const wear::Asymptote& asymptote, Json& json) {
   json["interpolated_depth_m"] = numbers(asymptote.interpolated_depth);
   json["final_wear_rate_m_per_cycle"] = numbers(asymptote.rate);
   json["certificate"] = number(asymptote.certificate);
+  if (asymptote.finer.harmonics > 0)
+    json["finer_certificate"] = Json{{"harmonics", asymptote.finer.harmonics},
+                                     {"samples", asymptote.finer.samples},
+                                     {"status", std::string(to_string(asymptote.finer.status))},
+                                     {"remaining", number(asymptote.finer.remaining)},
+                                     {"holds", asymptote.holds_finer}};
   json["decided_by"] = asymptote.decided_by;
   json["doubt"] = asymptote.doubt;
   json["confirmed_by_history"] = asymptote.confirmed_by_history;
@@ -103,6 +140,7 @@ std::string wear_status(const wear::History& history) {
   switch (history.end) {
     case wear::HistoryEnd::worn_out:
       return "asymptote";
+    case wear::HistoryEnd::steady_rate:
     case wear::HistoryEnd::cycles:
       return "no_asymptote";
     default:
@@ -117,7 +155,11 @@ std::string wear_json(const WearQuestion& question, const WearAnswer& answer) {
   json["follow"] = question.follow;
   json["frequency_hz"] = number(question.frequency_hz);
   json["frequencies_hz"] = numbers(answer.frequencies_hz);
-  if (answer.history) add_history(*answer.history, json);
+  if (answer.history) {
+    add_history(*answer.history, json);
+    json["history"] = choice_json(answer.choice);
+    if (!answer.curves.empty()) json["response_curves"] = curves_json(answer.curves);
+  }
   if (answer.asymptote) add_asymptote(*answer.asymptote, json);
   json["solves"] = answer.solves;
   json["settings"] = question_json(question);

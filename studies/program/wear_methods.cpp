@@ -14,31 +14,20 @@ namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 
-/// Wear per cycle that counts as none, m: the default of a study, made for wear coefficients of 1e-13 1/Pa, or less
-/// where a smaller wear coefficient makes all rates smaller.
-double rate_threshold(const LoadedModel& loaded, double usual) {
-  constexpr double kCoefficient = 1e-13;
-  const Eigen::VectorXd& coefficient = loaded.condensed->contact().wear_coefficient;
-  return coefficient.size() == 0 ? usual : usual * std::min(1.0, coefficient.maxCoeff() / kCoefficient);
-}
-
 WearAnswer by_history(const WearOptions& options, const LoadedModel& loaded, const WearStart& at,
                       const response::ContactCondition& condition, const wear::Control& control) {
-  wear::HistoryOptions settings;
-  settings.follow = options.follow == "resonance" ? "resonance" : "fixed";
-  settings.cycles = options.cycles.value_or(settings.cycles);
-  settings.steps = options.steps.value_or(settings.steps);
-  settings.increment = options.increment_m.value_or(settings.increment);
-  settings.rate_threshold = rate_threshold(loaded, settings.rate_threshold);
+  ComputedHistory computed = compute_history(options, loaded, at, condition, control);
+  const bool held = computed.choice.options.follow == "fixed";
   WearAnswer answer;
-  answer.history = wear::history(loaded.condensed, at.omega, condition, loaded.steady, settings, {}, control);
+  answer.history = std::move(computed.history);
+  answer.choice = std::move(computed.choice);
   wear::History& history = *answer.history;
   if (at.resonance) history.solves += at.resonance->solves;
   answer.status = wear_status(history);
   answer.solver = history.end == wear::HistoryEnd::steps ? Status::iteration_limit : history.status;
   answer.solves = history.solves;
   for (const double omega : history.frequency)
-    answer.frequencies_hz.push_back(settings.follow == "fixed" ? at.hz : omega / kTurn);
+    answer.frequencies_hz.push_back(held && omega == at.omega ? at.hz : omega / kTurn);
   answer.volume = history.final_volume;
   answer.depth = history.final_depth;
   return answer;
@@ -72,6 +61,12 @@ WearAnswer by_asymptote(const WearOptions& options, const LoadedModel& loaded, c
 }
 
 }  // namespace
+
+double rate_threshold(const LoadedModel& loaded, double usual) {
+  constexpr double kCoefficient = 1e-13;
+  const Eigen::VectorXd& coefficient = loaded.condensed->contact().wear_coefficient;
+  return coefficient.size() == 0 ? usual : usual * std::min(1.0, coefficient.maxCoeff() / kCoefficient);
+}
 
 WearStart wear_start_at(double hz) {
   return {.hz = hz, .omega = kTurn * hz, .resonance = {}};

@@ -8,6 +8,7 @@
 #include "response/resonance.hpp"
 #include "studies/program/commands.hpp"
 #include "studies/program/engine.hpp"
+#include "studies/program/wear_history.hpp"
 #include "wear/asymptote.hpp"
 #include "wear/control.hpp"
 #include "wear/history.hpp"
@@ -27,11 +28,17 @@ struct WearStart {
 [[nodiscard]] WearStart wear_start(const WearOptions& options, const LoadedModel& loaded);
 [[nodiscard]] WearStart wear_start_at(double hz);
 
+/// Wear per cycle that counts as none, m: the default of a study, made for wear coefficients of 1e-13 1/Pa, or less
+/// where a smaller wear coefficient makes all rates smaller.
+[[nodiscard]] double rate_threshold(const LoadedModel& loaded, double usual);
+
 /// What either method came to; the one not asked for is empty.
 struct WearAnswer {
   std::optional<wear::Asymptote> asymptote;
   std::optional<wear::History> history;
-  std::string status;  ///< "asymptote" | "no_asymptote" | "not_converged"
+  HistoryChoice choice;           ///< of the history
+  std::vector<WornCurve> curves;  ///< along the history, when asked for
+  std::string status;             ///< "asymptote" | "no_asymptote" | "not_converged"
   Status solver = Status::converged;
   std::vector<double> frequencies_hz;
   double volume = 0;      ///< m^3, of the last state, worn out or not

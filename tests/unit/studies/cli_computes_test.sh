@@ -53,6 +53,28 @@ expect 0 wear m.h5 --method asymptote --json -; is_json; same out study.json
 expect 0 wear m.h5 --method history --frequency 480 --cycles 1000 --json -; is_json
 grep -q '"frequency_hz": 480.0' out || fail "the frequency asked for is not the one answered"
 expect 3 wear m.h5 --method history --steps 1 --json -; is_json
+# A history cut short goes on where it was; the implicit one ends at the same volume.
+expect 3 wear m.h5 --method history --steps 20 --json part.json
+expect 0 wear m.h5 --method history --resume part.json --json rest.json --curves 2 --curve-points 4
+expect 0 wear m.h5 --method history --json whole.json
+expect 0 wear m.h5 --method history --integrator implicit --history-tolerance 1e-3 --json implicit.json
+if command -v python3 > /dev/null; then
+  python3 - << 'END' || fail "resumed, whole and implicit histories disagree"
+import json
+part, rest, whole, implicit = (json.load(open(f + ".json")) for f in ("part", "rest", "whole", "implicit"))
+assert rest["cycles"][0] == part["cycles"][-1] and rest["history"]["resumed_from"] == "part.json"
+assert rest["history"]["increment_m"] == part["history"]["increment_m"]
+assert len(rest["depths_m"]) == len(rest["cycles"]) == len(rest["wear_rates_m_per_cycle"])
+assert [len(c["amplitude_m"]) for c in rest["response_curves"]] == [4, 4]
+assert implicit["history"]["integrator"] == "implicit" and implicit["history"]["tolerance"] == 1e-3
+for other in (rest, implicit):  # finished by release, to the residuals of steady states
+    assert abs(other["final_worn_volume_m3"] / whole["final_worn_volume_m3"] - 1) < 1e-6
+END
+fi
+expect 2 wear m.h5 --method history --resume s.toml --json -
+expect 2 wear m.h5 --method asymptote --integrator implicit --json -
+expect 0 wear m.h5 --method asymptote --json -
+grep -q '"holds": true' out || fail "the certificate is not checked at finer settings"
 expect 0 wear m.h5 --method asymptote --spread --json -; is_json
 for key in wear_coefficient friction load combined members profile_change; do
   grep -q "\"$key\"" out || fail "the spread has no $key"

@@ -39,7 +39,7 @@ TEST(ImplicitHistory, EndsInTheWornState) {
     const Asymptote direct = asymptote(model, 1.0, {}, kSteady, alone());
     ASSERT_EQ(direct.verdict, Verdict::asymptote);
     const ImplicitHistory run = implicit_history(model, 1.0, {}, kSteady, {.rate_threshold = 0.0});
-    ASSERT_EQ(run.end, ImplicitEnd::worn_out) << to_string(run.end);
+    ASSERT_EQ(run.end, HistoryEnd::worn_out) << to_string(run.end);
     EXPECT_TRUE(run.finished);
     const double error = (last_depth(run) - direct.depth).cwiseAbs().maxCoeff() / direct.largest_depth;
     RecordProperty("jacobians_" + std::to_string(number), run.jacobians);
@@ -56,7 +56,7 @@ TEST(ImplicitHistory, FollowsThePathOfExplicitOnes) {
   const auto volume = [&](double tolerance) {
     const ImplicitHistory run =
         implicit_history(model, 1.0, {}, kSteady, {.tolerance = tolerance, .rate_threshold = 0.0});
-    EXPECT_EQ(run.end, ImplicitEnd::worn_out);
+    EXPECT_EQ(run.end, HistoryEnd::worn_out);
     return run.worn_volume[run.worn_volume.size() - 1];
   };
   const double fine = volume(2e-5);
@@ -70,7 +70,7 @@ TEST(ImplicitHistory, FollowsThePathOfExplicitOnes) {
 
 TEST(ImplicitHistory, NeverGivesDepthBack) {
   const ImplicitHistory run = implicit_history(block(6), 1.0, {}, kSteady, {.rate_threshold = 0.0});
-  ASSERT_EQ(run.end, ImplicitEnd::worn_out);
+  ASSERT_EQ(run.end, HistoryEnd::worn_out);
   for (Eigen::Index i = 1; i < run.depth.rows(); ++i) {
     EXPECT_GE((run.depth.row(i) - run.depth.row(i - 1)).minCoeff(), 0.0) << i;
     EXPECT_GE(run.rate.row(i).minCoeff(), 0.0) << i;
@@ -83,7 +83,7 @@ TEST(ImplicitHistory, NeverGivesDepthBack) {
 TEST(ImplicitHistory, UnloadsARubbingNode) {
   const Model model = std::make_shared<const response::CondensedModel>(scenes::rubbing_oscillator(0.1, 2.0, 1.0, 0.05));
   const ImplicitHistory run = implicit_history(model, 1.0, {}, kSteady, {.rate_threshold = 0.0});
-  ASSERT_EQ(run.end, ImplicitEnd::worn_out);
+  ASSERT_EQ(run.end, HistoryEnd::worn_out);
   EXPECT_NEAR(last_depth(run)[0], 0.05, 1e-4 * 0.05);
   const Eigen::Index half = run.cycles.size() / 2;
   const History fine = history(model, 1.0, {}, kSteady,
@@ -101,14 +101,14 @@ TEST(ImplicitHistory, SaysThatItStoppedOrFailed) {
   const Control control{.stop = [&asked] { return ++asked > 5; }};
   const ImplicitHistory stopped =
       implicit_history(block(1), 1.0, {}, kSteady, {.rate_threshold = 0.0}, nullptr, control);
-  EXPECT_EQ(stopped.end, ImplicitEnd::interrupted);
+  EXPECT_EQ(stopped.end, HistoryEnd::interrupted);
   EXPECT_EQ(stopped.status, Status::interrupted);
   EXPECT_GT(stopped.cycles.size(), 1);
   response::SteadyOptions hasty = kSteady;
   hasty.max_iterations = 1;
   hasty.penalty_cascade = false;
   const ImplicitHistory failed = implicit_history(block(1), 1.0, {}, hasty, {.rate_threshold = 0.0});
-  EXPECT_EQ(failed.end, ImplicitEnd::failed);
+  EXPECT_EQ(failed.end, HistoryEnd::failed);
   EXPECT_NE(failed.status, Status::converged);
   EXPECT_THROW((void)implicit_history(block(1), 1.0, {}, kSteady, {.growth = 1.0}), InputError);
   response::ContactCondition start;

@@ -7,39 +7,13 @@
 #include <random>
 #include <vector>
 
-namespace dovetail::wear::scenes {
+#include "empty_model.hpp"
 
-namespace {
+namespace dovetail::wear::scenes {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-reduction::ReducedModel empty_model(Index size, Index nodes, Index harmonics) {
-  reduction::ReducedModel model;
-  model.mass = model.damping = model.stiffness = MatrixXd::Zero(size, size);
-  model.static_force = VectorXd::Zero(size);
-  model.cosine_force = model.sine_force = MatrixXd::Zero(harmonics, size);
-  model.output_vectors = MatrixXd::Zero(1, size);
-  model.output_names = {"slide"};
-  reduction::ContactNodes& contact = model.contact;
-  contact.normal.resize(nodes);
-  contact.tangential.resize(nodes, 1);
-  for (int i = 0; i < nodes; ++i) {
-    contact.normal[i] = 2 * i;
-    contact.tangential(i, 0) = 2 * i + 1;
-  }
-  contact.area = VectorXd::Ones(nodes);
-  contact.gap = VectorXd::Zero(nodes);
-  contact.friction = VectorXd::Zero(nodes);
-  contact.wear_coefficient = VectorXd::Zero(nodes);
-  contact.position = Eigen::MatrixX3d::Zero(nodes, 3);
-  contact.group = Eigen::VectorXi::Zero(nodes);
-  contact.slip_origin = MatrixXd::Zero(nodes, 1);
-  return model;
-}
-
-}  // namespace
 
 reduction::ReducedModel den_hartog(double friction, double normal_load, double normal_stiffness,
                                    double wear_coefficient) {
@@ -196,13 +170,16 @@ reduction::ReducedModel block(const Block& data) {
     const double s = 2.0 * i / columns - 1.0;
     model.contact.position(i, 0) = i * width;
     model.contact.area[i] = (i == 0 || i == columns ? 0.5 : 1.0) * width;
-    model.contact.gap[i] = data.crown * s * s + data.tilt * (s + 1.0);
+    model.contact.gap[i] = data.crown * s * s + data.tilt * (s + 1.0) - data.interference;
     model.output_vectors(0, 2 * i + 1) = 1.0 / nodes;
   }
   for (Index i = 0; i < kept; ++i)
     for (Index j = 0; j < kept; ++j)
       if ((i + j) % 2 != 0) model.stiffness(i, j) *= data.coupling;
-  for (Index i = 1; i < kept; i += 2) model.stiffness(i, i) += data.tangential_spring / nodes;
+  for (Index i = 0; i < kept; i += 2) {
+    model.stiffness(i, i) += data.normal_spring / nodes;
+    model.stiffness(i + 1, i + 1) += data.tangential_spring / nodes;
+  }
   model.contact.friction.setConstant(data.friction);
   model.contact.wear_coefficient.setConstant(data.wear_coefficient);
   return model;

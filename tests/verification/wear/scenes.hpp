@@ -32,6 +32,28 @@ struct Punch {
 /// piecewise-linear pressures, whose influence follows from -(2/(pi E*)) int p ln|x - s| ds.
 [[nodiscard]] reduction::ReducedModel punch(const Punch& data);
 
+/// A paraboloid punch on an elastic half-space, a grid of side * side contact nodes with two tangential directions
+/// each.
+struct SpacePunch {
+  int side = 9;
+  double half_length = 1.5;        ///< nodes from -L to L both ways
+  double modulus = 1.0;            ///< composite E*
+  double radius = 1.0;             ///< R
+  double normal_load = 4.0 / 3.0;  ///< makes the Hertz radius a = cbrt(3 P R / (4 E*)) = 1
+  double friction = 0.5;
+  double first_load = 0.3;         ///< amplitude of the cosine force along the first direction
+  double second_load = 0.0;        ///< of the sine force along the second: an elliptic orbit
+  double breathing_load = 0.0;     ///< amplitude of the sine normal force
+  double tangential_spring = 0.0;  ///< on the punch, both ways
+  double wear_coefficient = 1e-3;
+  double offset = 0.0;  ///< of the punch's middle, along the first direction
+};
+
+/// Massless model: contact displacements (normal, first, second) of every node and the three rigid approaches of the
+/// punch. A node's force is a uniform pressure on its square where it acts itself, a point force elsewhere,
+/// u = F / (pi E* r); tangential flexibility is 1.2 times the normal one and not coupled to it.
+[[nodiscard]] reduction::ReducedModel space_punch(const SpacePunch& data);
+
 /// An elastic block (plane strain, bilinear quadrilaterals, E = 1) on a rigid floor.
 struct Block {
   double length = 1.0, height = 0.5;
@@ -42,6 +64,8 @@ struct Block {
   double couple = 1.0;    ///< share of the tangential load's moment that a cosine pressure takes back
   double coupling = 1.0;  ///< factor on the stiffness between normal and tangential; 0: floor of equal elasticity
   double tangential_spring = 0.0;  ///< to the ground, in all: holds a block that slides
+  double normal_spring = 0.0;      ///< to the ground, in all: holds a block that lifts off or is pressed by its gap
+  double interference = 0.0;       ///< taken off the gap
   double breathing_load = 0.0;     ///< amplitude of the sine normal force on the top face
   double crown = 0.0, tilt = 0.0;  ///< gap g = crown s^2 + tilt (s + 1), s in [-1, 1]
   double wear_coefficient = 1.0;

@@ -1,0 +1,29 @@
+#include "wear/depth_scale.hpp"
+
+#include "wear/archard.hpp"
+#include "wear/asymptote.hpp"
+
+namespace dovetail::wear {
+
+DepthScale depth_scale(const std::shared_ptr<const response::CondensedModel>& model, double omega,
+                       const response::ContactCondition& start, const response::SteadyOptions& steady,
+                       double rate_threshold, const response::SteadyState* unworn, const Control& control) {
+  AsymptoteOptions options;
+  options.rate_threshold = rate_threshold;
+  options.arbitration = "never";
+  options.interpolate_edge = options.certify = options.certify_finer = false;
+  const Asymptote found = asymptote(model, omega, start, steady, options, unworn, control);
+  DepthScale scale{.status = found.unworn.status, .solves = found.solves, .jacobians = found.jacobians};
+  if (scale.status != Status::converged) return scale;
+  scale.released = found.verdict == Verdict::asymptote;
+  if (scale.released) {
+    const Eigen::VectorXd worn =
+        start.wear_depth.size() > 0 ? Eigen::VectorXd(found.depth - start.wear_depth) : found.depth;
+    scale.depth = worn.size() > 0 ? worn.maxCoeff() : 0.0;
+  } else {
+    scale.depth = largest_penetration(*model, found.unworn);
+  }
+  return scale;
+}
+
+}  // namespace dovetail::wear

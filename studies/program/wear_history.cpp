@@ -1,0 +1,194 @@
+#include "studies/program/wear_history.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "response/frequency_response.hpp"
+#include "response/resonance.hpp"
+#include "studies/program/json_values.hpp"
+#include "studies/program/wear_methods.hpp"
+#include "wear/depth_scale.hpp"
+#include "wear/implicit_history.hpp"
+
+namespace dovetail::studies {
+
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+/// Steps that a history in hundredths of its depth may take before it counts as going nowhere.
+constexpr int kSteps = 1000;
+
+wear::ImplicitHistoryOptions implicit_options(const wear::HistoryOptions& given) {
+  wear::ImplicitHistoryOptions options;
+  if (given.tolerance > 0) options.tolerance = given.tolerance;
+  options.steps = given.steps;
+  options.cycles = given.cycles;
+  options.rate_threshold = given.rate_threshold;
+  options.start_cycles = given.start_cycles;
+  options.reference_rate = given.reference_rate;
+  return options;
+}
+
+[[noreturn]] void refuse(const std::string& file, const std::string& why) {
+  throw InputError(Violation{.file = {}, .key = "--resume", .value = file, .allowed = why});
+}
+
+Eigen::VectorXd vector_of(const Json& list) {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(list.size()));
+  for (std::size_t i = 0; i < list.size(); ++i)
+    values[static_cast<Eigen::Index>(i)] = list[i].is_null() ? kUnknown : list[i].get<double>();
+  return values;
+}
+
+Eigen::MatrixXd matrix_of(const Json& rows, Eigen::Index columns) {
+  Eigen::MatrixXd matrix(static_cast<Eigen::Index>(rows.size()), columns);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Eigen::VectorXd row = vector_of(rows[i]);
+    if (row.size() != columns) return {};
+    matrix.row(static_cast<Eigen::Index>(i)) = row.transpose();
+  }
+  return matrix;
+}
+
+/// Frequencies of the curves, Hz.
+std::vector<double> curve_frequencies(const WearOptions& options, const LoadedModel& loaded,
+                                      const wear::History& history) {
+  double low = options.curve_from_hz.value_or(0), high = options.curve_to_hz.value_or(0);
+  if (!options.curve_from_hz) {
+    const response::ContactCondition unworn{.wear_depth = history.depth.row(0).transpose()},
+        worn{.wear_depth = history.final_depth};
+    const double start = history.frequency[0];
+    const response::Resonance first = response::resonance(loaded.condensed, start, unworn, loaded.steady);
+    const response::Resonance last =
+        response::resonance(loaded.condensed, history.frequency[history.frequency.size() - 1], worn, loaded.steady);
+    const double from = first.status == Status::converged ? first.omega : start;
+    const double to = last.status == Status::converged ? last.omega : from;
+    const response::SteadyState peak = response::steady_state(loaded.condensed, from, unworn, loaded.steady);
+    constexpr double kFirst = 1e-5, kWidest = 0.1, kWidths = 3;
+    double width = kFirst;
+    for (; width < kWidest; width *= 2) {
+      const response::SteadyState side =
+          response::steady_state(loaded.condensed, from * (1 - width), unworn, loaded.steady, peak.displacement);
+      if (side.status == Status::converged && side.amplitudes[0] < 0.5 * peak.amplitudes[0]) break;
+    }
+    low = std::min(from, to) * (1 - kWidths * width) / kTurn;
+    high = std::max(from, to) * (1 + kWidths * width) / kTurn;
+  }
+  std::vector<double> hz;
+  for (int i = 0; i < options.curve_points; ++i)
+    hz.push_back(low + (high - low) * i / std::max(1, options.curve_points - 1));
+  return hz;
+}
+
+}  // namespace
+
+StoredHistory read_history(const std::string& file, Eigen::Index nodes) {
+  std::ifstream stream(file);
+  if (!stream) refuse(file, "cannot be read");
+  const Json json = Json::parse(stream, nullptr, false);
+  if (!json.is_object() || json.value("method", "") != "history")
+    refuse(file, "is no answer of dovetail wear --method history --json");
+  StoredHistory stored;
+  try {
+    wear::History& history = stored.history;
+    history.cycles = vector_of(json.at("cycles"));
+    history.worn_volume = vector_of(json.at("worn_volume_m3"));
+    history.frequency = kTurn * vector_of(json.at("frequencies_hz"));
+    history.depth = matrix_of(json.at("depths_m"), nodes);
+    history.rate = matrix_of(json.at("wear_rates_m_per_cycle"), nodes);
+    stored.increment = json.at("history").value("increment_m", 0.0);
+    const Eigen::Index states = history.cycles.size();
+    if (states == 0 || history.depth.rows() != states || history.rate.rows() != states ||
+        history.frequency.size() != states)
+      refuse(file, "is a history of other contact nodes, or of none");
+  } catch (const Json::exception& error) {
+    refuse(file, std::string("is incomplete: ") + error.what());
+  }
+  return stored;
+}
+
+ComputedHistory compute_history(const WearOptions& options, const LoadedModel& loaded, const WearStart& at,
+                                const response::ContactCondition& condition, const wear::Control& control) {
+  constexpr double kShare = 0.01;
+  ComputedHistory result;
+  HistoryChoice& choice = result.choice;
+  wear::HistoryOptions& settings = choice.options;
+  choice.integrator = options.integrator;
+  settings.follow = options.follow == "resonance" ? "resonance" : "fixed";
+  settings.cycles = options.cycles.value_or(settings.cycles);
+  settings.steps = options.steps.value_or(kSteps);
+  settings.tolerance = options.history_tolerance.value_or(settings.tolerance);
+  settings.rate_threshold = rate_threshold(loaded, settings.rate_threshold);
+
+  double omega = at.omega;
+  response::ContactCondition start = condition;
+  std::optional<double> increment = options.increment_m;
+  std::optional<StoredHistory> past;
+  if (!options.resume.empty()) {
+    choice.resumed_from = options.resume;
+    past = read_history(options.resume, loaded.condensed->nodes());
+    const wear::Resumption next = wear::resume(past->history, condition, settings);
+    omega = next.omega;
+    start = next.start;
+    settings = next.options;
+    if (!increment && past->increment > 0) increment = past->increment;
+  }
+  int solves = 0;
+  if (options.integrator == "explicit" && !increment) {
+    const response::SteadyState* initial =
+        at.resonance && start.wear_depth.size() == 0 && start.slip_origin.size() == 0 ? &at.resonance->state : nullptr;
+    const wear::DepthScale scale =
+        wear::depth_scale(loaded.condensed, omega, start, loaded.steady, settings.rate_threshold, initial, control);
+    solves = scale.solves;
+    choice.depth_scale = scale.depth;
+    if (scale.depth > 0) increment = kShare * scale.depth;
+  }
+  settings.increment = increment.value_or(settings.increment);
+  if (options.integrator == "implicit") {
+    const wear::ImplicitHistoryOptions implicit = implicit_options(settings);
+    settings.tolerance = implicit.tolerance;
+    result.history = wear::as_history(
+        wear::implicit_history(loaded.condensed, omega, start, loaded.steady, implicit, nullptr, control),
+        *loaded.condensed);
+  } else {
+    result.history = wear::history(loaded.condensed, omega, start, loaded.steady, settings, {}, control);
+  }
+  result.history.solves += solves;
+  return result;
+}
+
+std::vector<WornCurve> worn_curves(const WearOptions& options, const LoadedModel& loaded, const wear::History& history,
+                                   const wear::Control& control) {
+  std::vector<WornCurve> curves;
+  const Eigen::Index states = history.cycles.size();
+  if (options.curves == 0 || states == 0 || control.stopped()) return curves;
+  const std::vector<double> hz = curve_frequencies(options, loaded, history);
+  std::vector<double> omega(hz.size());
+  std::ranges::transform(hz, omega.begin(), [](double value) { return kTurn * value; });
+  Eigen::Index before = -1;
+  for (int k = 0; k < options.curves && !control.stopped(); ++k) {
+    const double share = options.curves == 1 ? 1.0 : static_cast<double>(k) / (options.curves - 1);
+    const double volume = history.worn_volume[0] + share * (history.worn_volume[states - 1] - history.worn_volume[0]);
+    Eigen::Index state = 0;
+    (history.worn_volume.array() - volume).abs().minCoeff(&state);
+    if (state <= before) continue;  // fewer states than curves
+    before = state;
+    WornCurve curve{.cycles = history.cycles[state], .worn_volume = history.worn_volume[state], .frequency_hz = hz};
+    response::SteadyOptions settings = loaded.steady;
+    const response::ContactCondition worn{.wear_depth = history.depth.row(state).transpose()};
+    const auto go_on = [&](std::size_t, const response::SteadyState&) { return !control.stopped(); };
+    for (const response::SteadyState& found :
+         response::frequency_response(loaded.condensed, omega, worn, settings, go_on))
+      curve.amplitude.push_back(found.status == Status::converged ? found.amplitudes[0] : kUnknown);
+    curves.push_back(std::move(curve));
+  }
+  return curves;
+}
+
+}  // namespace dovetail::studies
