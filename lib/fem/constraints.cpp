@@ -215,12 +215,41 @@ Constraints<std::complex<double>> complex_constraints(const SectorMesh& sector, 
 template <class Scalar>
 Eigen::SparseMatrix<Scalar> constrain(const Eigen::SparseMatrix<double>& full, const Constraints<Scalar>& constraints) {
   using Sparse = Eigen::SparseMatrix<Scalar>;
-  const Sparse& t = constraints.transformation;
-  const Sparse at = full * t;
-  const Sparse adjoint = t.adjoint();
-  const Sparse product = adjoint * at;
-  const Sparse transposed = product.adjoint();
-  return Scalar(0.5) * (product + transposed);
+  using Column = typename Sparse::InnerIterator;
+  using RowOf = typename Eigen::SparseMatrix<Scalar, Eigen::RowMajor>::InnerIterator;
+  // Most rows of T hold a single 1, so the triple product is hardly more than a renumbering: column by column into a
+  // dense accumulator, the lower triangle only, then mirrored: exactly Hermitian.
+  const Eigen::SparseMatrix<Scalar, Eigen::RowMajor> rows = constraints.transformation;
+  const Eigen::Index m = rows.cols();
+  Sparse lower(m, m);
+  lower.reserve(full.nonZeros() / 2 + m);
+  std::vector<Scalar> sum(static_cast<std::size_t>(m), Scalar(0));
+  std::vector<Eigen::Index> last(static_cast<std::size_t>(m), -1);
+  std::vector<int> touched;
+  for (Eigen::Index j = 0; j < m; ++j) {
+    touched.clear();
+    for (Column t(constraints.transformation, j); t; ++t)
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(full, t.row()); entry; ++entry)
+        for (RowOf s(rows, entry.row()); s; ++s) {
+          if (s.col() < j) continue;
+          const std::size_t i = static_cast<std::size_t>(s.col());
+          if (last[i] != j) {
+            last[i] = j;
+            sum[i] = Scalar(0);
+            touched.push_back(static_cast<int>(s.col()));
+          }
+          sum[i] += Eigen::numext::conj(s.value()) * entry.value() * t.value();
+        }
+    std::sort(touched.begin(), touched.end());
+    lower.startVec(j);
+    for (int i : touched) {
+      Scalar value = sum[static_cast<std::size_t>(i)];
+      if (i == j) value = Scalar(Eigen::numext::real(value));
+      lower.insertBack(i, j) = value;
+    }
+  }
+  lower.finalize();
+  return Sparse(lower.template selfadjointView<Eigen::Lower>());
 }
 
 template Eigen::SparseMatrix<double> constrain(const Eigen::SparseMatrix<double>&, const Constraints<double>&);

@@ -59,6 +59,7 @@ SectorSystem build_sector_system(const SectorMesh& sector, std::span<const Mater
   system.constraints = real_constraints(sector, bore);
   system.stiffness = constrain(system.full.stiffness, system.constraints);
   system.mass = constrain(system.full.mass, system.constraints);
+  system.mass.prune(0.0);
   const Eigen::SparseMatrix<double>& t = system.constraints.transformation;
   system.centrifugal = t.transpose() * centrifugal_load(system.full.mass, sector.mesh);
   system.tip = Eigen::VectorXd::Zero(system.constraints.size());

@@ -28,7 +28,7 @@ struct SectorSystem {
   FullMatrices full;                      ///< over all nodes
   Constraints<double> constraints;        ///< T
   Eigen::SparseMatrix<double> stiffness;  ///< [m, m] N/m
-  Eigen::SparseMatrix<double> mass;       ///< [m, m] kg
+  Eigen::SparseMatrix<double> mass;       ///< [m, m] kg, without stored zeros
   Eigen::VectorXd centrifugal;            ///< [m] load for Omega^2 = 1, N/(rad/s)^2
   Eigen::VectorXd tip;  ///< [m] T^T of a unit tangential (x) force at the tip node; also the output vector
   ContactSurface contact;

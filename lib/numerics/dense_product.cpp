@@ -37,6 +37,30 @@ void product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, Eigen::MatrixXd
               static_cast<int>(b.rows()), 0.0, c.data(), static_cast<int>(c.rows()));
 }
 
+void add_product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b,
+                 Eigen::Ref<Eigen::MatrixXd> c) {
+  assert(a.cols() == b.rows() && c.rows() == a.rows() && c.cols() == b.cols());
+  if (c.size() == 0 || a.cols() == 0) return;
+  if (b.cols() == 1) {
+    cblas_dgemv(CblasColMajor, CblasNoTrans, static_cast<int>(a.rows()), static_cast<int>(a.cols()), 1.0, a.data(),
+                static_cast<int>(a.outerStride()), b.data(), 1, 1.0, c.data(), 1);
+    return;
+  }
+  cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, static_cast<int>(a.rows()), static_cast<int>(b.cols()),
+              static_cast<int>(a.cols()), 1.0, a.data(), static_cast<int>(a.outerStride()), b.data(),
+              static_cast<int>(b.outerStride()), 1.0, c.data(), static_cast<int>(c.outerStride()));
+}
+
+Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  assert(a.rows() == b.rows());
+  Eigen::MatrixXd c = Eigen::MatrixXd::Zero(a.cols(), b.cols());
+  if (c.size() == 0 || a.rows() == 0) return c;
+  cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, static_cast<int>(a.cols()), static_cast<int>(b.cols()),
+              static_cast<int>(a.rows()), 1.0, a.data(), static_cast<int>(a.outerStride()), b.data(),
+              static_cast<int>(b.outerStride()), 0.0, c.data(), static_cast<int>(c.rows()));
+  return c;
+}
+
 Eigen::MatrixXcd product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) {
   return complex_product(CblasNoTrans, a, b);
 }

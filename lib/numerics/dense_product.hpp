@@ -7,6 +7,11 @@ namespace dovetail::numerics {
 /// C = A B on OpenBLAS, which picks the widest vector instructions of the machine at run time where Eigen, built
 /// portably, cannot. C is resized. Worth it from about 10^4 multiplications.
 void product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, Eigen::MatrixXd& c);
+/// C += A B, C of the right size; all may be blocks of larger matrices.
+void add_product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b,
+                 Eigen::Ref<Eigen::MatrixXd> c);
+/// A^T B
+[[nodiscard]] Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 [[nodiscard]] Eigen::MatrixXcd product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b);
 /// A^T B (without conjugation).
 [[nodiscard]] Eigen::MatrixXcd transposed_product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b);

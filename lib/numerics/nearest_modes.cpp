@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "numerics/block_modes.hpp"
 #include "numerics/deflated_inverse.hpp"
 
 namespace dovetail::numerics {
@@ -179,6 +180,9 @@ Modes<Scalar> nearest_modes(const ShiftInverse<Scalar>& inverse, const Eigen::Sp
                             const ModesOptions& options) {
   assert(options.count >= 1 && options.count <= inverse.rows && mass.rows() == inverse.rows);
   constexpr Eigen::Index kDenseSize = 200;
+  // Factors of smaller bodies fit the caches better, and single vectors cost less.
+  constexpr Eigen::Index kBlockSize = 30000;
+  if (inverse.rows >= kBlockSize && inverse.perform_block) return block_modes(inverse, mass, options);
   Modes<Scalar> modes;
   modes.shift = options.shift;
   Found<Scalar> found;

@@ -144,6 +144,15 @@ typename SparseCholesky<Scalar>::Dense SparseCholesky<Scalar>::solve(const Eigen
 }
 
 template <class Scalar>
+void SparseCholesky<Scalar>::solve_in_place(Eigen::Ref<Dense> x) const {
+  assert(factorised() && x.rows() == size() && x.outerStride() == size());
+  for (Eigen::Index first = 0; first < x.cols(); first += kBlockColumns) {
+    Scalar* block = x.data() + first * size();
+    state_->solve_block(block, block, std::min(kBlockColumns, x.cols() - first));
+  }
+}
+
+template <class Scalar>
 void SparseCholesky<Scalar>::solve(const Scalar* b, Scalar* x) const {
   assert(factorised());
   state_->solve_block(b, x, 1);

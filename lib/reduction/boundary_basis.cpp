@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "numerics/dense_product.hpp"
+
 namespace dovetail::reduction {
 
 namespace {
@@ -109,8 +111,8 @@ ResidualFlexibility residual_flexibility(const ContactSolver& solver, const Eige
   const Eigen::MatrixXd represented =
       basis.eigenvalues.tail(m - low).cwiseInverse().asDiagonal() * high_contact.transpose();
   result.field = solver.expand(on_contact);
-  if (low > 0) result.field.topRows(internal).noalias() -= response * (scaled_border * on_contact).eval();
-  result.field.noalias() -= high * represented;
+  if (low > 0) numerics::add_product(response, -(scaled_border * on_contact).eval(), result.field.topRows(internal));
+  numerics::add_product(high, -represented, result.field);
   const Eigen::MatrixXd g = result.field.bottomRows(contact);
   result.contact = 0.5 * (g + g.transpose());
   if (!result.contact.allFinite()) result.status = Status::not_finite;

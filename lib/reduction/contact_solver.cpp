@@ -2,6 +2,8 @@
 
 #include <chrono>
 
+#include "numerics/dense_product.hpp"
+
 namespace dovetail::reduction {
 
 Status ContactSolver::factorise(const Eigen::SparseMatrix<double>& stiffness, Eigen::Index contact_size) {
@@ -14,7 +16,8 @@ Status ContactSolver::factorise(const Eigen::SparseMatrix<double>& stiffness, Ei
   if (status != Status::converged) return status;
 
   coupling_ = stiffness.topRightCorner(internal, contact_size);
-  response_ = cholesky_.solve(Eigen::MatrixXd(-coupling_));
+  response_ = -coupling_;
+  cholesky_.solve_in_place(response_);
   const Eigen::SparseMatrix<double> corner = stiffness.bottomRightCorner(contact_size, contact_size);
   const Eigen::MatrixXd schur = Eigen::MatrixXd(corner) + coupling_.transpose() * response_;
   schur_ = 0.5 * (schur + schur.transpose());
@@ -30,8 +33,8 @@ Eigen::MatrixXd ContactSolver::condense(const Eigen::Ref<const Eigen::MatrixXd>&
 }
 
 Eigen::MatrixXd ContactSolver::expand(const Eigen::Ref<const Eigen::MatrixXd>& r) const {
-  Eigen::MatrixXd field(internal_size() + contact_size(), r.cols());
-  field.topRows(internal_size()).noalias() = response_ * r;
+  Eigen::MatrixXd field = Eigen::MatrixXd::Zero(internal_size() + contact_size(), r.cols());
+  numerics::add_product(response_, r, field.topRows(internal_size()));
   field.bottomRows(contact_size()) = r;
   return field;
 }

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <vector>
 
+#include "numerics/dense_product.hpp"
 #include "numerics/nearest_modes.hpp"
 
 namespace dovetail::reduction {
@@ -57,7 +58,7 @@ Eigen::MatrixXd FloatingInverse::apply(const Eigen::Ref<const Eigen::MatrixXd>& 
   const Eigen::MatrixXd contact =
       schur_inverse_ * (load.bottomRows(solver_.contact_size()) - solver_.coupling().transpose() * held);
   x.topRows(internal) = held;
-  x.topRows(internal).noalias() += solver_.response() * contact;
+  numerics::add_product(solver_.response(), contact, x.topRows(internal));
   x.bottomRows(contact.rows()) = contact;
   if (rigid_.cols() > 0) x -= rigid_ * (mass_rigid_.transpose() * x).eval();
   return x;
@@ -67,10 +68,13 @@ FreeModes free_modes(const FloatingInverse& inverse, int count, Eigen::Index lim
   const Eigen::SparseMatrix<double>& mass = inverse.mass();
   const Eigen::Index n = mass.rows();
   const Eigen::Index rigid = inverse.rigid_modes().cols();
-  const numerics::ShiftInverse<double> operation{.rows = n, .perform_op = [&](const double* b, double* x) {
-                                                   Eigen::Map<Eigen::VectorXd>(x, n) =
-                                                       inverse.apply(Eigen::Map<const Eigen::VectorXd>(b, n));
-                                                 }};
+  const numerics::ShiftInverse<double> operation{
+      .rows = n,
+      .perform_op =
+          [&](const double* b, double* x) {
+            Eigen::Map<Eigen::VectorXd>(x, n) = inverse.apply(Eigen::Map<const Eigen::VectorXd>(b, n));
+          },
+      .perform_block = [&](const Eigen::MatrixXd& b) { return inverse.apply(b); }};
   Eigen::Index wanted = std::min(std::max<Eigen::Index>(count - rigid, inverse.negative()), limit - rigid);
   const Eigen::Index most = std::max(kSearchRange * (wanted + 1), kSearchAlways);
   FreeModes result;

@@ -6,7 +6,9 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
+#include <utility>
 
+#include "numerics/dense_product.hpp"
 #include "reduction/accuracy.hpp"
 #include "reduction/boundary_basis.hpp"
 #include "reduction/contact_order.hpp"
@@ -71,7 +73,7 @@ void check(const FullModel& full, const ReductionOptions& options) {
 }
 
 // Coordinates [r; q], q rotated to the glued modes.
-bool assemble(const FullModel& full, const RitzBasis& basis, const ResidualFlexibility& residual, double damping_ratio,
+bool assemble(const FullModel& full, const RitzBasis& basis, ResidualFlexibility residual, double damping_ratio,
               Reduction& result) {
   const Eigen::Index contact = full.contact_size();
   const Eigen::Index m = basis.vectors.cols();
@@ -95,7 +97,8 @@ bool assemble(const FullModel& full, const RitzBasis& basis, const ResidualFlexi
   result.glued_frequencies = eigen.eigenvalues().cwiseSqrt();
   result.recovery.basis = basis.vectors * eigen.eigenvectors();
   result.recovery.first = contact;
-  result.recovery.contact_response = -residual.field;
+  result.recovery.contact_response = std::move(residual.field);
+  result.recovery.contact_response *= -1;
   const Eigen::MatrixXd& phi = result.recovery.basis;
 
   ReducedModel& model = result.model;
@@ -125,10 +128,19 @@ bool assemble(const FullModel& full, const RitzBasis& basis, const ResidualFlexi
 
   // u = Phi q + Psi lambda, lambda = -K_red[r rows] (r, q): inertia of that field beyond diag(0, I).
   const Eigen::MatrixXd& psi = result.recovery.contact_response;
-  const Eigen::MatrixXd mass_psi = full.mass * psi;
   const Eigen::MatrixXd force = model.stiffness.topRows(contact);  // -lambda of unit coordinates [nc, n]
-  const Eigen::MatrixXd phi_inertia = mass_psi.transpose() * phi;  // Psi^T M Phi
-  const Eigen::MatrixXd psi_inertia = mass_psi.transpose() * psi;  // Psi^T M Psi
+  Eigen::MatrixXd phi_inertia(contact, m);                         // Psi^T M Phi
+  Eigen::MatrixXd psi_inertia(contact, contact);                   // Psi^T M Psi
+  constexpr Eigen::Index kColumns = 64;                            // at once: M Psi is never there as a whole
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  for (Eigen::Index first = 0; first < contact; first += kColumns) {
+    const Eigen::Index columns = std::min(kColumns, contact - first);
+    // Row by row of the symmetric M: it is read once for all columns.
+    const Rows some = psi.middleCols(first, columns);
+    const Eigen::MatrixXd inertia = full.mass.transpose() * some;
+    psi_inertia.middleCols(first, columns) = numerics::transposed_product(psi, inertia);
+    phi_inertia.middleRows(first, columns) = numerics::transposed_product(inertia, phi);
+  }
   Eigen::MatrixXd neglected = 0.5 * force.transpose() * psi_inertia * force;
   neglected.rightCols(m) -= force.transpose() * phi_inertia;
   result.neglected_mass = neglected + neglected.transpose();
@@ -168,13 +180,13 @@ Reduction reduce_with(const Prepared& prepared, const ReductionOptions& options)
   result.first_neglected_eigenvalue = modes.first_neglected;
 
   start = Clock::now();
-  const ResidualFlexibility residual = residual_flexibility(prepared.solver, full.mass, basis, modes.soft());
+  ResidualFlexibility residual = residual_flexibility(prepared.solver, full.mass, basis, modes.soft());
   if (residual.status != Status::converged) {
     result.status = residual.status;
     result.message = "the stiffness is not positive definite on the complement of the kept modes";
     return result;
   }
-  assemble(full, basis, residual, options.damping_ratio, result);
+  assemble(full, basis, std::move(residual), options.damping_ratio, result);
   result.seconds_contact_solves += seconds_since(start);
   result.seconds_total = prepared.seconds + result.seconds_modes + seconds_since(start);
   return result;

@@ -30,7 +30,9 @@ StaticCondensation condense_statically(const FullModel& full) {
   model.output_names = full.output_names;
 
   const Eigen::Index internal = full.internal_size();
-  result.recovery.basis = solver.expand(Eigen::MatrixXd::Identity(contact, contact));
+  result.recovery.basis.resize(full.size(), contact);
+  result.recovery.basis.topRows(internal) = solver.response();
+  result.recovery.basis.bottomRows(contact).setIdentity();
   result.recovery.offset = Eigen::VectorXd::Zero(full.size());
   result.recovery.offset.head(internal) = solver.solve_internal(full.static_force.head(internal));
   result.seconds_total = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
