@@ -180,7 +180,7 @@ Modes<Scalar> nearest_modes(const ShiftInverse<Scalar>& inverse, const Eigen::Sp
                             const ModesOptions& options) {
   assert(options.count >= 1 && options.count <= inverse.rows && mass.rows() == inverse.rows);
   constexpr Eigen::Index kDenseSize = 200;
-  // Factors of smaller bodies fit the caches better, and single vectors cost less.
+  // Single vectors are cheap below: plane models stay with them.
   constexpr Eigen::Index kBlockSize = 30000;
   if (inverse.rows >= kBlockSize && inverse.perform_block) return block_modes(inverse, mass, options);
   Modes<Scalar> modes;
