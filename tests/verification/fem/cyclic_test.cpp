@@ -208,7 +208,7 @@ TEST(GluedModes, LowersTheShiftForAFloatingBody) {
   const FullMatrices full = Assembler(sector.mesh).stiffness_and_mass(sector.mesh, materials);
   const Constraints<double> constraints = real_constraints(sector, BoreSupport::free);
   numerics::SparseCholesky<double> cholesky;
-  // Asked for more accurately than the 1e-9 they are held to.
+  // Asked for more accurately than they are held to.
   const numerics::Modes<double> modes =
       glued_modes(full.stiffness, full.mass, constraints, {.count = 4, .tolerance = 1e-11}, cholesky);
   ASSERT_EQ(modes.status, Status::converged);
@@ -219,7 +219,10 @@ TEST(GluedModes, LowersTheShiftForAFloatingBody) {
           .eigenvalues()
           .head(4);
   EXPECT_LT(std::abs(modes.eigenvalues[0]), 1e-6 * modes.eigenvalues[1]);
-  EXPECT_LT(((modes.eigenvalues - expected).array() / expected[3]).abs().maxCoeff(), 1e-9);
+  // The rigid mode outweighs the others in K - sigma M by lambda / |sigma|, and so does its rounding.
+  const double rounding = 2.2e-16 * expected[3] / std::abs(modes.shift);
+  EXPECT_LT(rounding, 1e-7);
+  EXPECT_LT(((modes.eigenvalues - expected).array() / expected[3]).abs().maxCoeff(), rounding);
 }
 
 }  // namespace
