@@ -1,0 +1,182 @@
+// The direct worn state against histories, and what each costs on one core:
+//   build/tests/benchmarks/wear_benchmark [SCENE]...
+// Scenes: section, crowned, unequal (plane dovetails of the quickstart), block, punch, lift_off, space, and times (of
+// models of 60 and 100 nodes). Errors are those of the largest depth and of the volume against an explicit history of
+// increments of 0.25 % and 0.125 % of the depth, not finished by release, extrapolated to zero step. Processor times,
+// medians of three runs; of histories, one.
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "numerics/dense_lu.hpp"
+#include "response/frequency_response.hpp"
+#include "response/resonance.hpp"
+#include "studies/program/engine.hpp"
+#include "studies/work_precision/contact_patch.hpp"
+#include "studies/work_precision/processor_time.hpp"
+#include "tests/verification/wear/verdict_scenes.hpp"
+#include "wear/archard.hpp"
+#include "wear/asymptote.hpp"
+#include "wear/history.hpp"
+#include "wear/implicit_history.hpp"
+
+namespace dovetail {
+namespace {
+
+using Model = std::shared_ptr<const response::CondensedModel>;
+using work_precision::median_seconds;
+using work_precision::processor_seconds;
+
+struct Scene {
+  Model model;
+  double omega = 1.0;
+  response::SteadyOptions steady;
+};
+
+Scene plain(const reduction::ReducedModel& model) {
+  return {.model = std::make_shared<const response::CondensedModel>(model), .steady = {.harmonics = 3, .samples = 128}};
+}
+
+Scene dovetail(const std::vector<studies::Override>& changes) {
+  const studies::LoadedModel loaded = studies::load_model(QUICKSTART, changes, {});
+  const response::Resonance unworn = response::resonance(loaded.condensed, loaded.glued_omega, {}, loaded.steady);
+  return {.model = loaded.condensed, .omega = unworn.omega, .steady = {.harmonics = 3, .samples = 128}};
+}
+
+Scene scene(const std::string& name) {
+  using namespace wear::scenes;
+  const auto change = [](const char* key, const char* value) {
+    return studies::Override{.key = key, .value = value, .origin = key};
+  };
+  if (name == "section") return dovetail({});
+  if (name == "crowned") return dovetail({change("geometry.flank_crown_um", "5")});
+  if (name == "unequal")
+    return dovetail({change("geometry.left.flank_mismatch_um", "10"), change("geometry.right.flank_mismatch_um", "4")});
+  if (name == "block") return plain(block(random_block(2)));
+  if (name == "punch") return plain(punch({.nodes = 61, .offset = 0.013, .tilt = 0.02}));
+  if (name == "lift_off") return plain(verdict_model(Family::breathing, 9));
+  return plain(space_punch({.side = 9, .second_load = 0.15}));
+}
+
+wear::AsymptoteOptions direct_options() {
+  wear::AsymptoteOptions options;
+  options.rate_threshold = 0.0;
+  return options;
+}
+
+double error(const Eigen::VectorXd& depth, const Eigen::VectorXd& reference) {
+  return (depth - reference).cwiseAbs().maxCoeff() / reference.maxCoeff();
+}
+
+void compare(const std::string& name) {
+  const Scene at = scene(name);
+  wear::Asymptote direct;
+  const double direct_time =
+      median_seconds([&] { direct = wear::asymptote(at.model, at.omega, {}, at.steady, direct_options()); }, 0.0);
+  wear::AsymptoteOptions alone = direct_options();
+  alone.arbitration = "never";
+  alone.interpolate_edge = alone.certify_finer = false;
+  wear::Asymptote released;
+  const double released_time =
+      median_seconds([&] { released = wear::asymptote(at.model, at.omega, {}, at.steady, alone); }, 0.0);
+  if (direct.verdict != wear::Verdict::asymptote) {
+    std::printf("%-9s %s\n", name.c_str(), std::string(wear::to_string(direct.verdict)).c_str());
+    return;
+  }
+  const auto run = [&](double share) {
+    return wear::history(at.model, at.omega, {}, at.steady,
+                         {.increment = share * direct.largest_depth,
+                          .steps = 20000,
+                          .rate_fraction = 1e-6,
+                          .rate_threshold = 0.0,
+                          .finish = false});
+  };
+  const double before = processor_seconds();
+  const wear::History usual = run(0.005);
+  const double history_time = processor_seconds() - before;
+  const wear::History fine = run(0.0025), finest = run(0.00125);
+  const Eigen::VectorXd reference = 2.0 * finest.final_depth - fine.final_depth;
+  const double volume = wear::worn_volume(at.model->contact(), reference);
+
+  const double start = processor_seconds();
+  const wear::ImplicitHistory implicit =
+      wear::implicit_history(at.model, at.omega, {}, at.steady, {.rate_threshold = 0.0});
+  const double implicit_time = processor_seconds() - start;
+  const Eigen::VectorXd followed = implicit.depth.bottomRows(1).transpose();
+  std::printf(
+      "%-9s %5ld %-8s %-11s %9.1e %9.1e %9.1e | %5d %5d %6d %7.1f | %7.3f %7.3f %7.2f %7.1f | %9.1e %9.1e %5d %6.1f "
+      "%7.3f\n",
+      name.c_str(), static_cast<long>(at.model->nodes()), direct.decided_by.c_str(), direct.doubt.c_str(),
+      error(direct.depth, reference), std::abs(direct.worn_volume / volume - 1.0), error(finest.final_depth, reference),
+      released.jacobians, direct.jacobians, usual.jacobians, static_cast<double>(usual.jacobians) / direct.jacobians,
+      released_time, direct_time, history_time, history_time / direct_time, error(followed, reference),
+      std::abs(implicit.worn_volume.tail(1)[0] / volume - 1.0), implicit.jacobians,
+      static_cast<double>(usual.jacobians) / implicit.jacobians, implicit_time);
+  std::fflush(stdout);
+}
+
+void times() {
+  const response::SteadyOptions steady{.harmonics = 3, .samples = 128};
+  for (const Eigen::Index tangential : {1, 2}) {
+    const Eigen::Index nodes = tangential == 1 ? 60 : 100;
+    const auto model = std::make_shared<const response::CondensedModel>(
+        work_precision::contact_patch({.nodes = nodes, .tangential = tangential}));
+    const double omega = work_precision::kPatchFrequency;
+    for (const char* arbitration : {"never", "unsettled", "auto"}) {
+      wear::AsymptoteOptions options = direct_options();
+      options.arbitration = arbitration;
+      wear::Asymptote worn;
+      const double seconds = median_seconds([&] { worn = wear::asymptote(model, omega, {}, steady, options); }, 0.0);
+      std::printf(
+          "%3ld nodes, %ld directions, arbitration %-9s: asymptote %.3f s, %s, %d Jacobians, %d solves, doubt '%s' "
+          "(aim %s)\n",
+          static_cast<long>(nodes), static_cast<long>(tangential + 1), arbitration, seconds,
+          std::string(wear::to_string(worn.verdict)).c_str(), worn.jacobians, worn.solves, worn.doubt.c_str(),
+          tangential == 1 ? "0.2 s" : "1 s");
+      std::fflush(stdout);
+    }
+    if (tangential == 2) continue;
+    wear::AsymptoteOptions alone = direct_options();
+    alone.arbitration = "never";
+    const wear::Asymptote worn = wear::asymptote(model, omega, {}, steady, alone);
+    int jacobians = 0;
+    const auto history_with_curves = [&] {
+      const wear::History run =
+          wear::history(model, omega, {}, steady,
+                        {.increment = 0.02 * worn.largest_depth, .steps = 50, .rate_threshold = 0.0, .finish = false});
+      jacobians = run.jacobians;
+      std::vector<double> omegas;
+      for (int i = 0; i < 60; ++i) omegas.push_back(0.8 + 0.4 * i / 59.0);
+      const Eigen::Index states = run.cycles.size();
+      for (int k = 0; k < 10; ++k)
+        for (const response::SteadyState& point : response::frequency_response(
+                 model, omegas, {.wear_depth = run.depth.row(k * (states - 1) / 9).transpose()}, steady))
+          jacobians += point.iterations;
+    };
+    const double seconds = median_seconds(history_with_curves, 0.0, 1);
+    std::printf("%3ld nodes, 50 steps and 10 curves of 60 points: %.2f s, %d Jacobians (aim 10 s)\n",
+                static_cast<long>(nodes), seconds, jacobians);
+  }
+}
+
+}  // namespace
+}  // namespace dovetail
+
+int main(int count, char** arguments) {
+  std::vector<std::string> names(arguments + 1, arguments + count);
+  if (names.empty()) names = {"section", "crowned", "unequal", "block", "punch", "lift_off", "space", "times"};
+  dovetail::numerics::set_blas_threads(1);
+  std::printf(
+      "scene     nodes decided  doubt       profile    volume      step | Jacobians: released, answer, 0.5 %% history, "
+      "ratio | "
+      "s: released, answer, history, ratio | implicit: profile, volume, Jacobians, ratio, s\n");
+  for (const std::string& name : names) {
+    if (name == "times")
+      dovetail::times();
+    else
+      dovetail::compare(name);
+  }
+}
