@@ -39,13 +39,15 @@ ContactRecord contact_places(const CandidateModel& model) {
     const fem::Flank& flank = model.mesh.sector.flanks[f];
     const Eigen::Index count = flank.contact_count();
     const auto position = surface.position.middleCols(first, count);
-    const Eigen::MatrixXd place = flank.tangents.transpose() * (position.colwise() - position.col(0));
-    // In space the slot is as long to both sides of its middle.
-    const double middle = place.rows() > 1 ? (place.row(1).minCoeff() + place.row(1).maxCoeff()) / 2 : 0;
-    for (Eigen::Index i = 0; i < count; ++i) {
+    const int row = flank.grid[0];
+    for (int i = 0; i < count; ++i) {
+      const auto neck_side = position.col(i - i % row);
       record.flank.push_back(static_cast<std::int64_t>(f));
-      record.along_m.push_back(place(0, i));
-      record.across_m.push_back(place.rows() > 1 ? place(1, i) - middle : 0);
+      record.along_m.push_back((position.col(i) - neck_side).norm());
+      // Along the slot in oblique coordinates: rows of a skewed flank are not at right angles to it.
+      const bool deep = position.rows() > 2;
+      record.across_m.push_back(
+          deep ? flank.tangents.col(1).dot(neck_side - (position.col(0) + position.col(count - row)) / 2) : 0);
       record.x_m.push_back(position(0, i));
       record.y_m.push_back(position(1, i));
     }

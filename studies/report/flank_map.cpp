@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kMillimetre = 1e-3;
 constexpr int kWidth = 520;
-constexpr double kLeft = 46, kTop = 24, kGap = 18, kBarGap = 22, kBarWidth = 12, kRight = 52, kBottom = 40;
+constexpr double kLeft = 46, kTop = 24, kGap = 34, kBarGap = 22, kBarWidth = 12, kRight = 52, kBottom = 40;
 
 /// Colours from nothing to the largest value, light to dark, of even steps in lightness; readable on light and dark
 /// paper.

@@ -22,7 +22,7 @@ struct ContactRecord {
   std::vector<std::string> flank_names;  ///< "left", "right"
   std::vector<std::int64_t> flank;       ///< index into flank_names
   Numbers along_m;                       ///< along the flank from its neck-side node
-  Numbers across_m;                      ///< along the slot from its middle; in the plane zero or empty
+  Numbers across_m;  ///< along the slot from its middle, of the line's neck-side node; in the plane zero or empty
   Numbers x_m, y_m;
   Numbers area_m2;
   Numbers gap_m;  ///< initial, unloaded

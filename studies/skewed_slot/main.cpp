@@ -1,11 +1,11 @@
 // A straight slot against a skewed one in space, as a page, tables and JSON: studies/skewed_slot/run runs it.
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <cstdio>
 #include <string>
 
 #include "core/errors.hpp"
 #include "numerics/dense_lu.hpp"
-#include "optimizer/stopwatch.hpp"
 #include "studies/program/study.hpp"
 #include "studies/skewed_slot/compute.hpp"
 
@@ -19,12 +19,11 @@ int main(int argc, char** argv) {
   app.add_option("--commit", commit, "Commit of the sources, to be recorded");
   app.add_flag("--quick", quick, "A coarse mesh, two angles, no wear: a look at the page");
   CLI11_PARSE(app, argc, argv);
-  optimizer::Stopwatch watch;
-  double passed = 0;
+  const auto begin = std::chrono::steady_clock::now();
+  const auto passed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(); };
   skewed_slot::ComputeOptions options;
   options.progress = [&](const std::string& what) {
-    passed += watch.lap();
-    std::printf("%6.1f s  %s\n", passed, what.c_str());
+    std::printf("%6.1f s  %s\n", passed(), what.c_str());
     std::fflush(stdout);
   };
   try {
@@ -42,7 +41,7 @@ int main(int argc, char** argv) {
     results.quick = quick;
     results.study_text = study.text;
     results.commit = commit;
-    results.seconds = passed + watch.lap();
+    results.seconds = passed();
     skewed_slot::write(folder, results);
     options.progress("done: " + folder + "/report.html");
     int status = 0;
