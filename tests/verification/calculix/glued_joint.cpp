@@ -80,7 +80,7 @@ Eigen::MatrixXd GluedJoint::frequencies(std::span<const int> nodal_diameters, in
     stiffness = fem::stiffness_at_speed(system.full, geometric, speed);
   }
   return fem::nodal_diameter_frequencies(sector, stiffness, system.full.mass, fem::BoreSupport::tangential,
-                                         {.count = modes}, nodal_diameters)
+                                         {.modes = {.count = modes}}, nodal_diameters)
       .frequency;
 }
 

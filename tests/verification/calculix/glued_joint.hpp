@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "fem/glued_modes.hpp"
+#include "fem/diameter_frequencies.hpp"
 #include "fem/sector_system.hpp"
 #include "tests/verification/calculix/calculix.hpp"
 
