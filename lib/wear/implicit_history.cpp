@@ -107,7 +107,7 @@ ImplicitHistory implicit_history(const std::shared_ptr<const response::Condensed
   constexpr double kCloseAtEnd = 5e-3;
   // Rate times cycles, relative to the depth, that ends a history without a finish, and the rate that ends any.
   constexpr double kNothingLeft = 1e-4;
-  constexpr double kSilent = 1e-3;
+  constexpr double kSilent = 0.1;  // of the rate that counts as none: slip far below it is noise of the samples
   double finish_below = 1e-2;
   double jump = cycle_jump(point.rate, options.first_increment * result.largest_penetration);
   const double limit = options.cycles > 0.0 ? options.cycles : kInfinity;

@@ -102,7 +102,7 @@ void compare(const std::string& name) {
 
   const double start = processor_seconds();
   const wear::ImplicitHistory implicit =
-      wear::implicit_history(at.model, at.omega, {}, at.steady, {.rate_threshold = 0.0});
+      wear::implicit_history(at.model, at.omega, {}, at.steady, {.rate_fraction = 1e-4, .rate_threshold = 0.0});
   const double implicit_time = processor_seconds() - start;
   const Eigen::VectorXd followed = implicit.depth.bottomRows(1).transpose();
   std::printf(

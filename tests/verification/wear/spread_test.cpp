@@ -19,7 +19,8 @@ response::SteadyOptions settings() {
 }
 
 WornEnd worn(const Model& model, const response::ContactCondition& condition) {
-  const Asymptote found = asymptote(model, 1.0, condition, settings());
+  // The direct answer of every member: one decided by a history would differ from its neighbours by a node.
+  const Asymptote found = asymptote(model, 1.0, condition, settings(), AsymptoteOptions{.arbitration = "unsettled"});
   return {.verdict = found.verdict,
           .status = found.status,
           .volume = found.worn_volume,
