@@ -57,7 +57,7 @@ double value_of(const reduction::ReducedModel& model, const SteadyState& state, 
   return state.amplitudes(0);
 }
 
-const SteadyOptions kOptions{.harmonics = 3, .samples = 128, .tolerance = 1e-11, .slip_return = "first_order"};
+const SteadyOptions kOptions{.harmonics = 3, .samples = 128, .tolerance = 1e-11};
 constexpr double kOmega = 1.2;
 
 TEST(SlipOrigin, DerivativesMatchDifferences) {
@@ -178,11 +178,14 @@ INSTANTIATE_TEST_SUITE_P(Quantities, OneQuantity,
                          });
 
 TEST(TractionBounds, OfAResonanceMatchAGrid) {
+  // With the first-order return the node of this joint that hardly sticks at its resonance does stick.
+  SteadyOptions options = kOptions;
+  options.slip_return = "first_order";
   const reduction::ReducedModel model = elastic(3, 1, 6, 0.2);
   const auto reduced = condensed(model);
   const double start = response::CondensedModel(model).glued_frequencies()(0);
-  const TractionBounds frequency = traction_bounds(reduced, start, {}, kOptions, BoundedQuantity::resonance_frequency);
-  const TractionBounds amplitude = traction_bounds(reduced, start, {}, kOptions, BoundedQuantity::resonance_amplitude);
+  const TractionBounds frequency = traction_bounds(reduced, start, {}, options, BoundedQuantity::resonance_frequency);
+  const TractionBounds amplitude = traction_bounds(reduced, start, {}, options, BoundedQuantity::resonance_amplitude);
   ASSERT_EQ(frequency.status, Status::converged) << frequency.reason;
   ASSERT_GE(frequency.stuck_nodes, 1);
   ASSERT_EQ(amplitude.status, Status::converged) << amplitude.reason;
@@ -191,7 +194,7 @@ TEST(TractionBounds, OfAResonanceMatchAGrid) {
     Eigen::MatrixXd origin = Eigen::MatrixXd::Zero(3, 1);
     origin(0, 0) = 0.12 * p;
     const response::Resonance found =
-        resonance(reduced, frequency.nominal.omega, {.slip_origin = origin}, kOptions, {.sweep_range = 0});
+        resonance(reduced, frequency.nominal.omega, {.slip_origin = origin}, options, {.sweep_range = 0});
     if (found.status != Status::converged) continue;
     low = std::min(low, found.omega);
     high = std::max(high, found.omega);
