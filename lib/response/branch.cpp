@@ -154,7 +154,7 @@ BranchEquations::Correction BranchEquations::correct_at(const BranchVector& star
 BranchEquations::Described BranchEquations::describe(const Correction& found, const BranchVector& along,
                                                      const ArcMetric& metric) const {
   Described result;
-  result.state = described(*found.residual, found.point.displacement, found.status, true);
+  result.state = described(*found.residual, found.point.displacement, found.status, AtSolution::linearise);
   result.state.iterations = found.iterations;
   result.state.evaluations = found.evaluations;
   result.state.penalty_ratio = penalty_ratio_;

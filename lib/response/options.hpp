@@ -22,6 +22,9 @@ struct SteadyOptions {
   int max_periods = 2000;                    ///< marched before a node counts as not periodic, >= 2
   double periodic_tolerance = 1e-10;         ///< of the slip state, relative to the largest limit force, > 0
   bool linearise = true;  ///< keep the factorised Jacobian of the solution, for predictors and derivatives
+  /// Show that the Jacobian of the solution is regular, which takes a factorisation; may be left out without
+  /// `linearise` for a state next to one that was shown to be.
+  bool show_regular = true;
 };
 
 /// Throws InputError listing every option out of range.

@@ -33,8 +33,10 @@ double half_width(const Resonance& at, Eigen::Index output) {
 
 PeakShift peak_shift(const std::shared_ptr<const CondensedModel>& model, const Resonance& at, Eigen::Index output,
                      const ContactCondition& condition, const SteadyOptions& other) {
-  SteadyOptions options = other;
-  options.linearise = false;
+  // The state in the middle lends its factors to those beside it.
+  SteadyOptions options = other, beside_options = other;
+  options.linearise = true;
+  beside_options.linearise = false;
   PeakShift shift;
   const auto converged = [&shift](const SteadyState& state) {
     shift.jacobians += state.iterations;
@@ -50,7 +52,7 @@ PeakShift peak_shift(const std::shared_ptr<const CondensedModel>& model, const R
     for (const std::size_t side : {0u, 1u}) {
       SteadyState start = centre;
       start.omega += side == 0 ? -step : step;
-      const SteadyState state = refined_state(model, start, condition, options);
+      const SteadyState state = refined_state(model, start, condition, beside_options, centre.linearisation);
       if (!converged(state)) return shift;
       beside[side] = state.amplitudes(output);
     }
@@ -66,7 +68,7 @@ PeakShift peak_shift(const std::shared_ptr<const CondensedModel>& model, const R
     }
     SteadyState start = centre;
     start.omega += std::clamp(to_vertex, -width, width);
-    centre = refined_state(model, start, condition, options);
+    centre = refined_state(model, start, condition, options, centre.linearisation);
     if (!converged(centre)) return shift;
   }
   shift.status = Status::no_bracket;

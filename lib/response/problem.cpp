@@ -31,7 +31,7 @@ SteadyResidual steady_problem(const std::shared_ptr<const CondensedModel>& model
 }
 
 SteadyState described(const SteadyResidual& residual, const Eigen::MatrixXd& displacement, Status status,
-                      bool keep_linearisation, const Linearisation* previous) {
+                      AtSolution jacobian, const Linearisation* previous) {
   ResidualState state;
   residual.evaluate(displacement, status == Status::converged, state);
   SteadyState steady;
@@ -42,12 +42,13 @@ SteadyState described(const SteadyResidual& residual, const Eigen::MatrixXd& dis
   if (steady.status == Status::converged && rounding_floor(residual, state) > kLargestFloor)
     steady.status = Status::singular;
   if (steady.status != Status::converged) return steady;
+  if (jacobian == AtSolution::trust) return steady;
   // A body that nothing holds drifts until the residual is small against rounding: that is no state of it.
   constexpr double kFloats = 1e-13;
   auto linear = std::make_shared<const Linearisation>(residual, std::move(state), previous);
   if (linear->status() != Status::converged || linear->regularised() || linear->nearly_singular(kFloats))
     steady.status = Status::singular;
-  else if (keep_linearisation)
+  else if (jacobian == AtSolution::linearise)
     steady.linearisation = std::move(linear);
   return steady;
 }

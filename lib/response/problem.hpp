@@ -14,11 +14,18 @@ namespace dovetail::response {
                                             const numerics::FourierBasis& basis, const ContactCondition& condition,
                                             const SteadyOptions& options, double penalty_ratio);
 
+/// What becomes of the Jacobian of a state found.
+enum class AtSolution {
+  linearise,     ///< kept, factorised
+  show_regular,  ///< factorised and forgotten
+  trust,         ///< not looked at
+};
+
 /// What there is to say of U [nc, 2H+1], found with `status`: everything of a SteadyState but counts and the penalty
-/// ratio. A converged U whose Jacobian is singular becomes Status::singular; otherwise the linearisation is kept when
-/// `keep_linearisation`. `previous`, met on the way, lends its factors where the Jacobian is the same.
+/// ratio. A converged U whose Jacobian is singular becomes Status::singular unless it is trusted. `previous`, met on
+/// the way, lends its factors where the Jacobian is the same.
 [[nodiscard]] SteadyState described(const SteadyResidual& residual, const Eigen::MatrixXd& displacement, Status status,
-                                    bool keep_linearisation, const Linearisation* previous = nullptr);
+                                    AtSolution jacobian, const Linearisation* previous = nullptr);
 
 /// What is left of forces after cancellation, relative to the excitation: no smaller residual can be asked for at this
 /// point.

@@ -12,11 +12,14 @@ Eigen::MatrixXd padded(const Eigen::MatrixXd& coefficients, int harmonics) {
 }
 
 SteadyState refined_state(const std::shared_ptr<const CondensedModel>& model, const SteadyState& state,
-                          const ContactCondition& condition, SteadyOptions finer) {
+                          const ContactCondition& condition, SteadyOptions finer,
+                          const std::shared_ptr<const Linearisation>& reuse) {
   finer.penalty_scale *= state.penalty_ratio;
   finer.penalty_cascade = false;
   finer.max_rescue_iterations = 0;
-  SteadyState refined = steady_state(model, state.omega, condition, finer, padded(state.displacement, finer.harmonics));
+  finer.show_regular = false;
+  SteadyState refined =
+      steady_state(model, state.omega, condition, finer, padded(state.displacement, finer.harmonics), reuse);
   refined.penalty_ratio *= state.penalty_ratio;
   return refined;
 }

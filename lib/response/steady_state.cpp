@@ -69,8 +69,11 @@ class Search {
   }
 
   [[nodiscard]] SteadyState result() const {
+    const AtSolution jacobian = options_.linearise      ? AtSolution::linearise
+                                : options_.show_regular ? AtSolution::show_regular
+                                                        : AtSolution::trust;
     SteadyState steady =
-        described(problem(ratio_), best_.displacement, best_.status, options_.linearise, best_.linearisation.get());
+        described(problem(ratio_), best_.displacement, best_.status, jacobian, best_.linearisation.get());
     steady.iterations = iterations_;
     steady.evaluations = evaluations_;
     steady.penalty_ratio = ratio_;

@@ -143,8 +143,8 @@ Status ImplicitStage::solve(const VectorXd& base, const VectorXd& cycles, int ma
 }
 
 response::SteadyState ImplicitStage::described(const WearPoint& point) const {
-  response::SteadyState state =
-      response::described(problem(point.depth), point.displacement, Status::converged, true, linear_.get());
+  response::SteadyState state = response::described(problem(point.depth), point.displacement, Status::converged,
+                                                    response::AtSolution::linearise, linear_.get());
   state.penalty_ratio = ratio_;
   return state;
 }
