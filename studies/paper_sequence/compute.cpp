@@ -80,8 +80,9 @@ class Study {
 
   void asymptote() {
     say("asymptote");
-    candidate_.asymptote = wear::asymptote(candidate_.model.condensed, candidate_.unworn->omega, {}, steady_,
-                                           {.rate_threshold = threshold_}, &candidate_.unworn->state);
+    candidate_.asymptote =
+        wear::asymptote(candidate_.model.condensed, candidate_.unworn->omega, {}, steady_,
+                        {.rate_threshold = threshold_, .arbitration = "unsettled"}, &candidate_.unworn->state);
     const wear::Asymptote& found = *candidate_.asymptote;
     if (found.verdict != wear::Verdict::asymptote)
       fail("No worn state at rest was found: " + std::string(wear::to_string(found.verdict)) + ".");
@@ -198,7 +199,8 @@ class Study {
     const response::Resonance unworn = response::resonance(model.condensed, glued, {}, steady_);
     if (unworn.status != Status::converged) return;
     const wear::Asymptote found =
-        wear::asymptote(model.condensed, unworn.omega, {}, steady_, {.rate_threshold = threshold_}, &unworn.state);
+        wear::asymptote(model.condensed, unworn.omega, {}, steady_,
+                        {.rate_threshold = threshold_, .arbitration = "unsettled"}, &unworn.state);
     if (found.verdict != wear::Verdict::asymptote) return;
     results_.unequal_flanks_degrees = kDegrees;
     results_.unequal_flanks_volume_m3.assign(2, 0.0);
