@@ -131,6 +131,24 @@ bool same_depth(const VectorXd& a, const VectorXd& b, double tolerance) {
   return (a - b).cwiseAbs().maxCoeff() <= tolerance * std::max(a.maxCoeff(), b.maxCoeff());
 }
 
+/// The history's depths as the answer. Where all that was in doubt is a node at the edge of a zone, and the history
+/// took one node more or fewer than the direct answer, the edge between them is the same: then what is interpolated
+/// stands.
+void take_history(const reduction::ContactNodes& contact, const VectorXd& depth, bool at_the_edge, double tolerance,
+                  Asymptote& result) {
+  const Asymptote direct = result;
+  set_depth(contact, depth, result);
+  const double allowance = tolerance * direct.worn_volume;
+  if (!at_the_edge || direct.edge_status != Status::converged || direct.share.size() == 0 ||
+      result.worn_volume < direct.volume_bracket[0] - allowance ||
+      result.worn_volume > direct.volume_bracket[1] + allowance)
+    return;
+  result.interpolated_depth = direct.interpolated_depth;
+  result.interpolated_volume = direct.interpolated_volume;
+  result.interpolated_largest_depth = direct.interpolated_largest_depth;
+  result.volume_bracket = direct.volume_bracket;
+}
+
 /// The implicit history has the last word. Where it cannot be followed to its end a settled direct answer stands,
 /// unconfirmed; any other becomes not_converged.
 void arbitrate(const std::shared_ptr<const response::CondensedModel>& model, double omega, Release& release,
@@ -160,7 +178,7 @@ void arbitrate(const std::shared_ptr<const response::CondensedModel>& model, dou
   std::erase_if(result.other_states,
                 [&](const OtherState& state) { return same_depth(state.depth, depth, options.state_tolerance); });
   if (certified) result.other_states.insert(result.other_states.begin(), other_state("release", contact, result.depth));
-  set_depth(contact, depth, result);
+  take_history(contact, depth, direct.doubt == "near_slip", options.state_tolerance, result);
   result.decided_by = "history";
   result.rate = rate;
   result.steady = past.steady;

@@ -72,8 +72,9 @@ struct Asymptote {
   double largest_depth = 0.0;         ///< m, nodal answer
   /// The same with the edges of worn zones between nodes (PartialRelease): continuous in the design where the nodal
   /// answer jumps by a node, and second order in the node spacing where that is first order. Equal to the nodal answer
-  /// when not asked for. `volume_bracket`: the volumes with the edges moved to the nearest whole nodes inside and
-  /// outside.
+  /// when not asked for, and to the history's where that decided - unless all the history did was to take one node more
+  /// or fewer at the edge of a zone. `volume_bracket`: the volumes with the edges moved to the nearest whole nodes
+  /// inside and outside.
   double interpolated_volume = 0.0;         ///< m^3
   double interpolated_largest_depth = 0.0;  ///< m
   Eigen::VectorXd interpolated_depth;       ///< [Nc] m

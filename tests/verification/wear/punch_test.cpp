@@ -135,6 +135,25 @@ TEST(Punch, InterpolatedVolumeHasNoJumps) {
   EXPECT_LT(largest_step(between), 0.05);
 }
 
+// A node next to the zone sticks with little to spare, so the history is asked; it may wear that node as well. The edge
+// between the two is the closed form's, and stays in what is interpolated.
+TEST(Punch, AHistoryOneNodeFurtherLeavesTheEdgeBetweenNodes) {
+  int decided = 0;
+  for (int nodes : {41, 61, 81}) {
+    const scenes::Punch data{.nodes = nodes};
+    const auto model = std::make_shared<const response::CondensedModel>(scenes::punch(data));
+    AsymptoteOptions options = kOptions;
+    options.arbitration = "auto";
+    const Asymptote worn = asymptote(model, 1.0, {}, {.harmonics = 3, .samples = 64}, options);
+    ASSERT_EQ(worn.verdict, Verdict::asymptote) << to_string(worn.status);
+    if (worn.decided_by == "history") ++decided;
+    const double spacing = 2.0 * data.half_length / (nodes - 1);
+    EXPECT_LT(std::abs(worn.interpolated_volume / Limit(data).volume() - 1.0), 10.0 * spacing * spacing + 0.03)
+        << nodes;
+  }
+  EXPECT_GT(decided, 0);
+}
+
 TEST(Punch, HistoryEndsWhereTheAsymptoteIs) {
   const scenes::Punch data{.nodes = 41};
   const auto model = std::make_shared<const response::CondensedModel>(scenes::punch(data));
