@@ -9,6 +9,7 @@
 #include "response/refined_state.hpp"
 #include "wear/archard.hpp"
 #include "wear/partial_release.hpp"
+#include "wear/passes.hpp"
 
 namespace dovetail::optimizer {
 
@@ -37,6 +38,41 @@ ResonanceChange resonance_change(const CandidateModel& model, const response::Re
           .friction_energy = std::abs(shift.state.friction_energy - at.state.friction_energy)};
 }
 
+/// Volume of the worn nodes with a neighbour on the flank's grid that bears, m^3: the edge of the zone lies somewhere
+/// between the two, so that the nodal volume is known to about half of this.
+double volume_at_edges(const CandidateModel& model, const wear::Asymptote& asymptote) {
+  Eigen::VectorXd depth = Eigen::VectorXd::Zero(asymptote.depth.size());
+  int first = 0;
+  for (const fem::Flank& flank : model.mesh.sector.flanks) {
+    const int across = flank.grid[0], along = flank.grid[1];
+    const auto worn = [&](int i, int j) {
+      return i < 0 || j < 0 || i >= across || j >= along || asymptote.depth(first + i + across * j) > 0;
+    };
+    for (int j = 0; j < along; ++j)
+      for (int i = 0; i < across; ++i)
+        if (!(worn(i - 1, j) && worn(i + 1, j) && worn(i, j - 1) && worn(i, j + 1)))
+          depth(first + i + across * j) = asymptote.depth(first + i + across * j);
+    first += flank.contact_count();
+  }
+  return wear::worn_volume(model.reduction.model.contact, depth);
+}
+
+/// The worn zones at the settings of `release`, from its unworn state: with edges between nodes where the asymptote has
+/// them, otherwise of whole nodes. Empty when they are not known.
+Eigen::VectorXd depth_at(wear::Release& release, const response::SteadyState& unworn, bool between_nodes) {
+  const wear::AsymptoteOptions defaults;
+  const double threshold = std::max(defaults.rate_threshold, defaults.relative_threshold * unworn.wear_rate.maxCoeff());
+  if (between_nodes) {
+    const wear::PartialRelease partial = wear::release_partially(release, unworn, threshold, defaults.passes);
+    return partial.settled ? partial.depth : Eigen::VectorXd();
+  }
+  wear::Passes passes(release.model().nodes());
+  passes.state = unworn;
+  const wear::Control control;
+  const wear::Ending ending = wear::release_slipping(release, threshold, defaults.passes, control, passes);
+  return ending == wear::Ending::settled ? release.depth(passes.released, passes.state) : Eigen::VectorXd();
+}
+
 /// Of the asymptote at the unworn resonance; where the resonance was followed its bars stand, in proportion, for those
 /// of the last one. Returns the depths at finer settings, empty when they are not known.
 Eigen::VectorXd wear_bars(const CandidateResult& result, const response::SteadyOptions& finer,
@@ -59,21 +95,21 @@ Eigen::VectorXd wear_bars(const CandidateResult& result, const response::SteadyO
                     response::padded(result.unworn->state.displacement, finer.harmonics));
   volume = depth = kUnknown;
   if (unworn.status != Status::converged) return {};
-  const wear::AsymptoteOptions defaults;
-  const double threshold = std::max(defaults.rate_threshold, defaults.relative_threshold * unworn.wear_rate.maxCoeff());
-  const wear::PartialRelease partial = wear::release_partially(release, unworn, threshold, defaults.passes);
-  if (!partial.settled) return {};
+  const bool between_nodes = result.model.condensed->directions() == 2;
+  const Eigen::VectorXd finer_depth = depth_at(release, unworn, between_nodes);
+  if (finer_depth.size() == 0) return {};
   const reduction::ContactNodes& contact = result.model.reduction.model.contact;
   // Of what one node more or less in the zones would change, edges between nodes leave a few per cent: on dovetails of
   // 12 to 64 edges per flank 1 to 5 per cent. Edges that did not settle may be anywhere in between.
   const double edge = asymptote.edge_status == Status::converged ? 0.1 : 1.0;
-  const double bracket = asymptote.volume_bracket[1] - asymptote.volume_bracket[0];
-  volume = std::abs(wear::worn_volume(contact, partial.depth) - asymptote.interpolated_volume) + edge * bracket;
-  depth = std::abs(partial.depth.maxCoeff() - asymptote.interpolated_largest_depth) +
+  const double bracket = between_nodes ? edge * (asymptote.volume_bracket[1] - asymptote.volume_bracket[0])
+                                       : 0.5 * volume_at_edges(result.model, asymptote);
+  volume = std::abs(wear::worn_volume(contact, finer_depth) - asymptote.interpolated_volume) + bracket;
+  depth = std::abs(finer_depth.maxCoeff() - asymptote.interpolated_largest_depth) +
           edge * std::abs(asymptote.largest_depth - asymptote.interpolated_largest_depth);
   if (asymptote.interpolated_volume > 0)
-    depth += edge * bracket / asymptote.interpolated_volume * asymptote.interpolated_largest_depth / 2;
-  if (!result.held) return partial.depth;
+    depth += bracket / asymptote.interpolated_volume * asymptote.interpolated_largest_depth / 2;
+  if (!result.held) return finer_depth;
   volume *= result.asymptote->interpolated_volume / asymptote.interpolated_volume;
   depth *= result.asymptote->interpolated_largest_depth / asymptote.interpolated_largest_depth;
   return {};
