@@ -134,6 +134,23 @@ TEST(SectorAgainstSection, ResonanceAndAsymptoticWearAgree) {
   EXPECT_NEAR(deep.worn.largest_depth, flat.worn.largest_depth, 0.1 * flat.worn.largest_depth);
 }
 
+TEST(SectorEvaluation, ConvergesWithEveryResponseAndItsErrorBar) {
+  Scene scene = joint("sector");
+  scene.mesh.flank_elements = 4;
+  scene.solid_mesh.slot_elements = 2;
+  scene.solid.skew_angle = 0.1;
+  const Evaluation evaluation = SceneEvaluator(scene).evaluate(scene).evaluation;
+  ASSERT_TRUE(evaluation.converged()) << evaluation.status;
+  for (const auto& [name, value] : evaluation.responses) EXPECT_TRUE(std::isfinite(value)) << name;
+  EXPECT_GE(evaluation.responses.size(), 17U);
+  for (const auto& [name, bar] : evaluation.error_estimates) EXPECT_TRUE(std::isfinite(bar) && bar >= 0) << name;
+  // Worn zones of whole nodes end somewhere before the next: on this grid the volume is not known to 10 %.
+  const double volume = evaluation.responses.at("asymptotic_wear_volume_m3");
+  const double bar = evaluation.error_estimates.at("asymptotic_wear_volume_m3");
+  EXPECT_GT(bar, 0.1 * volume);
+  EXPECT_LT(bar, volume);
+}
+
 TEST(SectorSymmetry, MirroredSlotsHaveMirroredPressures) {
   // The plane mesh is symmetric, so these hold to rounding and the tolerance of the preload.
   std::vector<std::vector<FlankLoad>> loads;
