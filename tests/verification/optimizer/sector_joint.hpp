@@ -12,7 +12,7 @@ namespace dovetail::optimizer::testing {
 inline Scene joint(const std::string& type) {
   Scene scene;
   scene.type = type;
-  // On a smaller bore, held axially in its middle plane, the disk's umbrella mode comes next to the blade's first one.
+  // On a smaller bore the disk's umbrella mode comes next to the blade's first one.
   scene.geometry.bore_radius = 0.16;
   scene.mesh = {.flank_elements = 6,
                 .fillet_fraction = 0.7,
