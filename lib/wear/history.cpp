@@ -84,6 +84,18 @@ class Run {
   response::ResonanceOptions resonance_;
 };
 
+std::vector<Record> states_of(const History& past) {
+  std::vector<Record> records;
+  for (Index i = 0; i < past.cycles.size(); ++i)
+    records.push_back({.cycles = past.cycles[i],
+                       .volume = past.worn_volume[i],
+                       .amplitude = past.amplitude.size() > i ? past.amplitude[i] : std::nan(""),
+                       .frequency = past.frequency[i],
+                       .depth = past.depth.row(i).transpose(),
+                       .rate = past.rate.row(i).transpose()});
+  return records;
+}
+
 void store(const std::vector<Record>& records, Index nodes, History& result) {
   const auto count = static_cast<Index>(records.size());
   result.cycles.resize(count);
@@ -139,7 +151,7 @@ Resumption resume(const History& stored, const response::ContactCondition& start
 History history(const std::shared_ptr<const response::CondensedModel>& model, double omega,
                 const response::ContactCondition& start, const response::SteadyOptions& steady,
                 const HistoryOptions& options, const response::ResonanceOptions& resonance, const Control& control,
-                const StateObserver& observer) {
+                const StateObserver& observer, const History* past) {
   if (std::vector<Violation> wrong = violations(options, "history"); !wrong.empty()) throw InputError(std::move(wrong));
 
   Run run(model, start, steady, options, resonance);
@@ -154,6 +166,7 @@ History history(const std::shared_ptr<const response::CondensedModel>& model, do
     result.status = status;
     store(records, model->nodes(), result);
     result.final_depth = run.depth();
+    if (!records.empty()) result.final_rate = records.back().rate;
     if (end == HistoryEnd::worn_out && options.finish && options.follow == "fixed" && records.size() > 1) {
       constexpr double kClose = 0.05;
       const Finish last = finish_by_release(model, omega, run.condition(), steady, result.steady, run.depth(),
@@ -161,7 +174,10 @@ History history(const std::shared_ptr<const response::CondensedModel>& model, do
       result.solves += last.solves;
       result.jacobians += last.jacobians;
       result.finished = last.done;
-      if (last.done) result.final_depth = last.depth;
+      if (last.done) {
+        result.final_depth = last.depth;
+        result.final_rate = last.steady.wear_rate;
+      }
     }
     result.final_volume = worn_volume(model->contact(), result.final_depth);
     return std::move(result);
@@ -172,19 +188,29 @@ History history(const std::shared_ptr<const response::CondensedModel>& model, do
     if (observer) observer(static_cast<int>(records.size()) - 1, cycles, run.condition(), result.steady);
   };
 
+  const bool resumed = past != nullptr && past->cycles.size() > 0;
+  if (resumed) {
+    records = states_of(*past);
+    result.memory = past->memory;
+    result.steady.displacement = past->steady.displacement;
+  }
   if (control.stopped()) return finish(HistoryEnd::interrupted, Status::interrupted);
-  Solved current = run.solve(omega, run.depth(), {});
+  Solved current = run.solve(omega, run.depth(), resumed ? past->steady.displacement : MatrixXd());
   count(current);
   if (current.status != Status::converged) return finish(HistoryEnd::failed, current.status);
   const double limit = options.cycles > 0.0 ? options.cycles : kInfinity;
-  const VectorXd first_depth = run.depth();
+  if (resumed) records.pop_back();  // solved again
+  const VectorXd first_depth = resumed ? VectorXd(past->depth.row(0).transpose()) : run.depth();
   double cycles = options.start_cycles;
   result.steady = std::move(current.state);
-  accept(cycles, first_depth);
+  accept(cycles, VectorXd(run.depth()));
   const double reference = options.reference_rate > 0.0 ? options.reference_rate : result.steady.wear_rate.maxCoeff();
   const double worn_out = std::max(options.rate_threshold, options.rate_fraction * reference);
-  const double penetration = largest_penetration(*model, result.steady);
-  double longest = kInfinity;  // jump the error of the last step permits
+  if (result.memory.penetration == 0.0) result.memory.penetration = largest_penetration(*model, result.steady);
+  const double penetration = result.memory.penetration;
+  double longest = options.tolerance > 0.0 && result.memory.step > 0.0
+                       ? result.memory.step
+                       : kInfinity;  // jump the last step's error permits
 
   for (int step = 1; step <= options.steps; ++step) {
     const VectorXd rate = result.steady.wear_rate;
@@ -219,7 +245,10 @@ History history(const std::shared_ptr<const response::CondensedModel>& model, do
         jump *= std::clamp(factor, 0.1, 0.8);
         continue;
       }
-      longest = jump * std::clamp(factor, 0.5, 2.0);
+      // A step cut to end at the cycles asked for says nothing against longer ones.
+      const double permitted = jump * std::clamp(factor, 0.5, 2.0);
+      longest = jump == remaining && std::isfinite(longest) ? std::max(longest, permitted) : permitted;
+      result.memory.step = longest;
       break;
     }
     cycles = jump == remaining ? limit : cycles + jump;

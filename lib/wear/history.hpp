@@ -59,6 +59,17 @@ enum class HistoryEnd {
 };
 [[nodiscard]] std::string_view to_string(HistoryEnd end);
 
+/// What a history carries from step to step besides its states: with it a resumed one goes on as if never stopped.
+struct StepMemory {
+  double step = 0;          ///< cycles of the next step (explicit: at most); 0: the integrator's own choice
+  double penetration = 0;   ///< m, largest local one of the first state; 0: not known
+  double finish_below = 0;  ///< implicit: rate, over the first one, below which a finish is tried next; 0: its own
+  int recovering = 0;       ///< implicit: steps that still grow slowly
+  int jumps = 0;            ///< implicit: folds crossed
+  Eigen::MatrixXd factored_displacement;  ///< implicit: U [nc, 2H+1] m where the Jacobian in use was taken, or empty
+  Eigen::VectorXd factored_depth;         ///< implicit: W [Nc] m there
+};
+
 /// Wear over cycles; entry 0 is the unworn state, S = accepted steps + 1.
 struct History {
   Status status = Status::converged;  ///< converged unless a step could not be solved however short, or interrupted
@@ -71,11 +82,13 @@ struct History {
   Eigen::VectorXd frequency;     ///< [S] exciting omega, rad/s
   response::SteadyState steady;  ///< of the last accepted state
   Eigen::VectorXd final_depth;   ///< [Nc] m, of the direct method when `finished`, otherwise the last depth
+  Eigen::VectorXd final_rate;    ///< [Nc] m per cycle, at that depth; empty when there is no state
   double final_volume = 0;       ///< m^3
   bool finished = false;         ///< by the direct method
-  int solves = 0;                ///< steady states computed, failed ones included
-  int jacobians = 0;             ///< factorised Jacobians over all of them
-  int rejected = 0;              ///< steps that did not converge, or erred too much, and were shortened
+  StepMemory memory;
+  int solves = 0;     ///< steady states computed, failed ones included
+  int jacobians = 0;  ///< factorised Jacobians over all of them
+  int rejected = 0;   ///< steps that did not converge, or erred too much, and were shortened
 };
 
 /// Called for every accepted state, the first included, e.g. to store a response curve of the joint as worn:
@@ -99,11 +112,14 @@ struct Resumption {
 /// @param omega      exciting frequency rad/s; with follow = resonance where the first search starts
 /// @param start      wear depth to start from and slip origin; nodes released in it never touch
 /// @param resonance  names the output whose amplitude is recorded and, when asked for, followed
+/// @param past       a history to go on with, or null: `start` and `options` are then those of resume(). Its states
+///                   come first in the result and `steady.displacement`, if any, starts the first solve
 /// Cost: one steady state per step (or one resonance). Throws InputError for options out of range.
 [[nodiscard]] History history(const std::shared_ptr<const response::CondensedModel>& model, double omega,
                               const response::ContactCondition& start, const response::SteadyOptions& steady,
                               const HistoryOptions& options = {}, const response::ResonanceOptions& resonance = {},
-                              const Control& control = {}, const StateObserver& observer = {});
+                              const Control& control = {}, const StateObserver& observer = {},
+                              const History* past = nullptr);
 
 }  // namespace dovetail::wear
 

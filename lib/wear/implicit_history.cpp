@@ -54,7 +54,7 @@ bool levelled_out(const std::vector<Record>& records, double penetration, const 
 ImplicitHistory implicit_history(const std::shared_ptr<const response::CondensedModel>& model, double omega,
                                  const response::ContactCondition& start, const response::SteadyOptions& steady,
                                  const ImplicitHistoryOptions& options, const response::SteadyState* unworn,
-                                 const Control& control) {
+                                 const Control& control, const History* past) {
   if (std::vector<Violation> wrong = violations(options, "implicit_history"); !wrong.empty())
     throw InputError(std::move(wrong));
   require_nothing_released(start);
@@ -66,33 +66,51 @@ ImplicitHistory implicit_history(const std::shared_ptr<const response::Condensed
     store(model->contact(), records, result);
     return std::move(result);
   };
+  const bool resumed = past != nullptr && past->cycles.size() > 0;
+  StepMemory& memory = result.memory;
+  result.steady.omega = omega;
+  if (resumed) {
+    for (Index i = 0; i < past->cycles.size(); ++i)
+      records.push_back(
+          {.cycles = past->cycles[i], .depth = past->depth.row(i).transpose(), .rate = past->rate.row(i).transpose()});
+    memory = past->memory;
+    result.steady.displacement = past->steady.displacement;
+  }
   if (control.stopped()) return finish(HistoryEnd::interrupted, Status::interrupted);
   response::SteadyOptions settings = steady;
   settings.linearise = true;
   if (unworn != nullptr && unworn->linearisation) {
     result.steady = *unworn;
   } else {
-    result.steady = response::steady_state(model, omega, start, settings);
+    result.steady =
+        response::steady_state(model, omega, start, settings, resumed ? past->steady.displacement : MatrixXd());
     result.solves = 1;
     result.jacobians = result.steady.iterations;
     result.evaluations = result.steady.evaluations;
   }
   if (result.steady.status != Status::converged) return finish(HistoryEnd::failed, result.steady.status);
 
-  result.largest_penetration = largest_penetration(*model, result.steady);
+  if (memory.penetration == 0.0) memory.penetration = largest_penetration(*model, result.steady);
+  result.largest_penetration = memory.penetration;
   WearPoint point{.displacement = result.steady.displacement,
                   .depth = start.wear_depth.size() > 0 ? start.wear_depth : VectorXd(VectorXd::Zero(model->nodes())),
                   .rate = result.steady.wear_rate};
-  const VectorXd first_depth = point.depth;
+  const VectorXd first_depth = resumed ? VectorXd(past->depth.row(0).transpose()) : point.depth;
   double cycles = options.start_cycles;
+  if (resumed) records.pop_back();  // solved again
   records.push_back({.cycles = cycles, .depth = point.depth, .rate = point.rate});
   const double start_rate = point.rate.size() > 0 ? point.rate.maxCoeff() : 0.0;
   const double first_rate = options.reference_rate > 0.0 ? options.reference_rate : start_rate;
   const double worn_out = std::max(options.rate_threshold, options.rate_fraction * first_rate);
-  if (!(start_rate > worn_out)) return finish(HistoryEnd::worn_out, Status::converged);
+  // A resumed one may be following its tail below that.
+  if (!(start_rate > (resumed ? 0.0 : worn_out))) return finish(HistoryEnd::worn_out, Status::converged);
 
   ImplicitStage stage(model, start, settings, result.steady);
+  if (memory.factored_displacement.size() > 0)
+    stage.factorise_at({.displacement = memory.factored_displacement, .depth = memory.factored_depth, .rate = {}});
   const auto count = [&] {
+    memory.factored_displacement = stage.factored_at().displacement;
+    memory.factored_depth = stage.factored_at().depth;
     result.solves += stage.solves();
     result.jacobians += stage.jacobians();
     result.evaluations += stage.evaluations();
@@ -108,13 +126,14 @@ ImplicitHistory implicit_history(const std::shared_ptr<const response::Condensed
   // Rate times cycles, relative to the depth, that ends a history without a finish, and the rate that ends any.
   constexpr double kNothingLeft = 1e-4;
   constexpr double kSilent = 0.1;  // of the rate that counts as none: slip far below it is noise of the samples
-  double finish_below = 1e-2;
-  double jump = cycle_jump(point.rate, options.first_increment * result.largest_penetration);
+  if (memory.finish_below == 0.0) memory.finish_below = 1e-2;
+  double jump =
+      memory.step > 0.0 ? memory.step : cycle_jump(point.rate, options.first_increment * result.largest_penetration);
   const double limit = options.cycles > 0.0 ? options.cycles : kInfinity;
   // After a step whose equations could not be solved the next ones grow slowly.
   constexpr int kRecovery = 3;
   constexpr double kSlowGrowth = 1.5;
-  int recovering = 0;
+  result.jumps = memory.jumps;
   // Shortest step, relative to the depth, and how many of them a jump to another branch is long.
   constexpr double kSmallest = 1e-5;
   constexpr double kLeap = 100.0;
@@ -124,6 +143,7 @@ ImplicitHistory implicit_history(const std::shared_ptr<const response::Condensed
     if (control.stopped()) return leave(HistoryEnd::interrupted, Status::interrupted);
     if (cycles >= limit) return leave(HistoryEnd::cycles, Status::converged);
     const bool last_step = jump >= limit - cycles;
+    memory.step = jump;
     if (last_step) jump = limit - cycles;
     WearPoint next = point;
     VectorXd error;
@@ -135,7 +155,8 @@ ImplicitHistory implicit_history(const std::shared_ptr<const response::Condensed
       ++result.rejected;
       constexpr double kCut = 0.25;
       jump *= failure == Status::converged ? std::clamp(0.9 / std::cbrt(ratio), 0.1, 0.7) : kCut;
-      if (failure != Status::converged) recovering = kRecovery;
+      memory.step = jump;
+      if (failure != Status::converged) memory.recovering = kRecovery;
       const double smallest = kSmallest * scale / options.tolerance;
       if (jump * point.rate.maxCoeff() >= smallest) continue;
       // The branch turns back in W, as where an amplitude jumps: a short explicit step looks for where it goes on.
@@ -151,12 +172,12 @@ ImplicitHistory implicit_history(const std::shared_ptr<const response::Condensed
       }
       if (result.jumps == kJumps || found.status != Status::converged)
         return leave(HistoryEnd::failed, failure == Status::converged ? Status::stalled : failure);
-      ++result.jumps;
+      memory.jumps = ++result.jumps;
       count();
       stage = ImplicitStage(model, start, settings, found);
       point = {.displacement = found.displacement, .depth = beyond.wear_depth, .rate = found.wear_rate};
       cycles += leap;
-      jump = leap;
+      jump = memory.step = leap;
       records.push_back({.cycles = cycles, .depth = point.depth, .rate = point.rate});
       continue;
     }
@@ -172,15 +193,15 @@ ImplicitHistory implicit_history(const std::shared_ptr<const response::Condensed
       count();
       return finish(HistoryEnd::worn_out, Status::converged);
     }
-    if (quiet || fastest <= finish_below * first_rate) {
+    if (quiet || fastest <= memory.finish_below * first_rate) {
       const response::SteadyState reached = stage.described(point);
       Finish last;
-      if (fastest <= finish_below * first_rate) {
+      if (fastest <= memory.finish_below * first_rate) {
         last = finish_by_release(model, omega, start, steady, reached, point.depth, cycles,
                                  quiet ? kCloseAtEnd : kCloseBefore, control);
         result.solves += last.solves;
         result.jacobians += last.jacobians;
-        finish_below = 0.1 * fastest / first_rate;
+        memory.finish_below = 0.1 * fastest / first_rate;
       }
       // Where finishing is no way out the tail is followed until it leaves nothing.
       const double left = fastest * cycles / point.depth.maxCoeff();
@@ -197,8 +218,10 @@ ImplicitHistory implicit_history(const std::shared_ptr<const response::Condensed
     }
     if (levelled_out(records, result.largest_penetration, options))
       return leave(HistoryEnd::steady_rate, Status::converged);
-    jump *= std::clamp(0.9 / std::cbrt(std::max(ratio, 1e-6)), 0.3, recovering > 0 ? kSlowGrowth : options.growth);
-    recovering = std::max(0, recovering - 1);
+    jump *=
+        std::clamp(0.9 / std::cbrt(std::max(ratio, 1e-6)), 0.3, memory.recovering > 0 ? kSlowGrowth : options.growth);
+    memory.recovering = std::max(0, memory.recovering - 1);
+    memory.step = last_step ? std::max(jump, memory.step) : jump;
   }
   if (cycles >= limit) return leave(HistoryEnd::cycles, Status::converged);
   return leave(HistoryEnd::steps, failure == Status::converged ? Status::iteration_limit : failure);
@@ -206,21 +229,24 @@ ImplicitHistory implicit_history(const std::shared_ptr<const response::Condensed
 
 History as_history(const ImplicitHistory& implicit, const response::CondensedModel& model) {
   const Index count = implicit.cycles.size() - (implicit.finished ? 1 : 0);
-  History history{.status = implicit.status,
-                  .end = implicit.end,
-                  .cycles = implicit.cycles.head(count),
-                  .worn_volume = implicit.worn_volume.head(count),
-                  .depth = implicit.depth.topRows(count),
-                  .rate = implicit.rate.topRows(count),
-                  .amplitude = VectorXd::Constant(count, std::nan("")),
-                  .frequency = VectorXd::Constant(count, implicit.steady.omega),
-                  .steady = implicit.steady,
-                  .final_depth = implicit.depth.rows() > 0 ? VectorXd(implicit.depth.bottomRows(1).transpose())
-                                                           : VectorXd(VectorXd::Zero(model.nodes())),
-                  .finished = implicit.finished,
-                  .solves = implicit.solves,
-                  .jacobians = implicit.jacobians,
-                  .rejected = implicit.rejected};
+  History history{
+      .status = implicit.status,
+      .end = implicit.end,
+      .cycles = implicit.cycles.head(count),
+      .worn_volume = implicit.worn_volume.head(count),
+      .depth = implicit.depth.topRows(count),
+      .rate = implicit.rate.topRows(count),
+      .amplitude = VectorXd::Constant(count, std::nan("")),
+      .frequency = VectorXd::Constant(count, implicit.steady.omega),
+      .steady = implicit.steady,
+      .final_depth = implicit.depth.rows() > 0 ? VectorXd(implicit.depth.bottomRows(1).transpose())
+                                               : VectorXd(VectorXd::Zero(model.nodes())),
+      .final_rate = implicit.rate.rows() > 0 ? VectorXd(implicit.rate.bottomRows(1).transpose()) : VectorXd(),
+      .finished = implicit.finished,
+      .memory = implicit.memory,
+      .solves = implicit.solves,
+      .jacobians = implicit.jacobians,
+      .rejected = implicit.rejected};
   history.final_volume = worn_volume(model.contact(), history.final_depth);
   if (count > 0 && implicit.steady.amplitudes.size() > 0) history.amplitude[count - 1] = implicit.steady.amplitudes[0];
   return history;

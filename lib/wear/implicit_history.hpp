@@ -47,12 +47,13 @@ struct ImplicitHistoryOptions {
 struct ImplicitHistory {
   Status status = Status::converged;
   HistoryEnd end = HistoryEnd::steps;
-  Eigen::VectorXd cycles;            ///< [S]; infinite for the finished state
-  Eigen::VectorXd worn_volume;       ///< [S] m^3
-  Eigen::MatrixXd depth;             ///< [S, Nc] m
-  Eigen::MatrixXd rate;              ///< [S, Nc] m per cycle
-  response::SteadyState steady;      ///< of the last state
-  bool finished = false;             ///< the last state is that of the direct method
+  Eigen::VectorXd cycles;        ///< [S]; infinite for the finished state
+  Eigen::VectorXd worn_volume;   ///< [S] m^3
+  Eigen::MatrixXd depth;         ///< [S, Nc] m
+  Eigen::MatrixXd rate;          ///< [S, Nc] m per cycle
+  response::SteadyState steady;  ///< of the last state
+  bool finished = false;         ///< the last state is that of the direct method
+  StepMemory memory;
   double finish_change = 0.0;        ///< largest change of depth by finishing, m
   double largest_penetration = 0.0;  ///< of the unworn contact, m
   int jumps = 0;                     ///< short explicit steps across folds, where the branch followed ends
@@ -73,6 +74,9 @@ struct ImplicitHistory {
 /// @param omega   excitation frequency rad/s, held
 /// @param start   wear depth to start from and slip origin; it must release no node
 /// @param unworn  steady state of `start` at omega with its linearisation to begin with, or null
+/// @param past    a history to go on with, or null: `start`, start_cycles and reference_rate are then those of
+/// resume().
+///                Its states come first in the result and `steady.displacement`, if any, starts the first solve
 /// Cost: two to five Jacobians per step, 20 to 40 steps. Throws InputError for options out of range and for nodes
 /// released at the start.
 [[nodiscard]] ImplicitHistory implicit_history(const std::shared_ptr<const response::CondensedModel>& model,
@@ -80,7 +84,7 @@ struct ImplicitHistory {
                                                const response::SteadyOptions& steady,
                                                const ImplicitHistoryOptions& options = {},
                                                const response::SteadyState* unworn = nullptr,
-                                               const Control& control = {});
+                                               const Control& control = {}, const History* past = nullptr);
 
 /// The same as a history like the explicit ones: a finish at the end becomes its final depth, and the amplitude is
 /// known of the last state only.

@@ -53,6 +53,16 @@ void ImplicitStage::adopt(const std::shared_ptr<const response::Linearisation>& 
   }
 }
 
+void ImplicitStage::factorise_at(const WearPoint& point) {
+  const response::SteadyResidual here = problem(point.depth);
+  response::ResidualState state;
+  here.evaluate(point.displacement, true, state);
+  auto linear = std::make_shared<const response::Linearisation>(here, state, linear_.get());
+  if (linear->status() != Status::converged) return;
+  adopt(linear);
+  factored_at_ = point;
+}
+
 VectorXd ImplicitStage::damp(const VectorXd& cycles, const VectorXd& error) const {
   const MatrixXd matrix = MatrixXd::Identity(error.size(), error.size()) - cycles.asDiagonal() * slope_;
   const VectorXd damped = matrix.partialPivLu().solve(error);
@@ -115,6 +125,7 @@ Status ImplicitStage::solve(const VectorXd& base, const VectorXd& cycles, int ma
                                             if (linear->status() != Status::converged) return linear->status();
                                             ++jacobians_;
                                             adopt(linear);
+                                            factored_at_ = {.displacement = at, .depth = depth, .rate = {}};
                                             direction(step);
                                             return Status::converged;
                                           },

@@ -35,6 +35,11 @@ class ImplicitStage {
   /// Factors of a steady state computed elsewhere.
   void adopt(const std::shared_ptr<const response::Linearisation>& linear);
 
+  /// Takes the factors at a point, which need not be a solution.
+  void factorise_at(const WearPoint& point);
+  /// Where the factors in use were taken; empty when they are those given.
+  [[nodiscard]] const WearPoint& factored_at() const { return factored_at_; }
+
   [[nodiscard]] int solves() const { return solves_; }
   [[nodiscard]] int jacobians() const { return jacobians_; }
   [[nodiscard]] int evaluations() const { return evaluations_; }
@@ -50,6 +55,7 @@ class ImplicitStage {
   numerics::FourierBasis basis_;
   std::shared_ptr<const response::HarmonicSystem> system_;
   std::shared_ptr<const response::Linearisation> linear_;
+  WearPoint factored_at_;     // without its rate
   Eigen::MatrixXd response_;  // dU/dW along f = 0, [nc (2H+1), Nc]
   Eigen::MatrixXd slope_;     // R = dr/dW along f = 0, [Nc, Nc]
   int solves_ = 0, jacobians_ = 0, evaluations_ = 0;

@@ -174,11 +174,12 @@ std::string certificate_words(const wear::Asymptote& asymptote) {
 }
 
 std::string summary(const WearQuestion& question, const WearAnswer& answer) {
-  std::string text = fmt::format("status          {}\nfrequency_hz    {:.9g} ({})\nworn_volume_m3  {:.6g}\n",
-                                 answer.status, question.frequency_hz, follow_words(question.follow), answer.volume);
+  const auto known = [&](double value) { return answer.known() ? fmt::format("{:.6g}", value) : "not known"; };
+  std::string text = fmt::format("status          {}\nfrequency_hz    {:.9g} ({})\nworn_volume_m3  {}\n", answer.status,
+                                 question.frequency_hz, follow_words(question.follow), known(answer.volume));
   if (answer.asymptote && answer.worn_out())
     text += fmt::format("  edges between nodes {:.6g}\n", answer.asymptote->interpolated_volume);
-  text += fmt::format("largest_depth_m {:.6g}\nsolves          {}\n", answer.largest_depth(), answer.solves);
+  text += fmt::format("largest_depth_m {}\nsolves          {}\n", known(answer.largest_depth()), answer.solves);
   if (answer.asymptote && answer.worn_out()) text += certificate_words(*answer.asymptote);
   if (!question.spread) return text;
   for (const wear::SpreadRange& range : question.spread->ranges)
@@ -194,7 +195,10 @@ int verdict(const std::string& input, const WearAnswer& answer, bool interrupted
   if (answer.status != "not_converged") return kDone;
   const bool out_of_steps = answer.history && answer.history->end == wear::HistoryEnd::steps;
   streams.err << fmt::format("dovetail: {}: the worn state did not converge: {}{}\n", input, to_string(answer.solver),
-                             out_of_steps ? ": allow more --steps, or a larger --increment of depth" : "");
+                             !out_of_steps ? ""
+                             : answer.choice.integrator == "implicit"
+                                 ? ": allow more --steps"
+                                 : ": allow more --steps, or a larger --increment of depth");
   return kNotConverged;
 }
 
@@ -202,6 +206,16 @@ int verdict(const std::string& input, const WearAnswer& answer, bool interrupted
 WearOptions with_follow(WearOptions options, const LoadedModel& loaded) {
   if (options.follow.empty()) options.follow = loaded.follow;
   return options;
+}
+
+/// What only the study and the model together can contradict.
+void check_follow(const WearOptions& options, const LoadedModel& loaded) {
+  if (options.follow != "resonance") return;
+  const auto refuse = [&](const std::string& allowed) {
+    throw InputError(Violation{.file = {}, .key = "--follow", .value = options.follow, .allowed = allowed});
+  };
+  if (options.integrator == "implicit") refuse("needs --integrator explicit");
+  if (loaded.model.mass.isZero(0.0)) refuse("needs a model with mass: a quasi-static one has no resonance");
 }
 
 }  // namespace
@@ -215,10 +229,20 @@ int run_wear(const WearOptions& given, const Streams& streams) {
     streams.err << "dovetail: " << options.input << ": " << why << "\n";
     return static_cast<int>(kNotConverged);
   };
-  if (!loaded.failure.empty()) return failed("not converged: " + loaded.failure);
+  // A computation that ends before it has a state leaves an answer, too.
+  const auto without_state = [&](Status status, const std::string& why, int solves) {
+    WearAnswer answer = unknown_answer(options, loaded.model.contact.count(), status);
+    answer.reason = why;
+    answer.solves = solves;
+    const WearQuestion question{.frequency_hz = std::nan(""), .follow = options.follow, .settings = loaded.steady};
+    if (!options.json.empty()) deliver_json(options.json, wear_json(question, answer), streams);
+    return failed("not converged: " + why);
+  };
+  if (!loaded.failure.empty()) return without_state(Status::iteration_limit, loaded.failure, 0);
   if (loaded.model.contact.count() == 0)
     throw InputError(
         Violation{.file = {}, .key = options.input, .value = {}, .allowed = "has no contact nodes: nothing can wear"});
+  check_follow(options, loaded);
   const bool over_band = options.follow == "band";
   const auto begin = [&](const LoadedModel& model) {
     return over_band ? wear_start_at((*options.band_from_hz + *options.band_to_hz) / 2) : wear_start(options, model);
@@ -230,8 +254,9 @@ int run_wear(const WearOptions& given, const Streams& streams) {
     at = begin(loaded);
   }
   if (!at.found())
-    return failed("not converged: unworn resonance: " + std::string(to_string(at.resonance->status)) +
-                  "; give --frequency HZ");
+    return without_state(at.resonance->status,
+                         "unworn resonance: " + std::string(to_string(at.resonance->status)) + "; give --frequency HZ",
+                         at.resonance->solves);
 
   const OrderlyInterrupt interrupt;
   wear::Control control;

@@ -47,9 +47,11 @@ struct WearQuestion {
 /// {"method", "status", "follow", "frequency_hz", "frequencies_hz":[S], "cycles":[S], "worn_volume_m3":[S],
 /// "depth_m":[Nc], "final_wear_rate_m_per_cycle":[Nc], "solves", "settings":{"harmonics", "samples", "tolerance",
 /// "solver"[, "automatic"]}[, "error_bars":{"worn_volume_m3", "largest_depth_m"}][, "spread"][, "band"]}.
-/// A history adds "ended", "finished" (depth_m is then the direct method's, from the history's end),
-/// "final_worn_volume_m3", "amplitude_m":[S], "depths_m":[S][Nc], "wear_rates_m_per_cycle":[S][Nc], "history" (how it
-/// was computed) and, when asked for, "response_curves". An asymptote has S = 1 and cycles [null] and adds
+/// What is not known where the status is not_converged is null, and "reason" says why.
+/// A history adds "ended", "finished" (the last entry of every list [S] is then the direct method's state from the
+/// history's end, which depth_m and the final rate are of; its number of cycles is null), "final_worn_volume_m3",
+/// "amplitude_m":[S], "depths_m":[S][Nc], "wear_rates_m_per_cycle":[S][Nc], "history" (how it was computed, and what
+/// --resume needs) and, when asked for, "response_curves". An asymptote has S = 1 and cycles [null] and adds
 /// "interpolated_volume_m3" and "interpolated_depth_m":[Nc] with the worn zones' edges between nodes,
 /// "volume_bracket_m3":[2], "certificate", "finer_certificate":{"harmonics", "samples", "status", "remaining",
 /// "holds"}, "decided_by", "doubt", "confirmed_by_history" and "other_states"; its `frequencies_hz` are those of the

@@ -109,7 +109,8 @@ void define_model_commands(CLI::App& app, Arguments& a) {
                    "Excitation frequency (default: the unworn resonance of the study's mode, of a model's lowest)")
       ->type_name("HZ");
   wear->add_option("--follow", a.wear.follow,
-                   "fixed: the frequency stays; resonance: it tracks the moving resonance; band: the worst of several "
+                   "fixed: the frequency stays; resonance: it tracks the moving resonance (not with --integrator "
+                   "implicit); band: the worst of several "
                    "held ones (default: loading.follow of a study, fixed for a model)")
       ->type_name("WHAT")
       ->check(CLI::IsMember({"fixed", "resonance", "band"}));
@@ -131,8 +132,11 @@ void define_model_commands(CLI::App& app, Arguments& a) {
                    "history: local error per step relative to the depth (default: explicit 0, increments as they are; "
                    "implicit 2e-4)")
       ->type_name("X");
-  wear->add_option("--resume", a.wear.resume,
-                   "history: go on from the last state in this file, which --json of another history has written")
+  wear->add_option(
+          "--resume", a.wear.resume,
+          "history: go on from the last state in this file, which --json of another history of the same "
+          "model at the same settings has written; the answer begins with the states in it, and --steps counts "
+          "the new ones")
       ->type_name("FILE");
   wear->add_option("--curves", a.wear.curves,
                    "history: response curves of so many of its states, evenly spaced in worn volume (default: 0)")

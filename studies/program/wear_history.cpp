@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <numbers>
 #include <utility>
 
 #include "response/frequency_response.hpp"
 #include "response/resonance.hpp"
-#include "studies/program/json_values.hpp"
+#include "studies/program/stored_history.hpp"
 #include "studies/program/wear_methods.hpp"
 #include "wear/depth_scale.hpp"
 #include "wear/implicit_history.hpp"
@@ -33,27 +32,6 @@ wear::ImplicitHistoryOptions implicit_options(const wear::HistoryOptions& given)
   options.start_cycles = given.start_cycles;
   options.reference_rate = given.reference_rate;
   return options;
-}
-
-[[noreturn]] void refuse(const std::string& file, const std::string& why) {
-  throw InputError(Violation{.file = {}, .key = "--resume", .value = file, .allowed = why});
-}
-
-Eigen::VectorXd vector_of(const Json& list) {
-  Eigen::VectorXd values(static_cast<Eigen::Index>(list.size()));
-  for (std::size_t i = 0; i < list.size(); ++i)
-    values[static_cast<Eigen::Index>(i)] = list[i].is_null() ? kUnknown : list[i].get<double>();
-  return values;
-}
-
-Eigen::MatrixXd matrix_of(const Json& rows, Eigen::Index columns) {
-  Eigen::MatrixXd matrix(static_cast<Eigen::Index>(rows.size()), columns);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Eigen::VectorXd row = vector_of(rows[i]);
-    if (row.size() != columns) return {};
-    matrix.row(static_cast<Eigen::Index>(i)) = row.transpose();
-  }
-  return matrix;
 }
 
 /// Frequencies of the curves, Hz.
@@ -88,31 +66,6 @@ std::vector<double> curve_frequencies(const WearOptions& options, const LoadedMo
 
 }  // namespace
 
-StoredHistory read_history(const std::string& file, Eigen::Index nodes) {
-  std::ifstream stream(file);
-  if (!stream) refuse(file, "cannot be read");
-  const Json json = Json::parse(stream, nullptr, false);
-  if (!json.is_object() || json.value("method", "") != "history")
-    refuse(file, "is no answer of dovetail wear --method history --json");
-  StoredHistory stored;
-  try {
-    wear::History& history = stored.history;
-    history.cycles = vector_of(json.at("cycles"));
-    history.worn_volume = vector_of(json.at("worn_volume_m3"));
-    history.frequency = kTurn * vector_of(json.at("frequencies_hz"));
-    history.depth = matrix_of(json.at("depths_m"), nodes);
-    history.rate = matrix_of(json.at("wear_rates_m_per_cycle"), nodes);
-    stored.increment = json.at("history").value("increment_m", 0.0);
-    const Eigen::Index states = history.cycles.size();
-    if (states == 0 || history.depth.rows() != states || history.rate.rows() != states ||
-        history.frequency.size() != states)
-      refuse(file, "is a history of other contact nodes, or of none");
-  } catch (const Json::exception& error) {
-    refuse(file, std::string("is incomplete: ") + error.what());
-  }
-  return stored;
-}
-
 ComputedHistory compute_history(const WearOptions& options, const LoadedModel& loaded, const WearStart& at,
                                 const response::ContactCondition& condition, const wear::Control& control) {
   constexpr double kShare = 0.01;
@@ -126,6 +79,7 @@ ComputedHistory compute_history(const WearOptions& options, const LoadedModel& l
   settings.tolerance = options.history_tolerance.value_or(settings.tolerance);
   settings.rate_threshold = rate_threshold(loaded, settings.rate_threshold);
 
+  choice.identity = history_identity(options, loaded, at.hz);
   double omega = at.omega;
   response::ContactCondition start = condition;
   std::optional<double> increment = options.increment_m;
@@ -133,6 +87,22 @@ ComputedHistory compute_history(const WearOptions& options, const LoadedModel& l
   if (!options.resume.empty()) {
     choice.resumed_from = options.resume;
     past = read_history(options.resume, loaded.condensed->nodes());
+    check_identity(*past, choice.identity, options.resume);
+    const double done = past->history.cycles[past->history.cycles.size() - 1];
+    if (options.cycles && *options.cycles <= done)
+      throw InputError(Violation{.file = {},
+                                 .key = "--cycles",
+                                 .value = shortest(*options.cycles),
+                                 .allowed = "must be > " + shortest(done) + ", the cycles done in " + options.resume});
+    if (!options.history_tolerance) settings.tolerance = past->tolerance;
+    choice.depth_scale = past->depth_scale;
+    // A joint at rest, or one that wears steadily for ever, stays so.
+    if (past->history.end == wear::HistoryEnd::worn_out || past->history.end == wear::HistoryEnd::steady_rate) {
+      settings.start_cycles = done;
+      settings.increment = increment.value_or(past->increment);
+      result.history = past->history;
+      return result;
+    }
     const wear::Resumption next = wear::resume(past->history, condition, settings);
     omega = next.omega;
     start = next.start;
@@ -153,13 +123,14 @@ ComputedHistory compute_history(const WearOptions& options, const LoadedModel& l
   if (options.integrator == "implicit") {
     const wear::ImplicitHistoryOptions implicit = implicit_options(settings);
     settings.tolerance = implicit.tolerance;
-    result.history = wear::as_history(
-        wear::implicit_history(loaded.condensed, omega, start, loaded.steady, implicit, nullptr, control),
-        *loaded.condensed);
+    result.history = wear::as_history(wear::implicit_history(loaded.condensed, omega, start, loaded.steady, implicit,
+                                                             nullptr, control, past ? &past->history : nullptr),
+                                      *loaded.condensed);
   } else {
-    result.history = wear::history(loaded.condensed, omega, start, loaded.steady, settings, {}, control);
+    result.history = wear::history(loaded.condensed, omega, start, loaded.steady, settings, {}, control, {},
+                                   past ? &past->history : nullptr);
   }
-  result.history.solves += solves;
+  result.history.solves += solves + (past ? past->history.solves : 0);
   return result;
 }
 

@@ -6,6 +6,7 @@
 
 #include "studies/program/commands.hpp"
 #include "studies/program/engine.hpp"
+#include "studies/program/stored_history.hpp"
 #include "wear/control.hpp"
 #include "wear/history.hpp"
 
@@ -19,6 +20,7 @@ struct HistoryChoice {
   wear::HistoryOptions options;         ///< as used; of an implicit history only what it shares
   double depth_scale = 0;               ///< m, of which the increment is a hundredth by default; 0: not computed
   std::string resumed_from;             ///< the file, or empty
+  std::vector<IdentityEntry> identity;  ///< what a history that goes on with this one must share with it
 };
 
 /// Response of the joint as worn at one state of a history.
@@ -33,18 +35,13 @@ struct ComputedHistory {
   HistoryChoice choice;
 };
 
-/// The history asked for from `condition`, or on from the one in the file of --resume. Throws InputError for a file
-/// that is no history of this model.
+/// The history asked for from `condition`, or on from the one in the file of --resume: the result then begins with that
+/// one's states and is the one that was never stopped, to the residuals of steady states (where --cycles stopped it a
+/// state more: to the error of the steps). A file's history that had come to its end is the result itself. Throws
+/// InputError for a file that is no history of this model at these settings, or one that is past --cycles.
 [[nodiscard]] ComputedHistory compute_history(const WearOptions& options, const LoadedModel& loaded,
                                               const WearStart& at, const response::ContactCondition& condition,
                                               const wear::Control& control);
-
-/// A history as `dovetail wear --json` wrote it, with what resuming needs; increment 0: not known.
-struct StoredHistory {
-  wear::History history;
-  double increment = 0;
-};
-[[nodiscard]] StoredHistory read_history(const std::string& file, Eigen::Index nodes);
 
 /// Response curves of the joint as worn at --curves states, evenly spaced in worn volume from the first to the last.
 /// Without --curve-from and --curve-to their frequencies lie around the resonances of both, by three times the distance

@@ -73,7 +73,27 @@ Json choice_json(const HistoryChoice& choice) {
   json["start_cycles"] = number(options.start_cycles);
   json["rate_threshold_m_per_cycle"] = number(options.rate_threshold);
   if (!choice.resumed_from.empty()) json["resumed_from"] = choice.resumed_from;
+  if (!choice.identity.empty()) json["identity"] = Json::object();
+  for (const IdentityEntry& entry : choice.identity)
+    std::visit([&](const auto& value) { json["identity"][entry.key] = value; }, entry.value);
   return json;
+}
+
+/// What --resume needs besides the states.
+Json memory_json(const wear::History& history) {
+  const wear::StepMemory& memory = history.memory;
+  return Json{{"next_step_cycles", number(memory.step)},
+              {"penetration_m", number(memory.penetration)},
+              {"finish_below", number(memory.finish_below)},
+              {"recovering", memory.recovering},
+              {"jumps", memory.jumps},
+              {"displacement_m", rows(history.steady.displacement)},
+              {"factored_displacement_m", rows(memory.factored_displacement)},
+              {"factored_depth_m", numbers(memory.factored_depth)}};
+}
+
+Json unknown(Eigen::Index size) {
+  return Json(static_cast<std::size_t>(size), Json(nullptr));
 }
 
 Json curves_json(const std::vector<WornCurve>& curves) {
@@ -86,19 +106,27 @@ Json curves_json(const std::vector<WornCurve>& curves) {
   return list;
 }
 
+/// The finished state, after any number of cycles, is the last entry of the lists.
 void add_history(const wear::History& history, Json& json) {
-  const Eigen::Index last = history.depth.rows() - 1;
+  const bool known = history.cycles.size() > 0;
   json["ended"] = std::string(wear::to_string(history.end));
   json["cycles"] = numbers(history.cycles);
   json["worn_volume_m3"] = numbers(history.worn_volume);
-  json["depth_m"] = numbers(history.final_depth);
-  json["final_worn_volume_m3"] = number(history.final_volume);
+  json["depth_m"] = known ? numbers(history.final_depth) : unknown(history.final_depth.size());
+  json["final_worn_volume_m3"] = known ? number(history.final_volume) : Json(nullptr);
   json["finished"] = history.finished;
   json["amplitude_m"] = numbers(history.amplitude);
   json["depths_m"] = rows(history.depth);
   json["wear_rates_m_per_cycle"] = rows(history.rate);
-  json["final_wear_rate_m_per_cycle"] =
-      last < 0 ? Json::array() : numbers(Eigen::VectorXd(history.rate.row(last).transpose()));
+  json["final_wear_rate_m_per_cycle"] = known ? numbers(history.final_rate) : unknown(history.final_depth.size());
+  json["other_states"] = Json::array();
+  if (!known || !history.finished) return;
+  json["cycles"].push_back(nullptr);
+  json["worn_volume_m3"].push_back(number(history.final_volume));
+  json["amplitude_m"].push_back(nullptr);
+  json["depths_m"].push_back(json["depth_m"]);
+  json["wear_rates_m_per_cycle"].push_back(json["final_wear_rate_m_per_cycle"]);
+  if (!json["frequencies_hz"].empty()) json["frequencies_hz"].push_back(json["frequencies_hz"].back());
 }
 
 /// States at rest where the history does not go.
@@ -112,7 +140,20 @@ Json other_states(const wear::Asymptote& asymptote) {
   return list;
 }
 
+/// What an attempt without a verdict knows of the worn state: nothing.
+void add_unknown_asymptote(const wear::Asymptote& asymptote, Json& json) {
+  for (const char* key : {"cycles", "worn_volume_m3"}) json[key] = unknown(1);
+  json["interpolated_volume_m3"] = nullptr;
+  json["edge_status"] =
+      asymptote.status == Status::converged ? Json(nullptr) : Json(std::string(to_string(asymptote.status)));
+  json["volume_bracket_m3"] = unknown(2);
+  for (const char* key : {"depth_m", "interpolated_depth_m", "final_wear_rate_m_per_cycle"})
+    json[key] = unknown(asymptote.depth.size());
+  for (const char* key : {"certificate", "decided_by"}) json[key] = nullptr;
+}
+
 void add_asymptote(const wear::Asymptote& asymptote, Json& json) {
+  if (asymptote.verdict == wear::Verdict::not_converged) return add_unknown_asymptote(asymptote, json);
   json["cycles"] = Json::array({nullptr});
   json["worn_volume_m3"] = Json::array({number(asymptote.worn_volume)});
   json["interpolated_volume_m3"] = number(asymptote.interpolated_volume);
@@ -128,7 +169,10 @@ void add_asymptote(const wear::Asymptote& asymptote, Json& json) {
                                      {"status", std::string(to_string(asymptote.finer.status))},
                                      {"remaining", number(asymptote.finer.remaining)},
                                      {"holds", asymptote.holds_finer}};
-  json["decided_by"] = asymptote.decided_by;
+}
+
+void add_verdict(const wear::Asymptote& asymptote, Json& json) {
+  if (asymptote.verdict != wear::Verdict::not_converged) json["decided_by"] = asymptote.decided_by;
   json["doubt"] = asymptote.doubt;
   json["confirmed_by_history"] = asymptote.confirmed_by_history;
   json["other_states"] = other_states(asymptote);
@@ -152,15 +196,21 @@ std::string wear_json(const WearQuestion& question, const WearAnswer& answer) {
   Json json;
   json["method"] = answer.history ? "history" : "asymptote";
   json["status"] = answer.status;
+  if (answer.status == "not_converged")
+    json["reason"] = answer.reason.empty() ? std::string(to_string(answer.solver)) : answer.reason;
   json["follow"] = question.follow;
   json["frequency_hz"] = number(question.frequency_hz);
   json["frequencies_hz"] = numbers(answer.frequencies_hz);
   if (answer.history) {
     add_history(*answer.history, json);
     json["history"] = choice_json(answer.choice);
+    json["history"]["memory"] = memory_json(*answer.history);
     if (!answer.curves.empty()) json["response_curves"] = curves_json(answer.curves);
   }
-  if (answer.asymptote) add_asymptote(*answer.asymptote, json);
+  if (answer.asymptote) {
+    add_asymptote(*answer.asymptote, json);
+    add_verdict(*answer.asymptote, json);
+  }
   json["solves"] = answer.solves;
   json["settings"] = question_json(question);
   if (question.bars) json["error_bars"] = worn(question.bars->worn_volume, question.bars->largest_depth);

@@ -78,6 +78,8 @@ WearStart wear_start(const WearOptions& options, const LoadedModel& loaded) {
     throw InputError(
         Violation{.file = {}, .key = options.input, .value = {}, .allowed = why + "; give --frequency HZ"});
   };
+  if (!options.resume.empty())
+    return wear_start_at(read_history(options.resume, loaded.condensed->nodes()).frequency_hz);
   if (loaded.glued_omega <= 0) refuse("has no natural frequency to start from");
   if (loaded.model.output_names.empty()) refuse("has no output whose resonance could be found");
   WearStart at;
@@ -85,6 +87,27 @@ WearStart wear_start(const WearOptions& options, const LoadedModel& loaded) {
   at.omega = at.resonance->omega;
   at.hz = at.omega / kTurn;
   return at;
+}
+
+WearAnswer unknown_answer(const WearOptions& options, Eigen::Index nodes, Status why) {
+  const Eigen::VectorXd unknown = Eigen::VectorXd::Constant(nodes, std::numeric_limits<double>::quiet_NaN());
+  WearAnswer answer;
+  answer.status = "not_converged";
+  answer.solver = why;
+  answer.depth = unknown;
+  if (options.method == "history") {
+    wear::History& history = answer.history.emplace();
+    history.status = why;
+    history.end = why == Status::interrupted ? wear::HistoryEnd::interrupted : wear::HistoryEnd::failed;
+    history.final_depth = unknown;
+    answer.choice.integrator = options.integrator;
+  } else {
+    wear::Asymptote& asymptote = answer.asymptote.emplace();
+    asymptote.status = why;
+    asymptote.depth = unknown;
+    answer.frequencies_hz = {std::numeric_limits<double>::quiet_NaN()};
+  }
+  return answer;
 }
 
 WearAnswer wear_answer(const WearOptions& options, const LoadedModel& loaded, const WearStart& at,
@@ -96,6 +119,7 @@ WearAnswer wear_answer(const WearOptions& options, const LoadedModel& loaded, co
 WearBand wear_band(const WearOptions& options, const LoadedModel& loaded, const wear::Control& control) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   WearBand band;
+  band.answer = unknown_answer(options, loaded.condensed->nodes(), Status::interrupted);
   double worst = -1;
   for (int i = 0; i < options.band_points && !control.stopped(); ++i) {
     const double part = options.band_points == 1 ? 0 : static_cast<double>(i) / (options.band_points - 1);

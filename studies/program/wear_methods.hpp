@@ -40,6 +40,7 @@ struct WearAnswer {
   std::vector<WornCurve> curves;  ///< along the history, when asked for
   std::string status;             ///< "asymptote" | "no_asymptote" | "not_converged"
   Status solver = Status::converged;
+  std::string reason;  ///< why it did not converge, where `solver` does not say it
   std::vector<double> frequencies_hz;
   double volume = 0;      ///< m^3, of the last state, worn out or not
   Eigen::VectorXd depth;  ///< [Nc] m, of the last state
@@ -51,9 +52,16 @@ struct WearAnswer {
     return asymptote ? asymptote->interpolated_depth : depth;
   }
 
+  /// Whether volume and depth are those of a state, not of an attempt that failed before any.
+  [[nodiscard]] bool known() const {
+    return history ? history->cycles.size() > 0 : asymptote && asymptote->verdict != wear::Verdict::not_converged;
+  }
   [[nodiscard]] bool worn_out() const { return status == "asymptote"; }
   [[nodiscard]] double largest_depth() const { return depth.size() > 0 ? depth.maxCoeff() : 0; }
 };
+
+/// The answer of a computation that failed before it had any state.
+[[nodiscard]] WearAnswer unknown_answer(const WearOptions& options, Eigen::Index nodes, Status why);
 
 /// The worn state by the method asked for, the excitation held or tracking the resonance.
 [[nodiscard]] WearAnswer wear_answer(const WearOptions& options, const LoadedModel& loaded, const WearStart& at,

@@ -40,6 +40,7 @@ wear::History history(wear::HistoryEnd end) {
   h.rate = (Eigen::MatrixXd(3, 2) << 5, 6, 3, 4, 1, 2).finished();
   h.frequency = Eigen::Vector3d::Constant(6.283185307179586);
   h.final_depth = Eigen::Vector2d(2e-7, 3e-7);
+  h.final_rate = Eigen::Vector2d(1, 2);
   h.final_volume = 2e-12;
   h.solves = 7;
   return h;
