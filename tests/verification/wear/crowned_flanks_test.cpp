@@ -53,7 +53,7 @@ TEST(CrownedFlanks, WearAsHistoriesDo) {
     // As long as it takes: where nodes touch at times, rates die out slowly.
     const ImplicitHistory past = implicit_history(worn.model.condensed, worn.omega, {}, worn.steady,
                                                   {.rate_fraction = 1e-6, .rate_threshold = 0.0}, &worn.direct.unworn);
-    ASSERT_EQ(past.end, ImplicitEnd::worn_out);
+    ASSERT_EQ(past.end, HistoryEnd::worn_out);
     const Eigen::Index last = past.cycles.size() - 1;
     const Eigen::VectorXd depth = past.depth.row(last).transpose();
     const double error = (depth - worn.direct.depth).cwiseAbs().maxCoeff() / worn.direct.largest_depth;

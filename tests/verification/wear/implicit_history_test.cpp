@@ -136,6 +136,25 @@ TEST(History, IsResumed) {
   EXPECT_NEAR(second.final_volume, whole.final_volume, 1e-5 * whole.final_volume);
 }
 
+// With its past an implicit one, too, is the one that went on: the same factors, step and first rate. What is solved
+// again is the last state, to 1e-10.
+TEST(ImplicitHistory, IsResumed) {
+  const Model model = block(2);
+  const History whole = as_history(implicit_history(model, 1.0, {}, kSteady), *model);
+  ASSERT_EQ(whole.end, HistoryEnd::worn_out);
+  const History first = as_history(implicit_history(model, 1.0, {}, kSteady, {.steps = 6}), *model);
+  ASSERT_EQ(first.end, HistoryEnd::steps);
+  const Resumption next = resume(first, {}, {});
+  const ImplicitHistoryOptions options{.start_cycles = next.options.start_cycles,
+                                       .reference_rate = next.options.reference_rate};
+  const History second =
+      as_history(implicit_history(model, next.omega, next.start, kSteady, options, nullptr, {}, &first), *model);
+  EXPECT_EQ(second.end, HistoryEnd::worn_out);
+  ASSERT_EQ(second.cycles.size(), whole.cycles.size());
+  EXPECT_LT((second.cycles - whole.cycles).cwiseAbs().maxCoeff(), 1e-8 * whole.cycles.maxCoeff());
+  EXPECT_LT((second.depth - whole.depth).cwiseAbs().maxCoeff(), 1e-8 * whole.depth.maxCoeff());
+}
+
 // With the error controlled, coarse increments lose their overshoot.
 TEST(History, ControlsItsError) {
   const Model model = block(3);
