@@ -63,7 +63,7 @@ fem::SectorMesh solid_layers(const fem::SectorMesh& plane, int layers) {
   solid.blade_fillet_nodes = heights.repeated(plane.blade_fillet_nodes);
   solid.disk_fillet_nodes = heights.repeated(plane.disk_fillet_nodes);
   solid.neck_nodes = heights.in_middle(plane.neck_nodes);
-  solid.axial_nodes = heights.in_middle(plane.bore_nodes);
+  solid.axial_nodes = solid.bore_nodes;
   solid.tip_node = plane.tip_node + heights.middle();
   solid.sectors = plane.sectors;
   return solid;

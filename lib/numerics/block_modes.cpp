@@ -21,18 +21,49 @@ using Dense = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 /// M times blocks of columns, row by row of M, without its stored zeros (a mass matrix on the pattern of a stiffness is
 /// mostly zeros).
 template <class Scalar>
-class Weight {
+class Weight;
+
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+template <>
+class Weight<double> {
  public:
-  explicit Weight(const Eigen::SparseMatrix<Scalar>& mass) : mass_(mass) { mass_.prune(Scalar(0)); }
-  [[nodiscard]] Dense<Scalar> operator()(const Dense<Scalar>& x) const {
+  explicit Weight(const Eigen::SparseMatrix<double>& mass) : mass_(mass) { mass_.prune(0.0); }
+  [[nodiscard]] Eigen::MatrixXd operator()(const Eigen::MatrixXd& x) const {
     const Rows rows = x;
     const Rows product = mass_ * rows;
     return product;
   }
 
  private:
-  using Rows = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  Eigen::SparseMatrix<Scalar, Eigen::RowMajor> mass_;
+  SparseRows mass_;
+};
+
+/// Cyclic symmetry makes few entries complex, and complex products cost several real ones: real and imaginary parts
+/// side by side.
+template <>
+class Weight<std::complex<double>> {
+ public:
+  explicit Weight(const Eigen::SparseMatrix<std::complex<double>>& mass) : real_(mass.real()), imag_(mass.imag()) {
+    real_.prune(0.0);
+    imag_.prune(0.0);
+  }
+  [[nodiscard]] Eigen::MatrixXcd operator()(const Eigen::MatrixXcd& x) const {
+    const Eigen::Index k = x.cols();
+    Rows parts(x.rows(), 2 * k), turned(x.rows(), 2 * k);
+    parts << x.real(), x.imag();
+    turned << -x.imag(), x.real();
+    Rows product = real_ * parts;
+    product += imag_ * turned;
+    Eigen::MatrixXcd result(x.rows(), k);
+    result.real() = product.leftCols(k);
+    result.imag() = product.rightCols(k);
+    return result;
+  }
+
+ private:
+  SparseRows real_, imag_;
 };
 
 // Tall products on OpenBLAS.

@@ -148,7 +148,7 @@ void add_nodal_diameters(const CandidateModel& model, const DesignRecordOptions&
   if (options.nodal_diameter_modes < 1) return;
   const fem::NodalDiameterFrequencies found = fem::nodal_diameter_frequencies(
       model.mesh.sector, model.stiffness, model.system.full.mass, fem::BoreSupport::tangential,
-      {.modes = {.count = options.nodal_diameter_modes}, .tolerance = 1e-6});
+      {.modes = {.count = options.nodal_diameter_modes}, .tolerance = 1e-5});
   NodalDiameterRecord& out = record.nodal_diameters;
   out.nodal_diameter.assign(found.nodal_diameters.begin(), found.nodal_diameters.end());
   out.modes = found.frequency.cols();
