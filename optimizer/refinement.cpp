@@ -61,7 +61,8 @@ double volume_at_edges(const CandidateModel& model, const wear::Asymptote& asymp
 /// them, otherwise of whole nodes. Empty when they are not known.
 Eigen::VectorXd depth_at(wear::Release& release, const response::SteadyState& unworn, bool between_nodes) {
   const wear::AsymptoteOptions defaults;
-  const double threshold = std::max(defaults.rate_threshold, defaults.relative_threshold * unworn.wear_rate.maxCoeff());
+  const double threshold = std::max(wear::no_wear_rate(defaults.rate_threshold, release.model(), unworn),
+                                    defaults.relative_threshold * unworn.wear_rate.maxCoeff());
   if (between_nodes) {
     const wear::PartialRelease partial = wear::release_partially(release, unworn, threshold, defaults.passes);
     return partial.settled ? partial.depth : Eigen::VectorXd();
@@ -83,7 +84,9 @@ Eigen::VectorXd wear_bars(const CandidateResult& result, const response::SteadyO
   volume = depth = 0;
   if (asymptote.largest_depth == 0) {
     // Every node sticks: no wear at these settings, and no measure of how near to slip finer ones would come.
-    if (asymptote.unworn_rate.maxCoeff() > wear::AsymptoteOptions{}.rate_threshold) volume = depth = kUnknown;
+    if (asymptote.unworn_rate.maxCoeff() >
+        wear::no_wear_rate(wear::AsymptoteOptions{}.rate_threshold, *result.model.condensed, result.unworn->state))
+      volume = depth = kUnknown;
     return {};
   }
 

@@ -75,8 +75,31 @@ bool lifts_off(const Passes& passes, const VectorXd& depth, double tolerance) {
   return false;
 }
 
+/// What rates are held against, m per cycle.
+struct Rates {
+  double fastest = 0.0;  ///< unworn
+  double none = 0.0;     ///< counts as no wear
+
+  /// Relative to the unworn rate; where that is none itself, to what counts as none.
+  [[nodiscard]] double certificate(double rate) const {
+    if (fastest > none) return rate / fastest;
+    return rate <= none ? 0.0 : rate / none;
+  }
+  [[nodiscard]] double limit(double certificate_limit) const {
+    return fastest > none ? std::max(certificate_limit, none / fastest) : 1.0;
+  }
+};
+
+/// Whole nodes wear off what is not between the edges moved to the nodes inside and outside: two states at rest.
+bool edges_elsewhere(const Asymptote& result) {
+  const double width = std::max(result.volume_bracket[1] - result.volume_bracket[0], 0.1 * result.worn_volume);
+  return result.edge_status == Status::converged && result.share.size() > 0 &&
+         (result.worn_volume > result.volume_bracket[1] + width ||
+          result.worn_volume < result.volume_bracket[0] - width);
+}
+
 /// Solves once more with the worn gap and contact everywhere.
-void certify(Release& release, double fastest, const AsymptoteOptions& options, Asymptote& result) {
+void certify(Release& release, const Rates& rates, const AsymptoteOptions& options, Asymptote& result) {
   const response::SteadyState worn = release.solve_worn(result.depth, result.steady.displacement);
   if (worn.status != Status::converged) {
     result.verdict = Verdict::not_converged;
@@ -85,8 +108,8 @@ void certify(Release& release, double fastest, const AsymptoteOptions& options, 
   }
   result.rate = worn.wear_rate;
   result.steady = worn;
-  result.certificate = fastest > 0.0 ? worn.wear_rate.maxCoeff() / fastest : 0.0;
-  if (!(worn.wear_rate.maxCoeff() <= std::max(options.certificate_limit * fastest, options.rate_threshold))) {
+  result.certificate = rates.certificate(worn.wear_rate.maxCoeff());
+  if (!(result.certificate <= rates.limit(options.certificate_limit))) {
     result.verdict = Verdict::not_converged;
     result.status = Status::stalled;
   }
@@ -107,14 +130,16 @@ bool near_slip(const response::CondensedModel& model, const response::SteadyStat
 }
 
 /// Whether the answer rests at finer settings, too.
-void certify_finer(const std::shared_ptr<const response::CondensedModel>& model, double fastest,
+void certify_finer(const std::shared_ptr<const response::CondensedModel>& model, const Rates& rates,
                    const response::SteadyOptions& steady, const AsymptoteOptions& options, Release& release,
                    Asymptote& result) {
   if (result.verdict != Verdict::asymptote || !options.certify_finer || release.stopped()) return;
-  result.finer = certificate(model, release.start(), result.depth, fastest, result.steady, finer_settings(steady));
+  result.finer =
+      certificate(model, release.start(), result.depth, rates.fastest, result.steady, finer_settings(steady));
   release.count(1, result.finer.jacobians);
-  const double limit = fastest > 0.0 ? std::max(options.certificate_limit, options.rate_threshold / fastest) : 0.0;
-  result.holds_finer = result.finer.status == Status::converged && result.finer.remaining <= limit;
+  if (!(rates.fastest > rates.none)) result.finer.remaining = rates.certificate(result.finer.remaining * rates.fastest);
+  result.holds_finer =
+      result.finer.status == Status::converged && result.finer.remaining <= rates.limit(options.certificate_limit);
   // Whatever else was in doubt has been settled when the history has decided.
   if (!result.holds_finer && (result.doubt.empty() || result.confirmed_by_history)) result.doubt = "finer_settings";
 }
@@ -152,13 +177,13 @@ void take_history(const reduction::ContactNodes& contact, const VectorXd& depth,
 /// The implicit history has the last word. Where it cannot be followed to its end a settled direct answer stands,
 /// unconfirmed; any other becomes not_converged.
 void arbitrate(const std::shared_ptr<const response::CondensedModel>& model, double omega, Release& release,
-               double fastest, const response::SteadyOptions& steady, const AsymptoteOptions& options,
+               const Rates& rates, const response::SteadyOptions& steady, const AsymptoteOptions& options,
                const Direct& direct, const Control& control, Asymptote& result) {
   const reduction::ContactNodes& contact = model->contact();
   const ImplicitHistory past = implicit_history(model, omega, release.start(), steady,
                                                 {.tolerance = options.history_tolerance,
                                                  .rate_fraction = options.relative_threshold,
-                                                 .rate_threshold = options.rate_threshold},
+                                                 .rate_threshold = rates.none},
                                                 &result.unworn, control);
   release.count(past.solves, past.jacobians);
   const Index last = past.cycles.size() - 1;
@@ -186,7 +211,7 @@ void arbitrate(const std::shared_ptr<const response::CondensedModel>& model, dou
     result.verdict = Verdict::no_asymptote;
     return;
   }
-  result.certificate = fastest > 0.0 ? rate.maxCoeff() / fastest : 0.0;
+  result.certificate = rates.certificate(rate.maxCoeff());
   result.verdict = Verdict::asymptote;
 }
 
@@ -231,8 +256,9 @@ Asymptote asymptote(const std::shared_ptr<const response::CondensedModel>& model
   result.status = passes.state.status;
   if (passes.state.status != Status::converged) return finish();
   result.unworn_rate = passes.state.wear_rate;
-  const double fastest = result.unworn_rate.size() == 0 ? 0.0 : result.unworn_rate.maxCoeff();
-  const double threshold = std::max(options.rate_threshold, options.relative_threshold * fastest);
+  Rates rates{.fastest = options.reference_rate, .none = no_wear_rate(options.rate_threshold, *model, result.unworn)};
+  if (!(rates.fastest > 0.0) && result.unworn_rate.size() > 0) rates.fastest = result.unworn_rate.maxCoeff();
+  const double threshold = std::max(rates.none, options.relative_threshold * rates.fastest);
 
   const Ending ending = release_slipping(release, threshold, options.passes, control, passes);
   result.status = passes.status;
@@ -252,13 +278,15 @@ Asymptote asymptote(const std::shared_ptr<const response::CondensedModel>& model
     result.verdict = Verdict::asymptote;
     set_depth(contact, release.depth(passes.released, passes.state), result);
     if (options.interpolate_edge) place_edges(release, threshold, options.passes, result);
-    if (options.certify) certify(release, fastest, options, result);
+    if (options.certify) certify(release, rates, options, result);
     if (result.verdict != Verdict::asymptote)
       direct.doubt = "certificate";
     else if (reloads(passes.deepest, result.depth, options.state_tolerance))
       direct.doubt = "reload";
     else if (lifts_off(passes, result.depth, options.state_tolerance))
       direct.doubt = "lift_off";
+    else if (edges_elsewhere(result))
+      direct.doubt = "edges";
   }
   const int solves = release.solves();
   const int jacobians = release.jacobians();
@@ -282,16 +310,16 @@ Asymptote asymptote(const std::shared_ptr<const response::CondensedModel>& model
   const bool stands = direct.settled && result.verdict == Verdict::asymptote;
   if (result.doubt.empty() || options.arbitration == "never" || (options.arbitration == "unsettled" && stands)) {
     count_arbitration();
-    certify_finer(model, fastest, steady, options, release, result);
+    certify_finer(model, rates, steady, options, release, result);
     return finish();
   }
-  arbitrate(model, omega, release, fastest, steady, options, direct, control, result);
+  arbitrate(model, omega, release, rates, steady, options, direct, control, result);
   if (result.decided_by == "history")
     for (std::size_t i = 0; i < passes.released.size(); ++i)
       passes.released[i] = result.depth[static_cast<Index>(i)] > release.start().wear_depth[static_cast<Index>(i)] &&
                            !result.steady.nodes[i].carries_load;
   count_arbitration();
-  certify_finer(model, fastest, steady, options, release, result);
+  certify_finer(model, rates, steady, options, release, result);
   return finish();
 }
 

@@ -13,6 +13,7 @@
 #include "response/steady_state.hpp"
 #include "wear/certificate.hpp"
 #include "wear/control.hpp"
+#include "wear/no_wear.hpp"
 
 namespace dovetail::wear {
 
@@ -25,13 +26,14 @@ enum class Verdict {
 [[nodiscard]] std::string_view to_string(Verdict verdict);
 
 struct AsymptoteOptions {
-  // > 0. Wear per cycle below which a loaded node counts as stuck, m per cycle. The default, 1e-9 um, times a
-  // design life of 1e9 cycles is 1 um; lower it for lives beyond that.
-  double rate_threshold = 1e-15;
+  // Wear per cycle below which a loaded node counts as stuck, m per cycle; negative: from the model, see no_wear_rate.
+  double rate_threshold = kFromModel;
   // in [0, 1). The same, relative to the largest rate of the unworn state: slip below about 1e-5 of genuine slip (at
   // 128 samples, more where nodes lift off) does not converge with harmonics and samples but is noise of the time
   // discretisation.
   double relative_threshold = 1e-4;
+  // >= 0. Largest rate that certificate and relative_threshold refer to, m per cycle; 0: that of the start.
+  double reference_rate = 0.0;
   // >= 1. Passes of release; each releases every loaded node that slips.
   int passes = 60;
   // auto | unsettled | never | always. Whether the implicit history has the last word: where the direct answer is in
@@ -94,7 +96,8 @@ struct Asymptote {
   /// Why the direct answer was in doubt: "" (not at all), nothing_holds (every loaded node slips), pass_failed,
   /// certificate (above its limit), lift_off (a worn node touched at times only), reload (a node worn off on the way
   /// did not need to), worst_first (releasing the fastest nodes first does not end there, or reloads), near_slip (a
-  /// node that sticks has less than 5 % of its friction to spare), finer_settings (the certificate is above its limit
+  /// node that sticks has less than 5 % of its friction to spare), edges (whole nodes and zones with edges between
+  /// nodes end in different states), finer_settings (the certificate is above its limit
   /// at finer settings) or always (asked for).
   std::string doubt;
   std::string decided_by = "release";    ///< release | history: what `depth` and `verdict` are from

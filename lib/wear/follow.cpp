@@ -26,6 +26,10 @@ FollowedAsymptote followed_asymptote(const std::shared_ptr<const response::Conde
   response::ResonanceOptions near = resonance;
   near.sweep_range = 0;
   Asymptote& last = result.asymptote;
+  // Later passes begin worn: what is left of the wear is held against the unworn rate.
+  AsymptoteOptions onwards = options;
+  if (result.held.unworn_rate.size() > 0 && !(onwards.reference_rate > 0.0))
+    onwards.reference_rate = result.held.unworn_rate.maxCoeff();
   const auto fail = [&](Status status) {
     last.verdict = Verdict::not_converged;
     last.status = status;
@@ -45,7 +49,7 @@ FollowedAsymptote followed_asymptote(const std::shared_ptr<const response::Conde
     const bool stays = std::abs(worn.omega / omega - 1) < kTolerance;
     omega = worn.omega;
     if (stays) return result;
-    last = asymptote(model, omega, condition, steady, options, nullptr, control);
+    last = asymptote(model, omega, condition, steady, onwards, nullptr, control);
     result.omegas.push_back(omega);
     result.solves += last.solves;
     result.jacobians += last.jacobians;

@@ -205,7 +205,9 @@ History history(const std::shared_ptr<const response::CondensedModel>& model, do
   result.steady = std::move(current.state);
   accept(cycles, VectorXd(run.depth()));
   const double reference = options.reference_rate > 0.0 ? options.reference_rate : result.steady.wear_rate.maxCoeff();
-  const double worn_out = std::max(options.rate_threshold, options.rate_fraction * reference);
+  if (!(result.memory.no_wear > 0.0))
+    result.memory.no_wear = no_wear_rate(options.rate_threshold, *model, result.steady);
+  const double worn_out = std::max(result.memory.no_wear, options.rate_fraction * reference);
   if (result.memory.penetration == 0.0) result.memory.penetration = largest_penetration(*model, result.steady);
   const double penetration = result.memory.penetration;
   double longest = options.tolerance > 0.0 && result.memory.step > 0.0

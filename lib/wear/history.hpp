@@ -12,6 +12,7 @@
 #include "response/resonance.hpp"
 #include "response/steady_state.hpp"
 #include "wear/control.hpp"
+#include "wear/no_wear.hpp"
 
 namespace dovetail::wear {
 
@@ -28,8 +29,8 @@ struct HistoryOptions {
   double cycles = 0.0;
   // in [0, 1). Worn out when the largest rate fell below this fraction of the first one.
   double rate_fraction = 1e-4;
-  // >= 0. Worn out, too, when the largest rate fell below this, m per cycle: 1e-9 um.
-  double rate_threshold = 1e-15;
+  // Worn out, too, when the largest rate fell below this, m per cycle; negative: from the model, see no_wear_rate.
+  double rate_threshold = kFromModel;
   // in [0, 30]. Times a step whose steady state does not converge is halved before giving up.
   int halvings = 8;
   // Start each step from U + dU, dU = -J^-1 J_W dW with the last factorisation [Salles 2009, eq. 33-35].
@@ -63,6 +64,7 @@ enum class HistoryEnd {
 struct StepMemory {
   double step = 0;          ///< cycles of the next step (explicit: at most); 0: the integrator's own choice
   double penetration = 0;   ///< m, largest local one of the first state; 0: not known
+  double no_wear = 0;       ///< m per cycle that count as none, of the first state; 0: not known
   double finish_below = 0;  ///< implicit: rate, over the first one, below which a finish is tried next; 0: its own
   int recovering = 0;       ///< implicit: steps that still grow slowly
   int jumps = 0;            ///< implicit: folds crossed

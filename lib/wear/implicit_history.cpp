@@ -101,7 +101,8 @@ ImplicitHistory implicit_history(const std::shared_ptr<const response::Condensed
   records.push_back({.cycles = cycles, .depth = point.depth, .rate = point.rate});
   const double start_rate = point.rate.size() > 0 ? point.rate.maxCoeff() : 0.0;
   const double first_rate = options.reference_rate > 0.0 ? options.reference_rate : start_rate;
-  const double worn_out = std::max(options.rate_threshold, options.rate_fraction * first_rate);
+  if (!(memory.no_wear > 0.0)) memory.no_wear = no_wear_rate(options.rate_threshold, *model, result.steady);
+  const double worn_out = std::max(memory.no_wear, options.rate_fraction * first_rate);
   // A resumed one may be following its tail below that.
   if (!(start_rate > (resumed ? 0.0 : worn_out))) return finish(HistoryEnd::worn_out, Status::converged);
 

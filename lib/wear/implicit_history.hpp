@@ -9,6 +9,7 @@
 #include "response/steady_state.hpp"
 #include "wear/control.hpp"
 #include "wear/history.hpp"
+#include "wear/no_wear.hpp"
 
 namespace dovetail::wear {
 
@@ -28,8 +29,8 @@ struct ImplicitHistoryOptions {
   int stage_iterations = 10;
   // in [0, 1). Worn out when the largest rate fell below this fraction of the first one.
   double rate_fraction = 1e-6;
-  // >= 0. Worn out, too, when the largest rate fell below this, m per cycle: 1e-9 um.
-  double rate_threshold = 1e-15;
+  // Worn out, too, when the largest rate fell below this, m per cycle; negative: from the model, see no_wear_rate.
+  double rate_threshold = kFromModel;
   // > 1. A rate that stays within `level_change` while the depth doubles, beyond this many of those penetrations, has
   // levelled out: wear goes on for ever.
   double level_depth = 300.0;

@@ -29,7 +29,6 @@ class Study {
   Study(const optimizer::Scene& scene, const ComputeOptions& options)
       : options_(options), steady_(optimizer::steady_options(scene.solver)) {
     results_.scene = scene;
-    threshold_ = rate_threshold(scene);
   }
 
   Results run() {
@@ -80,9 +79,8 @@ class Study {
 
   void asymptote() {
     say("asymptote");
-    candidate_.asymptote =
-        wear::asymptote(candidate_.model.condensed, candidate_.unworn->omega, {}, steady_,
-                        {.rate_threshold = threshold_, .arbitration = "unsettled"}, &candidate_.unworn->state);
+    candidate_.asymptote = wear::asymptote(candidate_.model.condensed, candidate_.unworn->omega, {}, steady_,
+                                           {.arbitration = "unsettled"}, &candidate_.unworn->state);
     const wear::Asymptote& found = *candidate_.asymptote;
     if (found.verdict != wear::Verdict::asymptote)
       fail("No worn state at rest was found: " + std::string(wear::to_string(found.verdict)) + ".");
@@ -110,7 +108,6 @@ class Study {
     wear::HistoryOptions options;
     options.increment = depth / options_.history_steps;
     options.steps = 5 * options_.history_steps;
-    options.rate_threshold = threshold_;
     const wear::History found =
         wear::history(candidate_.model.condensed, candidate_.unworn->omega, {}, steady_, options);
     if (found.status != Status::converged)
@@ -199,8 +196,7 @@ class Study {
     const response::Resonance unworn = response::resonance(model.condensed, glued, {}, steady_);
     if (unworn.status != Status::converged) return;
     const wear::Asymptote found =
-        wear::asymptote(model.condensed, unworn.omega, {}, steady_,
-                        {.rate_threshold = threshold_, .arbitration = "unsettled"}, &unworn.state);
+        wear::asymptote(model.condensed, unworn.omega, {}, steady_, {.arbitration = "unsettled"}, &unworn.state);
     if (found.verdict != wear::Verdict::asymptote) return;
     results_.unequal_flanks_degrees = kDegrees;
     results_.unequal_flanks_volume_m3.assign(2, 0.0);
@@ -211,7 +207,6 @@ class Study {
 
   ComputeOptions options_;
   response::SteadyOptions steady_;
-  double threshold_ = 0;
   optimizer::CandidateResult candidate_;
   Results results_;
 };
@@ -223,11 +218,6 @@ Numbers of_flank(const report::ContactRecord& contact, const Numbers& values, st
   for (std::size_t i = 0; i < std::min(values.size(), contact.flank.size()); ++i)
     if (contact.flank[i] == flank) chosen.push_back(values[i]);
   return chosen;
-}
-
-double rate_threshold(const optimizer::Scene& scene) {
-  constexpr double kPerCoefficient = 1e-2;  // m Pa
-  return kPerCoefficient * scene.contact.wear_coefficient;
 }
 
 Results compute(const optimizer::Scene& scene, const ComputeOptions& options) {

@@ -15,10 +15,6 @@ struct ComputeOptions {
   std::function<void(const std::string&)> progress = {};  ///< a line for people
 };
 
-/// Rates below this are none, m per cycle: the program's threshold of 1e-15 is meant for wear coefficients of 1e-13
-/// 1/Pa, and rates go with the coefficient.
-[[nodiscard]] double rate_threshold(const optimizer::Scene& scene);
-
 /// The reference's sequence: frequencies over nodal diameters, preload, response and dissipated power, rates of the
 /// first cycle, history at the unworn resonance, asymptote, responses of the wearing joint. Throws InputError for a
 /// scene that violates its ranges; what did not converge is in `failures`.

@@ -9,7 +9,6 @@
 
 #include "optimizer/evaluator.hpp"
 #include "optimizer/stopwatch.hpp"
-#include "studies/paper_sequence/compute.hpp"
 #include "studies/report/html.hpp"
 #include "studies/report/units.hpp"
 #include "wear/asymptote.hpp"
@@ -115,8 +114,7 @@ class Convergence {
     row.frequency_hz = unworn.omega / (2 * std::numbers::pi);
     row.energy_j = unworn.state.friction_energy;
     const wear::Asymptote found =
-        wear::asymptote(model.condensed, unworn.omega, {}, steady,
-                        {.rate_threshold = rate_threshold(scene), .arbitration = "unsettled"}, &unworn.state);
+        wear::asymptote(model.condensed, unworn.omega, {}, steady, {.arbitration = "unsettled"}, &unworn.state);
     row.volume_m3 = found.interpolated_volume;
     return found.verdict == wear::Verdict::asymptote ? "converged" : std::string(wear::to_string(found.verdict));
   }

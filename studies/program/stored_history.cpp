@@ -65,6 +65,7 @@ Eigen::MatrixXd displacement_of(const Json& rows) {
 wear::StepMemory memory_of(const Json& json) {
   return {.step = json.at("next_step_cycles").get<double>(),
           .penetration = json.at("penetration_m").get<double>(),
+          .no_wear = json.at("no_wear_m_per_cycle").get<double>(),
           .finish_below = json.at("finish_below").get<double>(),
           .recovering = json.at("recovering").get<int>(),
           .jumps = json.at("jumps").get<int>(),

@@ -77,7 +77,6 @@ ComputedHistory compute_history(const WearOptions& options, const LoadedModel& l
   settings.cycles = options.cycles.value_or(settings.cycles);
   settings.steps = options.steps.value_or(kSteps);
   settings.tolerance = options.history_tolerance.value_or(settings.tolerance);
-  settings.rate_threshold = rate_threshold(loaded, settings.rate_threshold);
 
   choice.identity = history_identity(options, loaded, at.hz);
   double omega = at.omega;

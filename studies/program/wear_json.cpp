@@ -71,7 +71,7 @@ Json choice_json(const HistoryChoice& choice) {
   if (choice.depth_scale > 0) json["depth_scale_m"] = number(choice.depth_scale);
   json["cycles"] = options.cycles > 0 ? number(options.cycles) : Json(nullptr);
   json["start_cycles"] = number(options.start_cycles);
-  json["rate_threshold_m_per_cycle"] = number(options.rate_threshold);
+  json["rate_threshold_m_per_cycle"] = options.rate_threshold < 0 ? Json(nullptr) : number(options.rate_threshold);
   if (!choice.resumed_from.empty()) json["resumed_from"] = choice.resumed_from;
   if (!choice.identity.empty()) json["identity"] = Json::object();
   for (const IdentityEntry& entry : choice.identity)
@@ -84,6 +84,7 @@ Json memory_json(const wear::History& history) {
   const wear::StepMemory& memory = history.memory;
   return Json{{"next_step_cycles", number(memory.step)},
               {"penetration_m", number(memory.penetration)},
+              {"no_wear_m_per_cycle", number(memory.no_wear)},
               {"finish_below", number(memory.finish_below)},
               {"recovering", memory.recovering},
               {"jumps", memory.jumps},

@@ -37,8 +37,7 @@ WearAnswer by_asymptote(const WearOptions& options, const LoadedModel& loaded, c
                         const response::ContactCondition& condition, const wear::Control& control) {
   const bool unchanged = condition.slip_origin.size() == 0 && condition.wear_depth.size() == 0;
   const response::SteadyState* initial = at.resonance && unchanged ? &at.resonance->state : nullptr;
-  wear::AsymptoteOptions settings;
-  settings.rate_threshold = rate_threshold(loaded, settings.rate_threshold);
+  const wear::AsymptoteOptions settings;
   WearAnswer answer;
   answer.frequencies_hz = {at.hz};
   if (options.follow == "resonance") {
@@ -61,12 +60,6 @@ WearAnswer by_asymptote(const WearOptions& options, const LoadedModel& loaded, c
 }
 
 }  // namespace
-
-double rate_threshold(const LoadedModel& loaded, double usual) {
-  constexpr double kCoefficient = 1e-13;
-  const Eigen::VectorXd& coefficient = loaded.condensed->contact().wear_coefficient;
-  return coefficient.size() == 0 ? usual : usual * std::min(1.0, coefficient.maxCoeff() / kCoefficient);
-}
 
 WearStart wear_start_at(double hz) {
   return {.hz = hz, .omega = kTurn * hz, .resonance = {}};

@@ -28,10 +28,6 @@ struct WearStart {
 [[nodiscard]] WearStart wear_start(const WearOptions& options, const LoadedModel& loaded);
 [[nodiscard]] WearStart wear_start_at(double hz);
 
-/// Wear per cycle that counts as none, m: the default of a study, made for wear coefficients of 1e-13 1/Pa, or less
-/// where a smaller wear coefficient makes all rates smaller.
-[[nodiscard]] double rate_threshold(const LoadedModel& loaded, double usual);
-
 /// What either method came to; the one not asked for is empty.
 struct WearAnswer {
   std::optional<wear::Asymptote> asymptote;

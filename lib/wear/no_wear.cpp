@@ -1,0 +1,21 @@
+#include "wear/no_wear.hpp"
+
+#include <algorithm>
+
+namespace dovetail::wear {
+
+double no_wear_rate(double given, const response::CondensedModel& model, const response::SteadyState& unworn) {
+  if (given >= 0.0) return given;
+  constexpr double kShare = 1e-4;
+  const reduction::ContactNodes& contact = model.contact();
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < contact.count(); ++i) {
+    const double force = unworn.nodes[static_cast<std::size_t>(i)].max_normal_force;
+    const double stiffness = model.local_stiffness()[i * model.directions() + 1];
+    const double sliding = 4.0 * contact.friction[i] * force / stiffness;
+    largest = std::max(largest, contact.wear_coefficient[i] * force / contact.area[i] * sliding);
+  }
+  return kShare * largest;
+}
+
+}  // namespace dovetail::wear
