@@ -31,6 +31,13 @@ int main(int argc, char** argv) {
   try {
     numerics::set_blas_threads(1);
     studies::Study study = studies::load_study(study_file);
+    if (study.scene.in_space()) {
+      // Each point and each diameter costs a hundred times those of a section.
+      options.curve_points = 61;
+      options.curve_states = 5;
+      options.history_steps = 50;
+      options.nodal_diameter_modes = 4;
+    }
     if (quick) {
       study.scene.mesh.flank_elements = study.scene.in_space() ? 6 : 16;
       study.scene.mesh.aerofoil_elements = study.scene.in_space() ? 6 : 12;
