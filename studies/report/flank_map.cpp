@@ -145,8 +145,10 @@ std::string flank_map_svg(const FlankMap& map) {
   const auto count = static_cast<double>(std::max<std::size_t>(map.panels.size(), 1));
   const double width = (kWidth - kLeft - kRight - kBarGap - kBarWidth - (count - 1) * kGap) / count;
   constexpr double kHeight = 190;
-  std::string text = fmt::format("<svg class=\"plot\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n", kWidth,
-                                 kTop + kHeight + kBottom, escape(map.title));
+  std::string text = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot\" viewBox=\"0 0 {} {}\" role=\"img\" "
+      "aria-label=\"{}\">\n",
+      kWidth, kTop + kHeight + kBottom, escape(map.title));
   for (std::size_t p = 0; p < map.panels.size(); ++p) {
     const FlankPanel& panel = map.panels[p];
     if (panel.values.empty()) continue;
