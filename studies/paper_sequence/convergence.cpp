@@ -26,7 +26,14 @@ optimizer::Scene coarser(optimizer::Scene scene, double factor) {
   scene.mesh.aerofoil_elements = divided(scene.mesh.aerofoil_elements, factor, 2);
   scene.mesh.fillet_fraction = std::min(1.0, scene.mesh.fillet_fraction * factor);
   scene.mesh.bulk_size *= factor;
-  scene.solid_mesh.slot_elements = divided(scene.solid_mesh.slot_elements, factor, 1);
+  geometry::SolidSizes& along = scene.solid_mesh;
+  along.slot_elements = divided(along.slot_elements, factor, 2);
+  // 0 stands for as many as the mesh has.
+  if (along.contact_slot_elements > 0)
+    along.contact_slot_elements = std::min(divided(along.contact_slot_elements, factor, 1), along.slot_elements);
+  if (along.contact_flank_elements > 0)
+    along.contact_flank_elements =
+        std::min(divided(along.contact_flank_elements, factor, 1), scene.mesh.flank_elements);
   return scene;
 }
 
