@@ -43,6 +43,7 @@ int main(int argc, char** argv) {
       study.scene.mesh.aerofoil_elements = study.scene.in_space() ? 6 : 12;
       study.scene.mesh.bulk_size *= 1.6;
       study.scene.solid_mesh.slot_elements = 4;
+      study.scene.solid_mesh.contact_slot_elements = 0;
       options.curve_points = 21;
       options.history_steps = 16;
       options.curve_states = 4;

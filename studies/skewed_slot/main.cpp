@@ -32,6 +32,7 @@ int main(int argc, char** argv) {
     if (quick) {
       study.scene.mesh.flank_elements = 6;
       study.scene.solid_mesh.slot_elements = 4;
+      study.scene.solid_mesh.contact_slot_elements = 0;
       study.scene.mesh.aerofoil_elements = 6;
       study.scene.mesh.bulk_size = 8e-3;
       options.skew_deg = {0, 20};
