@@ -60,8 +60,7 @@ TEST(SectionEvaluation, FlanksCarryTheCentrifugalPull) {
   std::vector<bool> blade_node(static_cast<std::size_t>(mesh.node_count()), false);
   for (int e = 0; e < mesh.element_count(); ++e)
     if (mesh.regions[static_cast<std::size_t>(mesh.region[static_cast<std::size_t>(e)])].body == 0)
-      for (const int node : mesh.element(e))
-        blade_node[static_cast<std::size_t>(node)] = true;
+      for (const int node : mesh.element(e)) blade_node[static_cast<std::size_t>(node)] = true;
   const Eigen::VectorXd load = fem::centrifugal_load(model.system.full.mass, mesh);
   for (int node = 0; node < mesh.node_count(); ++node)
     if (blade_node[static_cast<std::size_t>(node)]) pull += speed * speed * load(2 * node + 1);
