@@ -49,7 +49,7 @@ std::array<double, 2> cell(const std::vector<double>& lines, double value) {
 }
 
 double largest_value(const FlankMap& map) {
-  double most = 0;
+  double most = map.full_scale;
   for (const FlankPanel& panel : map.panels)
     for (const double v : panel.values)
       if (std::isfinite(v)) most = std::max(most, v);
@@ -137,7 +137,9 @@ std::string numbers(const FlankMap& map) {
 }  // namespace
 
 bool is_empty(const FlankMap& map) {
-  return !(largest_value(map) > 0);
+  return std::none_of(map.panels.begin(), map.panels.end(), [](const FlankPanel& panel) {
+    return std::any_of(panel.values.begin(), panel.values.end(), [](double v) { return std::isfinite(v) && v > 0; });
+  });
 }
 
 std::string flank_map_svg(const FlankMap& map) {

@@ -22,6 +22,7 @@ struct FlankMap {
   std::string quantity = {};     ///< "pressure"
   Unit unit = {};
   std::vector<FlankPanel> panels = {};
+  double full_scale = 0;  ///< SI, of the darkest colour when it is above the largest value: for maps to be compared
 };
 
 /// No finite value, or none above zero.

@@ -1,6 +1,8 @@
 // The page of the study, its tables and its JSON.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -115,14 +117,26 @@ std::string wear_table(const Results& r) {
          "rest.</p></section>\n";
 }
 
+/// The straight and the most skewed slot on one scale of colours.
+std::string pair_of_maps(const Results& r, const Numbers& (*values)(const Joint&), const report::Unit& unit,
+                         const std::string& title, const std::string& quantity) {
+  std::string text;
+  const std::array<const Joint*, 2> joints{&r.joints.front(), &r.joints.back()};
+  const double most = std::max(report::largest(values(*joints[0])), report::largest(values(*joints[1])));
+  for (const Joint* joint : joints) {
+    FlankMap map = map_of(*joint, values(*joint), unit, title, quantity);
+    map.full_scale = most;
+    text += report::flank_map_figure(map);
+  }
+  return text;
+}
+
 std::string maps(const Results& r) {
-  std::string text = "<div class=\"grid2\">\n";
-  for (const Joint* joint : {&r.joints.front(), &r.joints.back()})
-    text += report::flank_map_figure(
-        map_of(*joint, joint->contact.preload_pressure_pa, {.symbol = "MPa", .si = 1e6}, "Pressure", "pressure"));
-  for (const Joint* joint : {&r.joints.front(), &r.joints.back()})
-    text += report::flank_map_figure(map_of(*joint, joint->slip_m, {.symbol = "\u00b5m", .si = 1e-6}, "Slip", "slip"));
-  return text + "</div>\n";
+  constexpr auto pressure = [](const Joint& joint) -> const Numbers& { return joint.contact.preload_pressure_pa; };
+  constexpr auto slip = [](const Joint& joint) -> const Numbers& { return joint.slip_m; };
+  return "<div class=\"grid2 maps\">\n" +
+         pair_of_maps(r, pressure, {.symbol = "MPa", .si = 1e6}, "Pressure", "pressure") +
+         pair_of_maps(r, slip, {.symbol = "\u00b5m", .si = 1e-6}, "Slip", "slip") + "</div>\n";
 }
 
 Plot pressure_plot(const Results& r) {
@@ -173,7 +187,7 @@ std::string page_html(const Results& r) {
       "degrees. "
       "Here the same section is swept along both slots, with the same load.</p></header>\n<section><h2>After "
       "spin-up</h2>\n" +
-      joint_table(r) + "<div class=\"grid2\">\n" + report::plot_figure(pressure_plot(r)) +
+      joint_table(r) + "<div class=\"grid2\" style=\"margin-top:1rem\">\n" + report::plot_figure(pressure_plot(r)) +
       report::plot_figure(slip_plot(r)) + "</div>\n" + maps(r) + "</section>\n" + wear_table(r);
   return text + provenance(r) + "</main></body></html>\n";
 }
