@@ -127,15 +127,23 @@ std::string search_section(const RunRecord& record) {
          evaluation_table(record) + "</section>\n";
 }
 
-constexpr const char* kLimits =
-    "<p>A plane section of one sector stands for the joint, with Coulomb friction and Archard wear of constant "
-    "coefficients: "
-    "skewed slots, bending out of the plane, temperature and debris are not in it, and measured wear coefficients "
-    "scatter "
-    "by about half. The error bars cover harmonics, samples, the reduction and the edge of the worn zone, but neither "
+constexpr const char* kSection =
+    "A plane section of one sector stands for the joint: skewed slots and bending out of the plane are not in it";
+constexpr const char* kSector =
+    "One sector in space stands for the disk, with worn zones of whole contact nodes, so that worn volumes move in "
+    "steps "
+    "with the design";
+constexpr const char* kLaws =
+    ". Coulomb friction and Archard wear have constant coefficients, temperature and debris are left out, and measured "
+    "wear coefficients scatter by about half. The error bars cover harmonics, samples, the reduction and the edge of "
     "the "
-    "finite-element mesh nor the laws themselves, so trust differences between designs more than absolute "
-    "depths.</p>\n";
+    "worn zone, but neither the finite-element mesh nor the laws themselves, so trust differences between designs more "
+    "than absolute depths.</p>\n";
+
+std::string limits(const Comparison& designs) {
+  const bool space = designs.after && in_space(designs.after->contact);
+  return std::string("<p>") + (space ? kSector : kSection) + kLaws;
+}
 
 }  // namespace
 
@@ -158,7 +166,7 @@ std::string report_html(const RunRecord& record) {
         "show.</p>\n</section>\n";
   }
   text += verification_section(record) + search_section(record);
-  text += std::string("<section><h2>Limits of the model</h2>\n") + kLimits + "</section>\n";
+  text += "<section><h2>Limits of the model</h2>\n" + limits(designs) + "</section>\n";
   text += "<section><h2>Provenance</h2>\n" + provenance_section(record) + "</section>\n";
   return text + "</main></body></html>\n";
 }
