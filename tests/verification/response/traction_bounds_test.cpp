@@ -181,7 +181,7 @@ TEST(TractionBounds, OfAResonanceMatchAGrid) {
   // With the first-order return the node of this joint that hardly sticks at its resonance does stick.
   SteadyOptions options = kOptions;
   options.slip_return = "first_order";
-  const reduction::ReducedModel model = elastic(3, 1, 6, 0.2);
+  const reduction::ReducedModel model = elastic(3, 1, 6, 0.18);
   const auto reduced = condensed(model);
   const double start = response::CondensedModel(model).glued_frequencies()(0);
   const TractionBounds frequency = traction_bounds(reduced, start, {}, options, BoundedQuantity::resonance_frequency);

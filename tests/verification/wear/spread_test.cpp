@@ -63,7 +63,8 @@ TEST_F(PunchSpread, LessFrictionAndMoreLoadWearMore) {
   EXPECT_EQ(friction.lowest_volume, volume("friction", "x 1.2"));
   const SpreadRange& all = range_of(spread_, "combined");
   EXPECT_GT(all.highest_volume, friction.highest_volume);
-  EXPECT_LT(all.lowest_volume, friction.lowest_volume);
+  // Another corner of everything may leave the lowest volume of friction alone, to rounding.
+  EXPECT_LE(all.lowest_volume, friction.lowest_volume * (1 + 1e-9));
   EXPECT_GT(all.highest_depth, friction.highest_depth);
 }
 
