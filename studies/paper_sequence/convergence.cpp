@@ -37,15 +37,22 @@ optimizer::Scene coarser(optimizer::Scene scene, double factor) {
   return scene;
 }
 
+/// The levels with the study's own among them, ascending.
+std::vector<int> with_own(std::vector<int> levels, int own) {
+  if (std::find(levels.begin(), levels.end(), own) == levels.end()) levels.push_back(own);
+  std::sort(levels.begin(), levels.end());
+  return levels;
+}
+
 class Convergence {
  public:
   Convergence(const optimizer::Scene& scene, const ConvergenceOptions& options) : scene_(scene), options_(options) {}
 
   std::vector<ConvergenceRow> run() {
     for (const double factor : options_.mesh_factors) over_mesh(factor);
-    for (const int modes : options_.modes) over_modes(modes);
-    for (const int harmonics : options_.harmonics) over_harmonics(harmonics);
-    for (const int samples : options_.samples) over_samples(samples);
+    for (const int modes : with_own(options_.modes, scene_.solver.modes)) over_modes(modes);
+    for (const int harmonics : with_own(options_.harmonics, scene_.solver.harmonics)) over_harmonics(harmonics);
+    for (const int samples : with_own(options_.samples, scene_.solver.samples)) over_samples(samples);
     return std::move(rows_);
   }
 

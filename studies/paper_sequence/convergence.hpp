@@ -30,8 +30,9 @@ struct ConvergenceOptions {
   std::function<void(const std::string&)> progress = {};
 };
 
-/// The same quantities over mesh, modes, harmonics and samples, one of them changed at a time. The study's own setting
-/// is in every list. Cost: a whole evaluation per mesh and number of modes, less for the others.
+/// The same quantities over mesh, modes, harmonics and samples, one of them changed at a time. The study's own number
+/// is added to a list without it; the mesh factors are to hold 1. Cost: a whole evaluation per mesh and number of
+/// modes, less for the others.
 [[nodiscard]] std::vector<ConvergenceRow> convergence(const optimizer::Scene& scene, const ConvergenceOptions& options);
 
 /// A table for the page: changes against the study's setting.

@@ -12,7 +12,7 @@
 
 int main(int argc, char** argv) {
   using namespace dovetail;
-  CLI::App app{"Vibration and fretting wear of a bladed disk in a plane section, figure by figure."};
+  CLI::App app{"Vibration and fretting wear of a bladed disk, in a plane section or in space, figure by figure."};
   std::string folder, study_file, commit = "unknown";
   bool quick = false, converge = false;
   app.add_option("folder", folder, "Folder of report.html, the CSV files and the JSON files")->required();
@@ -50,19 +50,25 @@ int main(int argc, char** argv) {
       options.nodal_diameter_modes = 2;
     }
     paper_sequence::Results results = paper_sequence::compute(study.scene, options);
-    if (converge) {
-      paper_sequence::ConvergenceOptions levels{.progress = options.progress};
-      if (quick) levels = {.mesh_factors = {1.25, 1}, .modes = {20}, .harmonics = {1, 3}, .samples = {64, 128}};
-      results.convergence = paper_sequence::convergence(study.scene, levels);
-    }
     results.quick = quick;
     results.study_text = study.text;
     results.commit = commit;
     results.seconds = passed();
     paper_sequence::write(folder, results);
+    if (converge) {
+      paper_sequence::ConvergenceOptions levels;
+      if (quick) levels = {.mesh_factors = {1.25, 1}, .modes = {20}, .harmonics = {1, 3}, .samples = {64, 128}};
+      levels.progress = options.progress;
+      results.convergence = paper_sequence::convergence(study.scene, levels);
+      results.seconds = passed();
+      paper_sequence::write(folder, results);
+    }
     options.progress("done: " + folder + "/report.html");
     for (const std::string& failure : results.failures) std::fprintf(stderr, "%s\n", failure.c_str());
     return results.failures.empty() ? 0 : 3;
+  } catch (const InputError& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

@@ -38,7 +38,7 @@ class SkewedSlot(unittest.TestCase):
         # The normal forces balance the same centrifugal pull on flanks longer by 1/cos(20 degrees).
         self.assertAlmostEqual(skewed["pressure_mean_pa"] / straight["pressure_mean_pa"], 1, delta=0.1)
         self.assertGreater(skewed["pressure_max_pa"], 1.2 * straight["pressure_max_pa"])
-        self.assertGreater(skewed["slip_max_m"], straight["slip_max_m"])
+        self.assertGreater(skewed["slip_max_m"], 1.2 * straight["slip_max_m"])
 
     def test_a_straight_slot_is_symmetric(self):
         straight = json.loads(self.read("results.json"))["joints"][0]
