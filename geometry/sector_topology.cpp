@@ -163,6 +163,8 @@ fem::SectorMesh SectorTopology::place(const Profile& profile, const ProfileParam
       flank.position.col(contact) = sector.mesh.nodes.col(flank.pairs[2 * k][0]);
       flank.gap[contact] = form.gap(flank_fractions_[k]);
     }
+    flank.pair_gap.resize(std::ssize(flank.pairs));
+    for (std::size_t k = 0; k < pairs.size(); ++k) flank.pair_gap[static_cast<Eigen::Index>(k)] = form.gap(pairs[k]);
   }
   return sector;
 }

@@ -55,6 +55,11 @@ void lay_contact(fem::Flank& flank, const fem::Flank& section, const fem::Mesh& 
       flank.position(0, node) += (z - along.front()) * std::tan(solid.skew_angle);
       flank.gap[node++] = form.gap(s, z / parameters.slot_length + 0.5);
     }
+  flank.pair_gap.resize(std::ssize(flank.pairs));
+  Eigen::Index pair = 0;
+  for (const double z : heights)
+    for (const double s : equal_fractions(pairs_across - 1))
+      flank.pair_gap[pair++] = form.gap(s, z / parameters.slot_length + 0.5);
 }
 
 }  // namespace dovetail::geometry

@@ -3,6 +3,7 @@
 #include <span>
 #include <utility>
 
+#include "fem/flank_trace.hpp"
 #include "fem/stress.hpp"
 #include "geometry/solid_rules.hpp"
 #include "optimizer/stopwatch.hpp"
@@ -16,24 +17,25 @@ std::string failed(std::string_view stage, Status status) {
   return std::string(stage) + ": " + std::string(to_string(status));
 }
 
-reduction::ContactNodes contact_nodes(const fem::SectorSystem& system, const ContactProperties& properties) {
-  const Eigen::Index count = system.contact.count();
+/// `surface`: fem::ContactSurface of the trace or fem::ContactCells. Contact dofs begin at `first`.
+template <class Surface>
+reduction::ContactNodes contact_nodes(const Surface& surface, Eigen::Index first, const ContactProperties& properties) {
+  const Eigen::Index count = surface.count(), directions = surface.position.rows();
   reduction::ContactNodes nodes;
   nodes.normal.resize(count);
-  const Eigen::Index directions = system.full.dimensions;
   nodes.tangential.resize(count, directions - 1);
   for (Eigen::Index i = 0; i < count; ++i) {
-    nodes.normal(i) = static_cast<int>(system.internal_size() + directions * i);
+    nodes.normal(i) = static_cast<int>(first + directions * i);
     for (Eigen::Index t = 0; t + 1 < directions; ++t)
       nodes.tangential(i, t) = nodes.normal(i) + static_cast<int>(t) + 1;
   }
-  nodes.area = system.contact.area;
-  nodes.gap = system.contact.gap;
+  nodes.area = surface.area;
+  nodes.gap = surface.gap;
   nodes.friction = Eigen::VectorXd::Constant(count, properties.friction);
   nodes.wear_coefficient = Eigen::VectorXd::Constant(count, properties.wear_coefficient);
   nodes.position = Eigen::MatrixX3d::Zero(count, 3);
-  nodes.position.leftCols(directions) = system.contact.position.transpose();
-  nodes.group = system.contact.flank;
+  nodes.position.leftCols(directions) = surface.position.transpose();
+  nodes.group = surface.flank;
   nodes.slip_origin = Eigen::MatrixXd::Zero(count, directions - 1);
   return nodes;
 }
@@ -49,7 +51,7 @@ reduction::FullModel full_model(const Scene& scene, const fem::SectorSystem& sys
   full.sine_force = Eigen::MatrixXd::Zero(system.size(), 1);
   full.outputs = system.tip;
   full.output_names = {"tip_x"};
-  full.contact = contact_nodes(system, scene.contact);
+  full.contact = contact_nodes(system.contact, system.internal_size(), scene.contact);
   return full;
 }
 
@@ -58,7 +60,9 @@ Status geometric_stiffness(const Scene& scene, const CandidateModel& candidate, 
                            std::span<const fem::Material> materials, Eigen::SparseMatrix<double>& result) {
   const fem::SectorSystem& system = candidate.system;
   const Eigen::SparseMatrix<double> bare = system.full.stiffness;
-  const reduction::StaticCondensation condensed = reduction::condense_statically(full_model(scene, system, bare));
+  const reduction::StaticCondensation condensed =
+      reduction::on_contact(reduction::condense_statically(full_model(scene, system, bare)), candidate.cells.average,
+                            contact_nodes(candidate.cells, 0, scene.contact));
   if (condensed.status != Status::converged) return condensed.status;
   const auto model = std::make_shared<const response::CondensedModel>(condensed.model);
   const response::Preload preload = response::quasi_static(model);
@@ -68,6 +72,22 @@ Status geometric_stiffness(const Scene& scene, const CandidateModel& candidate, 
   const fem::Mesh& mesh = candidate.mesh.sector.mesh;
   result = assembler.geometric_stiffness(mesh, fem::quadrature_stress(mesh, materials, displacement));
   return Status::converged;
+}
+
+/// Cells of equal length: as many as the mesh has edges across the slot and layers along it, or as the sizes say.
+std::vector<fem::FlankCells> default_cells(const Scene& scene, const fem::SectorMesh& trace) {
+  std::vector<fem::FlankCells> cells;
+  for (const fem::Flank& flank : trace.flanks) {
+    const fem::TraceLines lines = fem::trace_lines(flank);
+    fem::FlankCells of_flank;
+    std::vector<double> across;
+    for (std::size_t i = 0; i < lines.across.size(); i += 2) across.push_back(lines.across[i]);
+    of_flank.along = lines.along.size() > 1 ? lines.along : std::vector<double>{0, 1};
+    of_flank.across.assign(of_flank.along.size() - 1, across);
+    cells.push_back(std::move(of_flank));
+  }
+  (void)scene;
+  return cells;
 }
 
 /// The rules of the section, and in space those of the solid.
@@ -88,6 +108,25 @@ std::string first_broken(const geometry::Feasibility& feasibility, std::vector<s
 
 std::vector<fem::Material> materials(const Scene& scene) {
   return {scene.blade, scene.disk};
+}
+
+void lay_contact(const Scene& scene, const std::vector<fem::FlankCells>& flanks, CandidateModel& candidate) {
+  candidate.cells = fem::contact_cells(candidate.mesh.sector, flanks);
+  candidate.reduction = reduction::reduce(candidate.trace, candidate.cells.average,
+                                          contact_nodes(candidate.cells, 0, scene.contact),
+                                          scene.loading.damping_ratio);
+  if (candidate.reduction.status != Status::converged) {
+    candidate.status = failed("reduction", candidate.reduction.status) + " " + candidate.reduction.message;
+    return;
+  }
+  candidate.preload =
+      response::quasi_static(std::make_shared<const response::CondensedModel>(candidate.reduction.model));
+  if (candidate.preload.status != Status::converged) {
+    candidate.status = failed("preload", candidate.preload.status);
+    return;
+  }
+  candidate.reduction.model.contact.slip_origin = candidate.preload.slip_origin;
+  candidate.condensed = std::make_shared<const response::CondensedModel>(candidate.reduction.model);
 }
 
 ModelBuilder::ModelBuilder(const Scene& reference) : sizes_(reference.mesh), solid_sizes_(reference.solid_mesh) {
@@ -138,6 +177,9 @@ CandidateModel ModelBuilder::build(const Scene& scene) const {
     return candidate;
   }
 
+  candidate.mesh.sector = fem::with_trace(candidate.mesh.sector);
+  const std::vector<fem::FlankCells> cells = default_cells(scene, candidate.mesh.sector);
+  candidate.cells = fem::contact_cells(candidate.mesh.sector, cells);
   const std::vector<fem::Material> bodies = materials(scene);
   const fem::Mesh& mesh = candidate.mesh.sector.mesh;
   const fem::Assembler assembler(mesh);
@@ -153,28 +195,21 @@ CandidateModel ModelBuilder::build(const Scene& scene) const {
   }
 
   candidate.stiffness = fem::stiffness_at_speed(candidate.system.full, geometric, scene.loading.speed);
-  candidate.reduction = reduction::reduce(full_model(scene, candidate.system, candidate.stiffness),
-                                          {.modes = scene.solver.modes, .damping_ratio = scene.loading.damping_ratio});
+  candidate.trace = reduction::trace_model(full_model(scene, candidate.system, candidate.stiffness),
+                                           {.modes = scene.solver.modes, .damping_ratio = scene.loading.damping_ratio});
   candidate.timings_s["reduction"] = watch.lap();
-  if (candidate.reduction.status != Status::converged) {
-    candidate.status = failed("reduction", candidate.reduction.status) + " " + candidate.reduction.message;
+  if (candidate.trace.status != Status::converged) {
+    candidate.status = failed("reduction", candidate.trace.status) + " " + candidate.trace.message;
     return candidate;
   }
-
-  candidate.preload =
-      response::quasi_static(std::make_shared<const response::CondensedModel>(candidate.reduction.model));
+  lay_contact(scene, cells, candidate);
   candidate.timings_s["preload"] = watch.lap();
-  if (candidate.preload.status != Status::converged) {
-    candidate.status = failed("preload", candidate.preload.status);
-    return candidate;
-  }
-  candidate.reduction.model.contact.slip_origin = candidate.preload.slip_origin;
-  candidate.condensed = std::make_shared<const response::CondensedModel>(candidate.reduction.model);
+  if (!candidate.converged()) return candidate;
 
   candidate.sizes = {{"nodes", mesh.node_count()},
                      {"elements", mesh.element_count()},
                      {"dofs", static_cast<double>(candidate.system.size())},
-                     {"contact_nodes", static_cast<double>(candidate.system.contact.count())},
+                     {"contact_nodes", static_cast<double>(candidate.cells.count())},
                      {"modes", scene.solver.modes},
                      {"reduced_size", static_cast<double>(candidate.reduction.model.size())},
                      {"harmonics", scene.solver.harmonics},

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fem/assembly.hpp"
+#include "fem/contact_cells.hpp"
 #include "fem/sector_system.hpp"
 #include "geometry/feasibility.hpp"
 #include "geometry/mesh_motion.hpp"
@@ -25,10 +26,13 @@ struct CandidateModel {
   std::vector<std::string> messages;  ///< broken rules, re-meshing: for people
 
   geometry::Feasibility feasibility;
-  geometry::MeshedSector mesh;
-  fem::SectorSystem system;
+  geometry::MeshedSector mesh;            ///< its flanks are the trace of the contact
+  fem::SectorSystem system;               ///< on the trace
   Eigen::SparseMatrix<double> stiffness;  ///< over all nodes, at speed: K + K_g - Omega^2 M
-  reduction::Reduction reduction;         ///< its model carries the preload's slip origin
+  reduction::TraceModel trace;
+  // With contact nodes on the trace, see lay_contact:
+  fem::ContactCells cells;
+  reduction::Reduction reduction;  ///< its model carries the preload's slip origin
   std::shared_ptr<const response::CondensedModel> condensed;
   response::Preload preload;
 
@@ -37,6 +41,10 @@ struct CandidateModel {
 
   [[nodiscard]] bool converged() const { return status == "converged"; }
 };
+
+/// Lays contact nodes on the trace of a candidate whose `trace` is there, in place of those it has: reduced model and
+/// preload. A stage that fails is named in its status. Cost: dense algebra of their number and a preload.
+void lay_contact(const Scene& scene, const std::vector<fem::FlankCells>& flanks, CandidateModel& candidate);
 
 /// Builds the models of many candidates on one mesh topology, that of the reference scene's geometry and
 /// mesh sizes. When the reference is a geometry that cannot be meshed, each candidate is meshed on its own
@@ -48,7 +56,7 @@ class ModelBuilder {
   explicit ModelBuilder(const Scene& reference);
 
   /// Stages in order: feasibility, mesh motion, assembly, preload without geometric stiffness (for the stresses it
-  /// comes from), stiffness at speed, reduction, preload. The scene's type and mesh sizes must be the
+  /// comes from), stiffness at speed, reduction to the trace, contact nodes by the sizes of the scene. The scene's type and mesh sizes must be the
   /// reference's.
   /// Throws InputError for a scene that violates its ranges.
   [[nodiscard]] CandidateModel build(const Scene& scene) const;

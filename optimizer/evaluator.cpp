@@ -34,7 +34,7 @@ void static_responses(const Scene& scene, const CandidateModel& model, Evaluatio
   const double load = scene.loading.speed * scene.loading.speed;
   responses["neck_tension_pa"] = load * fem::neck_tension(model.mesh.sector, bodies).mean_stress;
 
-  const fem::ContactSurface& surface = model.system.contact;
+  const fem::ContactCells& surface = model.cells;
   responses["contact_pressure_max_pa"] =
       fem::kreisselmeier_steinhauser(model.preload.pressure, surface.area / scene.geometry.slot_length).value;
   double mean = 0;

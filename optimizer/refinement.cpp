@@ -42,17 +42,17 @@ ResonanceChange resonance_change(const CandidateModel& model, const response::Re
 /// between the two, so that the nodal volume is known to about half of this.
 double volume_at_edges(const CandidateModel& model, const wear::Asymptote& asymptote) {
   Eigen::VectorXd depth = Eigen::VectorXd::Zero(asymptote.depth.size());
-  int first = 0;
-  for (const fem::Flank& flank : model.mesh.sector.flanks) {
-    const int across = flank.grid[0], along = flank.grid[1];
-    const auto worn = [&](int i, int j) {
+  Eigen::Index first = 0;
+  for (const fem::FlankCells& flank : model.cells.flanks) {
+    const auto across = std::ssize(flank.across.front()) - 1, along = std::ssize(flank.across);
+    const auto worn = [&](Eigen::Index i, Eigen::Index j) {
       return i < 0 || j < 0 || i >= across || j >= along || asymptote.depth(first + i + across * j) > 0;
     };
-    for (int j = 0; j < along; ++j)
-      for (int i = 0; i < across; ++i)
+    for (Eigen::Index j = 0; j < along; ++j)
+      for (Eigen::Index i = 0; i < across; ++i)
         if (!(worn(i - 1, j) && worn(i + 1, j) && worn(i, j - 1) && worn(i, j + 1)))
           depth(first + i + across * j) = asymptote.depth(first + i + across * j);
-    first += flank.contact_count();
+    first += across * along;
   }
   return wear::worn_volume(model.reduction.model.contact, depth);
 }

@@ -26,6 +26,7 @@ struct Flank {
   Eigen::MatrixXd tangents;  ///< [d, d-1] orthonormal, orthogonal to the normal: T1 from neck to root side, in space
                              ///< across the slot; T2 along the slot (towards +z)
   Eigen::VectorXd gap;       ///< [m] initial gap g of the unloaded surfaces, m, smallest 0; empty: none
+  Eigen::VectorXd pair_gap;  ///< [p] the same at every matched pair; empty: as interpolated from `gap`
 
   [[nodiscard]] int contact_count() const { return grid[0] * grid[1]; }  ///< m
 };

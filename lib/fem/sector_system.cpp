@@ -9,10 +9,7 @@
 
 namespace dovetail::fem {
 
-namespace {
-
-// Thickness of the blade along its flank: of an element with that node.
-double flank_thickness(const Mesh& mesh, int node) {
+double body_thickness(const Mesh& mesh, int node) {
   if (mesh.dimensions() == 3) return 1;
   const auto found = std::find(mesh.connectivity.begin(), mesh.connectivity.end(), node);
   if (found == mesh.connectivity.end())
@@ -20,8 +17,6 @@ double flank_thickness(const Mesh& mesh, int node) {
         {.file = {}, .key = "sector.flanks", .value = std::to_string(node), .allowed = "must be a node of an element"});
   return mesh.region_of(static_cast<int>(found - mesh.connectivity.begin()) / mesh.nodes_per_element()).thickness;
 }
-
-}  // namespace
 
 ContactSurface contact_surface(const SectorMesh& sector) {
   Eigen::Index count = 0;
@@ -42,7 +37,7 @@ ContactSurface contact_surface(const SectorMesh& sector) {
                         .allowed = "must have one entry per contact node"});
     std::vector<int> blade;
     for (const std::array<int, 2>& pair : flank.pairs) blade.push_back(pair[0]);
-    surface.area.segment(k, nodes) = flank_thickness(sector.mesh, blade.front()) *
+    surface.area.segment(k, nodes) = body_thickness(sector.mesh, blade.front()) *
                                      (flank.interpolation.transpose() * boundary_weights(sector.mesh, blade));
     surface.position.middleCols(k, nodes) = flank.position;
     surface.flank.segment(k, nodes).setConstant(static_cast<int>(f));

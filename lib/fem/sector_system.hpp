@@ -52,6 +52,9 @@ struct SectorSystem {
 /// of elements.
 [[nodiscard]] ContactSurface contact_surface(const SectorMesh& sector);
 
+/// Thickness of the body that a node belongs to, m: of an element with that node; 1 in space.
+[[nodiscard]] double body_thickness(const Mesh& mesh, int node);
+
 /// The block of the internal dofs: contact dofs held at zero, the blade glued to the disk.
 template <class Scalar>
 [[nodiscard]] Eigen::SparseMatrix<Scalar> internal_block(const Eigen::SparseMatrix<Scalar>& matrix,

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <Eigen/SparseCore>
+#include <utility>
+#include <vector>
+
 #include "reduction/reduced_model.hpp"
 
 namespace dovetail::reduction {
@@ -13,6 +17,19 @@ namespace dovetail::reduction {
   }
   if (nodes.slip_origin.size() == 0) nodes.slip_origin.setZero(nodes.count(), d - 1);
   return nodes;
+}
+
+/// A for every direction: the dofs of a node stand side by side.
+[[nodiscard]] inline Eigen::SparseMatrix<double> for_directions(const Eigen::SparseMatrix<double>& average, Eigen::Index directions) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Eigen::Index column = 0; column < average.outerSize(); ++column)
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(average, column); entry; ++entry)
+      for (Eigen::Index d = 0; d < directions; ++d)
+        entries.emplace_back(static_cast<int>(directions * entry.row() + d),
+                             static_cast<int>(directions * entry.col() + d), entry.value());
+  Eigen::SparseMatrix<double> result(directions * average.rows(), directions * average.cols());
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
 }
 
 }  // namespace dovetail::reduction

@@ -72,85 +72,26 @@ void check(const FullModel& full, const ReductionOptions& options) {
   if (!found.empty()) throw InputError(found);
 }
 
-// Coordinates [r; q], q rotated to the glued modes.
-bool assemble(const FullModel& full, const RitzBasis& basis, ResidualFlexibility residual, double damping_ratio,
-              Reduction& result) {
-  const Eigen::Index contact = full.contact_size();
-  const Eigen::Index m = basis.vectors.cols();
-  const Eigen::LLT<Eigen::MatrixXd> g(residual.contact);
-  if (g.info() != Eigen::Success || !(g.rcond() > 1e-14)) {
-    result.status = Status::singular;
-    result.message = "the residual flexibility of the contact is not positive definite: too many modes are kept";
-    return false;
-  }
-  const Eigen::MatrixXd inverse = g.solve(Eigen::MatrixXd::Identity(contact, contact));
-  const Eigen::MatrixXd on_contact = basis.vectors.bottomRows(contact);
-  Eigen::MatrixXd glued = on_contact.transpose() * g.solve(on_contact);
-  glued = (0.5 * (glued + glued.transpose())).eval();
-  glued.diagonal() += basis.eigenvalues;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(glued);
-  if (m > 0 && !(eigen.eigenvalues()(0) > 0)) {
-    result.status = Status::singular;
-    result.message = "the glued structure is not positive definite";
-    return false;
-  }
-  result.glued_frequencies = eigen.eigenvalues().cwiseSqrt();
-  result.recovery.basis = basis.vectors * eigen.eigenvectors();
-  result.recovery.first = contact;
-  result.recovery.contact_response = std::move(residual.field);
-  result.recovery.contact_response *= -1;
-  const Eigen::MatrixXd& phi = result.recovery.basis;
-
-  ReducedModel& model = result.model;
-  const Eigen::Index n = contact + m;
-  model.mass = Eigen::MatrixXd::Zero(n, n);
-  model.mass.diagonal().tail(m).setOnes();
-  model.damping = Eigen::MatrixXd::Zero(n, n);
-  model.damping.diagonal().tail(m) = 2 * damping_ratio * result.glued_frequencies;
-  model.stiffness = Eigen::MatrixXd::Zero(n, n);
-  model.stiffness.topLeftCorner(contact, contact) = 0.5 * (inverse + inverse.transpose());
-  const Eigen::MatrixXd coupling = -g.solve(phi.bottomRows(contact));
-  model.stiffness.topRightCorner(contact, m) = coupling;
-  model.stiffness.bottomLeftCorner(m, contact) = coupling.transpose();
-  model.stiffness.diagonal().tail(m) = eigen.eigenvalues();
-  model.contact = contact_first(full.contact);
-
-  const auto project = [&](const Eigen::MatrixXd& loads) {
-    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(loads.cols(), n);
-    rows.rightCols(m) = loads.transpose() * phi;
-    return rows;
-  };
-  model.static_force = project(full.static_force).transpose();
-  model.cosine_force = project(full.cosine_force);
-  model.sine_force = project(full.sine_force);
-  model.output_vectors = project(full.outputs);
-  model.output_names = full.output_names;
-
-  // u = Phi q + Psi lambda, lambda = -K_red[r rows] (r, q): inertia of that field beyond diag(0, I).
-  const Eigen::MatrixXd& psi = result.recovery.contact_response;
-  const Eigen::MatrixXd force = model.stiffness.topRows(contact);  // -lambda of unit coordinates [nc, n]
-  Eigen::MatrixXd phi_inertia(contact, m);                         // Psi^T M Phi
-  Eigen::MatrixXd psi_inertia(contact, contact);                   // Psi^T M Psi
-  constexpr Eigen::Index kColumns = 64;                            // at once: M Psi is never there as a whole
+// X^T M X and X^T M Phi, some columns at once: M X is never there as a whole.
+void add_inertia(const FullModel& full, TraceModel& trace) {
+  const Eigen::Index contact = trace.field.cols();
+  trace.cross_inertia.resize(contact, trace.basis.cols());
+  trace.field_inertia.resize(contact, contact);
+  constexpr Eigen::Index kColumns = 64;
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   for (Eigen::Index first = 0; first < contact; first += kColumns) {
     const Eigen::Index columns = std::min(kColumns, contact - first);
     // Row by row of the symmetric M: it is read once for all columns.
-    const Rows some = psi.middleCols(first, columns);
+    const Rows some = trace.field.middleCols(first, columns);
     const Eigen::MatrixXd inertia = full.mass.transpose() * some;
-    psi_inertia.middleCols(first, columns) = numerics::transposed_product(psi, inertia);
-    phi_inertia.middleRows(first, columns) = numerics::transposed_product(inertia, phi);
+    trace.field_inertia.middleCols(first, columns) = numerics::transposed_product(trace.field, inertia);
+    trace.cross_inertia.middleRows(first, columns) = numerics::transposed_product(inertia, trace.basis);
   }
-  Eigen::MatrixXd neglected = 0.5 * force.transpose() * psi_inertia * force;
-  neglected.rightCols(m) -= force.transpose() * phi_inertia;
-  result.neglected_mass = neglected + neglected.transpose();
-  result.frequency_error = 0.5 * result.neglected_mass.diagonal().tail(m);
-  return true;
 }
 
-Reduction reduce_with(const Prepared& prepared, const ReductionOptions& options) {
+TraceModel trace_with(const Prepared& prepared, const ReductionOptions& options) {
   const FullModel& full = prepared.full;
-  Reduction result;
+  TraceModel result;
   result.status = prepared.status;
   result.seconds_factorisation = prepared.solver.seconds_factorisation();
   result.seconds_contact_solves = prepared.seconds - result.seconds_factorisation;
@@ -174,9 +115,8 @@ Reduction reduce_with(const Prepared& prepared, const ReductionOptions& options)
   const Eigen::MatrixXd responses = static_responses(full, inverse, modes, limit - modes.vectors.cols());
   Eigen::MatrixXd vectors(full.size(), modes.vectors.cols() + responses.cols());
   vectors << modes.vectors, responses;
-  const RitzBasis basis = rayleigh_ritz(full, vectors);
+  RitzBasis basis = rayleigh_ritz(full, vectors);
   result.seconds_modes = seconds_since(start);
-  result.free_eigenvalues = basis.eigenvalues;
   result.first_neglected_eigenvalue = modes.first_neglected;
 
   start = Clock::now();
@@ -186,10 +126,27 @@ Reduction reduce_with(const Prepared& prepared, const ReductionOptions& options)
     result.message = "the stiffness is not positive definite on the complement of the kept modes";
     return result;
   }
-  assemble(full, basis, std::move(residual), options.damping_ratio, result);
+  result.basis = std::move(basis.vectors);
+  result.eigenvalues = std::move(basis.eigenvalues);
+  result.field = std::move(residual.field);
+  result.flexibility = std::move(residual.contact);
+  add_inertia(full, result);
+  result.static_force = result.basis.transpose() * full.static_force;
+  result.cosine_force = result.basis.transpose() * full.cosine_force;
+  result.sine_force = result.basis.transpose() * full.sine_force;
+  result.outputs = result.basis.transpose() * full.outputs;
+  result.output_names = full.output_names;
+  result.contact = full.contact;
   result.seconds_contact_solves += seconds_since(start);
   result.seconds_total = prepared.seconds + result.seconds_modes + seconds_since(start);
   return result;
+}
+
+Reduction reduce_with(const Prepared& prepared, const ReductionOptions& options) {
+  const TraceModel trace = trace_with(prepared, options);
+  Eigen::SparseMatrix<double> same(trace.contact.count(), trace.contact.count());
+  same.setIdentity();
+  return reduce(trace, same, trace.contact, options.damping_ratio);
 }
 
 // The error of Z is not part of it: most of that is the inertia around the contact nodes, which is dropped
@@ -208,6 +165,90 @@ double worst_error(const Reduction& reduction, std::span<const double> angular_f
 }
 
 }  // namespace
+
+TraceModel trace_model(const FullModel& full, const ReductionOptions& options) {
+  check(full, options);
+  return trace_with(Prepared(full), options);
+}
+
+Reduction reduce(const TraceModel& trace, const Eigen::SparseMatrix<double>& average, ContactNodes contact,
+                 double damping_ratio) {
+  const Clock::time_point start = Clock::now();
+  Reduction result;
+  result.status = trace.status;
+  result.message = trace.message;
+  result.free_eigenvalues = trace.eigenvalues;
+  result.first_neglected_eigenvalue = trace.first_neglected_eigenvalue;
+  result.rigid_modes = trace.rigid_modes;
+  result.negative_modes = trace.negative_modes;
+  result.seconds_factorisation = trace.seconds_factorisation;
+  result.seconds_contact_solves = trace.seconds_contact_solves;
+  result.seconds_modes = trace.seconds_modes;
+  result.seconds_total = trace.seconds_total;
+  if (trace.status != Status::converged) return result;
+
+  const Eigen::SparseMatrix<double> a = for_directions(average, contact.directions());
+  const Eigen::Index nodal = a.rows(), m = trace.basis.cols();
+  const Eigen::MatrixXd flexibility = a * trace.flexibility * a.transpose();
+  const Eigen::LLT<Eigen::MatrixXd> g(0.5 * (flexibility + flexibility.transpose()));
+  if (g.info() != Eigen::Success || !(g.rcond() > 1e-14)) {
+    result.status = Status::singular;
+    result.message = "the residual flexibility of the contact is not positive definite: too many modes are kept";
+    return result;
+  }
+  const Eigen::MatrixXd inverse = g.solve(Eigen::MatrixXd::Identity(nodal, nodal));
+  const Eigen::MatrixXd free_on_contact = a * trace.basis.bottomRows(a.cols());
+  Eigen::MatrixXd glued = free_on_contact.transpose() * g.solve(free_on_contact);
+  glued = (0.5 * (glued + glued.transpose())).eval();
+  glued.diagonal() += trace.eigenvalues;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(glued);
+  if (m > 0 && !(eigen.eigenvalues()(0) > 0)) {
+    result.status = Status::singular;
+    result.message = "the glued structure is not positive definite";
+    return result;
+  }
+  // Coordinates [u; q], q rotated to the glued modes.
+  const Eigen::MatrixXd& rotation = eigen.eigenvectors();
+  result.glued_frequencies = eigen.eigenvalues().cwiseSqrt();
+  result.recovery.basis = trace.basis * rotation;
+  result.recovery.first = nodal;
+  result.recovery.contact_response = -trace.field * a.transpose();
+
+  ReducedModel& model = result.model;
+  const Eigen::Index n = nodal + m;
+  model.mass = Eigen::MatrixXd::Zero(n, n);
+  model.mass.diagonal().tail(m).setOnes();
+  model.damping = Eigen::MatrixXd::Zero(n, n);
+  model.damping.diagonal().tail(m) = 2 * damping_ratio * result.glued_frequencies;
+  model.stiffness = Eigen::MatrixXd::Zero(n, n);
+  model.stiffness.topLeftCorner(nodal, nodal) = 0.5 * (inverse + inverse.transpose());
+  const Eigen::MatrixXd coupling = -g.solve(free_on_contact * rotation);
+  model.stiffness.topRightCorner(nodal, m) = coupling;
+  model.stiffness.bottomLeftCorner(m, nodal) = coupling.transpose();
+  model.stiffness.diagonal().tail(m) = eigen.eigenvalues();
+  model.contact = contact_first(std::move(contact));
+
+  const auto rows_of = [&](const Eigen::MatrixXd& loads) {
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(loads.cols(), n);
+    rows.rightCols(m) = loads.transpose() * rotation;
+    return rows;
+  };
+  model.static_force = rows_of(trace.static_force).transpose();
+  model.cosine_force = rows_of(trace.cosine_force);
+  model.sine_force = rows_of(trace.sine_force);
+  model.output_vectors = rows_of(trace.outputs);
+  model.output_names = trace.output_names;
+
+  // u = Phi q + Psi lambda, Psi = -X A^T, lambda = -K_red[u rows] (u, q): inertia of that field beyond diag(0, I).
+  const Eigen::MatrixXd force = model.stiffness.topRows(nodal);  // -lambda of unit coordinates [nc, n]
+  const Eigen::MatrixXd field_inertia = a * trace.field_inertia * a.transpose();
+  Eigen::MatrixXd neglected = 0.5 * force.transpose() * field_inertia * force;
+  neglected.rightCols(m) += force.transpose() * (a * trace.cross_inertia * rotation);
+  result.neglected_mass = neglected + neglected.transpose();
+  result.frequency_error = 0.5 * result.neglected_mass.diagonal().tail(m);
+  result.seconds_total += seconds_since(start);
+  return result;
+}
 
 Reduction reduce(const FullModel& full, const ReductionOptions& options) {
   check(full, options);

@@ -45,6 +45,38 @@ struct Reduction {
   double seconds_factorisation = 0, seconds_contact_solves = 0, seconds_modes = 0, seconds_total = 0;
 };
 
+/// What a structure is at the trace of its contact, before contact nodes are laid on it: free-interface modes and the
+/// flexibility they leave. The modes, and everything that costs back-solves, are in here; to lay other contact nodes
+/// on the same trace takes dense algebra of their number only.
+struct TraceModel {
+  Status status = Status::converged;
+  std::string message;  ///< why, when not converged
+
+  Eigen::MatrixXd basis;        ///< Phi [n, m], M-orthonormal, K-orthogonal
+  Eigen::VectorXd eigenvalues;  ///< Lambda [m] (rad/s)^2
+  Eigen::MatrixXd field;        ///< X [n, nt], m/N: displacement to unit trace forces beyond what Phi represents
+  Eigen::MatrixXd flexibility;  ///< G [nt, nt] = B X
+  Eigen::MatrixXd field_inertia, cross_inertia;             ///< X^T M X [nt, nt], X^T M Phi [nt, m]
+  Eigen::MatrixXd static_force, cosine_force, sine_force;   ///< Phi^T f [m, 1], [m, H_f], [m, H_f]
+  Eigen::MatrixXd outputs;                                  ///< Phi^T c [m, n_out]
+  std::vector<std::string> output_names;
+  ContactNodes contact;  ///< the trace's own nodes
+
+  double first_neglected_eigenvalue = 0;
+  int rigid_modes = 0, negative_modes = 0;
+  double seconds_factorisation = 0, seconds_contact_solves = 0, seconds_modes = 0, seconds_total = 0;
+};
+
+/// First half of `reduce`, for `full` with its trace as contact. Cost and statuses as there.
+[[nodiscard]] TraceModel trace_model(const FullModel& full, const ReductionOptions& options = {});
+
+/// Second half, with other contact nodes on the trace: their relative displacements are u = A v, v the trace's and A
+/// `average` [nodes, trace nodes] for each direction, and their forces act on the trace as A^T lambda. Between them
+/// the trace is free to deform. `contact`: what the nodes are like; its dof numbers are set here. Glued modes, and with
+/// them the damping, are those of u = 0.
+[[nodiscard]] Reduction reduce(const TraceModel& trace, const Eigen::SparseMatrix<double>& average,
+                               ContactNodes contact, double damping_ratio);
+
 /// Reduces `full` to its contact dofs without mass and m coordinates with unit mass:
 ///   K_red = [[G^-1, -G^-1 Phi_r], [-Phi_r^T G^-1, Lambda + Phi_r^T G^-1 Phi_r]],  M_red = diag(0, I),
 /// with Phi the lowest free-interface modes and the static responses to all loads and outputs, and

@@ -22,4 +22,9 @@ struct StaticCondensation {
 /// Throws InputError for inconsistent sizes. Cost: one sparse Cholesky factorisation, nc + loads solves.
 [[nodiscard]] StaticCondensation condense_statically(const FullModel& full);
 
+/// The same with other contact nodes on the trace that `trace` has as contact, u = A v (see reduce): the trace is
+/// free to deform between them. Dense algebra of the trace's size.
+[[nodiscard]] StaticCondensation on_contact(const StaticCondensation& trace, const Eigen::SparseMatrix<double>& average,
+                                            ContactNodes contact);
+
 }  // namespace dovetail::reduction

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <Eigen/Dense>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -31,27 +32,25 @@ Numbers list(const Eigen::Ref<const Eigen::VectorXd>& values) {
 
 /// Where the contact nodes are.
 ContactRecord contact_places(const CandidateModel& model) {
-  const fem::ContactSurface& surface = model.system.contact;
+  const fem::ContactCells& cells = model.cells;
   ContactRecord record;
   for (const fem::Flank& flank : model.mesh.sector.flanks) record.flank_names.push_back(flank.name);
-  Eigen::Index first = 0;
-  for (std::size_t f = 0; f < model.mesh.sector.flanks.size(); ++f) {
-    const fem::Flank& flank = model.mesh.sector.flanks[f];
-    const Eigen::Index count = flank.contact_count();
-    const auto position = surface.position.middleCols(first, count);
-    const int row = flank.grid[0];
-    for (int i = 0; i < count; ++i) {
-      const auto neck_side = position.col(i - i % row);
-      record.flank.push_back(static_cast<std::int64_t>(f));
-      record.along_m.push_back((position.col(i) - neck_side).norm());
-      // Along the slot in oblique coordinates: rows of a skewed flank are not at right angles to it.
-      const bool deep = position.rows() > 2;
-      record.across_m.push_back(
-          deep ? flank.tangents.col(1).dot(neck_side - (position.col(0) + position.col(count - row)) / 2) : 0);
-      record.x_m.push_back(position(0, i));
-      record.y_m.push_back(position(1, i));
-    }
-    first += count;
+  for (Eigen::Index i = 0; i < cells.count(); ++i) {
+    const fem::Flank& flank = model.mesh.sector.flanks[static_cast<std::size_t>(cells.flank(i))];
+    const Eigen::VectorXd neck_side = flank.position.col(0);
+    const Eigen::VectorXd slot = flank.position.col(flank.contact_count() - flank.grid[0]) - neck_side;
+    const Eigen::VectorXd root = flank.position.col(flank.grid[0] - 1) - neck_side;
+    // Oblique coordinates: across and along a skewed slot are not at right angles.
+    Eigen::MatrixXd directions(root.size(), slot.norm() > 0 ? 2 : 1);
+    directions.col(0) = root.normalized();
+    if (slot.norm() > 0) directions.col(1) = slot.normalized();
+    const Eigen::VectorXd place =
+        directions.colPivHouseholderQr().solve(Eigen::VectorXd(cells.position.col(i) - neck_side));
+    record.flank.push_back(cells.flank(i));
+    record.along_m.push_back(place(0));
+    record.across_m.push_back(place.size() > 1 ? place(1) - slot.norm() / 2 : 0);
+    record.x_m.push_back(cells.position(0, i));
+    record.y_m.push_back(cells.position(1, i));
   }
   return record;
 }
@@ -238,7 +237,7 @@ void add_history(const Scene& scene, const CandidateResult& result, const Design
 }  // namespace
 
 ContactRecord contact_record(const CandidateResult& result) {
-  const fem::ContactSurface& surface = result.model.system.contact;
+  const fem::ContactCells& surface = result.model.cells;
   ContactRecord record = contact_places(result.model);
   record.area_m2 = list(surface.area);
   record.gap_m = list(surface.gap);
