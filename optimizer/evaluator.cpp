@@ -8,6 +8,7 @@
 #include "fem/neck.hpp"
 #include "fem/stress_aggregate.hpp"
 #include "geometry/measures.hpp"
+#include "optimizer/contact_fit.hpp"
 #include "optimizer/problem.hpp"
 #include "optimizer/refinement.hpp"
 #include "optimizer/stopwatch.hpp"
@@ -141,6 +142,7 @@ response::SteadyOptions steady_options(const SolverSettings& settings) {
 wear::AsymptoteOptions asymptote_options() {
   wear::AsymptoteOptions options;
   options.arbitration = "unsettled";
+  options.interpolate_edge = false;
   return options;
 }
 
@@ -158,6 +160,13 @@ CandidateResult SceneEvaluator::evaluate(const Scene& scene) const {
     evaluation.constraints[kRulePrefix + rule.name] = -rule.margin;
   evaluation.feasible = result.model.feasibility.feasible;
   if (result.model.converged()) {
+    Stopwatch watch;
+    const ContactFit fit = fit_contact(scene, {.grids = std::getenv("NOFIT") ? 0 : 4}, result.model);
+    evaluation.timings_s["contact_fit"] = watch.lap();
+    evaluation.model["contact_grids"] = fit.grids;
+    evaluation.model["contact_edges"] = fit.edges;
+    evaluation.model["contact_edges_moved"] = fit.moved;
+    evaluation.model["contact_nodes"] = static_cast<double>(result.model.cells.count());
     static_responses(scene, result.model, evaluation);
     evaluation.status = dynamics(scene, result);
   }

@@ -243,6 +243,7 @@ Asymptote asymptote(const std::shared_ptr<const response::CondensedModel>& model
   Passes passes(model->nodes());
   const auto finish = [&] {
     result.released = passes.released;
+    result.trail = passes.trail;
     result.passes = passes.count;
     result.solves = release.solves();
     result.jacobians = release.jacobians();

@@ -14,6 +14,7 @@
 #include "wear/certificate.hpp"
 #include "wear/control.hpp"
 #include "wear/no_wear.hpp"
+#include "wear/zone_edges.hpp"
 
 namespace dovetail::wear {
 
@@ -70,6 +71,7 @@ struct Asymptote {
   Status status = Status::converged;  ///< of the last steady state asked for
   Eigen::VectorXd depth;              ///< [Nc] W, m, nodal answer; of the history if that decided
   std::vector<bool> released;         ///< [Nc] worn off: carries nothing any more
+  ReleaseTrail trail;                 ///< of the passes of release
   double worn_volume = 0.0;           ///< m^3, nodal answer
   double largest_depth = 0.0;         ///< m, nodal answer
   /// The same with the edges of worn zones between nodes (PartialRelease): continuous in the design where the nodal

@@ -19,7 +19,9 @@ std::vector<bool> loaded_nodes(const response::SteadyState& state, const std::ve
 
 }  // namespace
 
-Passes::Passes(Index nodes) : released(static_cast<std::size_t>(nodes), false), touching(released) {}
+Passes::Passes(Index nodes) : released(static_cast<std::size_t>(nodes), false), touching(released) {
+  trail.released_in.assign(released.size(), -1);
+}
 
 std::vector<bool> wear_off(const response::SteadyState& state, const std::vector<bool>& done, double threshold) {
   constexpr double kWaits = 0.02;
@@ -56,8 +58,12 @@ Ending release_slipping(Release& release, double threshold, int limit, const Con
       passes.status = state.status;
       return held || state.status == Status::interrupted ? Ending::failed : Ending::nothing_holds;
     }
-    for (std::size_t i = 0; i < next.size(); ++i)
-      if (next[i] && !passes.released[i] && passes.state.nodes[i].separates) passes.touching[i] = true;
+    passes.trail.reserves.push_back(friction_reserve(release.model(), passes.state, slips));
+    for (std::size_t i = 0; i < next.size(); ++i) {
+      if (!next[i] || passes.released[i]) continue;
+      passes.trail.released_in[i] = static_cast<int>(passes.trail.reserves.size()) - 1;
+      if (passes.state.nodes[i].separates) passes.touching[i] = true;
+    }
     passes.released = std::move(next);
     passes.state = std::move(state);
     const Eigen::VectorXd depth = release.depth(passes.released, passes.state);

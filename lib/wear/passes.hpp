@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "wear/release.hpp"
+#include "wear/zone_edges.hpp"
 
 namespace dovetail::wear {
 
@@ -23,6 +24,7 @@ struct Passes {
   int count = 0;                ///< passes done
   Eigen::VectorXd deepest;      ///< [Nc] largest depth that any pass asked for, m
   std::vector<bool> touching;   ///< [Nc] carried load at times only when it was released
+  ReleaseTrail trail;
   Status status = Status::converged;
 };
 

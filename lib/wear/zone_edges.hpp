@@ -1,0 +1,35 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "wear/release.hpp"
+
+namespace dovetail::wear {
+
+/// What the passes of release saw on their way, for finding where between two nodes a worn zone ends.
+struct ReleaseTrail {
+  std::vector<int> released_in;           ///< [Nc] pass that released the node, from 0; -1: none
+  std::vector<Eigen::VectorXd> reserves;  ///< per pass [Nc]: `friction_reserve` of the state before it
+};
+
+/// What a node has left of its friction: the margin of one that sticks (friction_margin), minus the excess of one that
+/// slips (slip_excess), both in units of mu lambda_N and zero at the edge between the two; NaN of one without load.
+/// Only nodes next to one that is slipping are looked at: NaN elsewhere, too.
+[[nodiscard]] Eigen::VectorXd friction_reserve(const response::CondensedModel& model,
+                                               const response::SteadyState& state, const std::vector<bool>& slips);
+
+/// A place on a line of nodes where a worn zone ends: between a worn node and the one that bears next to it.
+struct ZoneEdge {
+  int line = 0;
+  int worn = 0, bearing = 0;  ///< nodes
+  double fraction = 0;        ///< of the way from the worn node's middle to the bearing one's
+};
+
+/// Ends of the worn zones along lines of neighbouring nodes. In the continuum a zone ends where the reserve of friction
+/// vanishes; between the worn node and the bearing one the reserve of the pass that released the first is interpolated
+/// linearly. An end beside a node without load is no edge: there the flanks are apart.
+[[nodiscard]] std::vector<ZoneEdge> zone_edges(const ReleaseTrail& trail, std::span<const std::vector<int>> lines);
+
+}  // namespace dovetail::wear
