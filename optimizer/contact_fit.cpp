@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 
 #include "fem/flank_trace.hpp"
 #include "optimizer/evaluator.hpp"
@@ -32,10 +34,11 @@ class EdgeLengths {
 std::vector<double> fitted_ends(const EdgeLengths& lengths, const std::vector<double>& edges,
                                 const ContactFitOptions& options) {
   const auto wanted = [&](double s) {
-    const double longest = lengths.at(s);
-    double length = longest;
+    static const double G = std::getenv("G") ? std::atof(std::getenv("G")) : options.growth;
+    static const double L = std::getenv("L") ? std::atof(std::getenv("L")) : 1.0;
+    double length = L * lengths.at(s);
     for (const double edge : edges)
-      length = std::min(length, options.finest * lengths.at(edge) + options.growth * std::abs(s - edge));
+      length = std::min(length, options.finest * lengths.at(edge) + G * std::abs(s - edge));
     return length;
   };
   std::vector<double> fixed{0};
@@ -117,6 +120,15 @@ ContactFit fit_contact(const Scene& scene, const ContactFitOptions& options, Can
     omega = unworn.omega;
     const wear::Asymptote worn = wear::asymptote(candidate.condensed, omega, {}, steady, release, &unworn.state);
     if (worn.verdict != wear::Verdict::asymptote) return fit;
+    if (std::getenv("FITLOG")) {
+      std::fprintf(stderr, "grid %d passes %d V %.5g\n", fit.grids, worn.passes, 1e9 * worn.worn_volume);
+      const auto lines = lines_of(candidate.cells);
+      for (const wear::ZoneEdge& e : wear::zone_edges(worn.trail, lines)) {
+        const auto& r = worn.trail.reserves[static_cast<std::size_t>(worn.trail.released_in[static_cast<std::size_t>(e.worn)])];
+        std::fprintf(stderr, "  edge line %d worn %d bearing %d pass %d excess %.4g margin %.4g area %.3g %.3g\n", e.line, e.worn - lines[static_cast<std::size_t>(e.line)].front(), e.bearing - lines[static_cast<std::size_t>(e.line)].front(), worn.trail.released_in[static_cast<std::size_t>(e.worn)], -r[e.worn], r[e.bearing], candidate.cells.area[e.worn], candidate.cells.area[e.bearing]);
+      }
+      for (const auto& pl : edge_places(candidate.cells, worn.trail)) for (double x : pl) std::fprintf(stderr, "  at %.5f\n", x);
+    }
     std::vector<std::vector<double>> places = edge_places(candidate.cells, worn.trail);
     fit.moved = 0;
     fit.edges = 0;

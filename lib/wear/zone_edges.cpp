@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 namespace dovetail::wear {
@@ -31,7 +32,8 @@ std::vector<ZoneEdge> zone_edges(const ReleaseTrail& trail, std::span<const std:
       if ((pass_of(worn) < 0) == (pass_of(bearing) < 0)) continue;
       if (pass_of(worn) < 0) std::swap(worn, bearing);
       const Eigen::VectorXd& reserve = trail.reserves[static_cast<std::size_t>(pass_of(worn))];
-      const double excess = -reserve[worn], margin = reserve[bearing];
+      static const double weight = std::getenv("EDGEW") ? std::atof(std::getenv("EDGEW")) : 1.0;
+      const double excess = -weight * reserve[worn], margin = reserve[bearing];
       if (std::isnan(margin) || !(excess + margin > 0) || std::isinf(margin)) continue;
       edges.push_back({.line = static_cast<int>(l), .worn = worn, .bearing = bearing, .fraction = excess / (excess + margin)});
     }
