@@ -6,6 +6,7 @@
 #include "fem/flank_trace.hpp"
 #include "fem/stress.hpp"
 #include "geometry/solid_rules.hpp"
+#include "optimizer/contact_fit.hpp"
 #include "optimizer/stopwatch.hpp"
 #include "reduction/static_condensation.hpp"
 
@@ -72,22 +73,6 @@ Status geometric_stiffness(const Scene& scene, const CandidateModel& candidate, 
   const fem::Mesh& mesh = candidate.mesh.sector.mesh;
   result = assembler.geometric_stiffness(mesh, fem::quadrature_stress(mesh, materials, displacement));
   return Status::converged;
-}
-
-/// Cells of equal length: as many as the mesh has edges across the slot and layers along it, or as the sizes say.
-std::vector<fem::FlankCells> default_cells(const Scene& scene, const fem::SectorMesh& trace) {
-  std::vector<fem::FlankCells> cells;
-  for (const fem::Flank& flank : trace.flanks) {
-    const fem::TraceLines lines = fem::trace_lines(flank);
-    fem::FlankCells of_flank;
-    std::vector<double> across;
-    for (std::size_t i = 0; i < lines.across.size(); i += 2) across.push_back(lines.across[i]);
-    of_flank.along = lines.along.size() > 1 ? lines.along : std::vector<double>{0, 1};
-    of_flank.across.assign(of_flank.along.size() - 1, across);
-    cells.push_back(std::move(of_flank));
-  }
-  (void)scene;
-  return cells;
 }
 
 /// The rules of the section, and in space those of the solid.
@@ -178,7 +163,7 @@ CandidateModel ModelBuilder::build(const Scene& scene) const {
   }
 
   candidate.mesh.sector = fem::with_trace(candidate.mesh.sector);
-  const std::vector<fem::FlankCells> cells = default_cells(scene, candidate.mesh.sector);
+  const std::vector<fem::FlankCells> cells = contact_grid(candidate.mesh.sector);
   candidate.cells = fem::contact_cells(candidate.mesh.sector, cells);
   const std::vector<fem::Material> bodies = materials(scene);
   const fem::Mesh& mesh = candidate.mesh.sector.mesh;

@@ -34,11 +34,13 @@ class EdgeLengths {
 std::vector<double> fitted_ends(const EdgeLengths& lengths, const std::vector<double>& edges,
                                 const ContactFitOptions& options) {
   const auto wanted = [&](double s) {
-    static const double G = std::getenv("G") ? std::atof(std::getenv("G")) : options.growth;
-    static const double L = std::getenv("L") ? std::atof(std::getenv("L")) : 1.0;
-    double length = L * lengths.at(s);
-    for (const double edge : edges)
-      length = std::min(length, options.finest * lengths.at(edge) + G * std::abs(s - edge));
+    double length = options.coarsest * lengths.at(s);
+    const auto grow_from = [&](double place) {
+      length = std::min(length, options.finest * lengths.at(place) + options.growth * std::abs(s - place));
+    };
+    grow_from(0);
+    grow_from(1);
+    for (const double edge : edges) grow_from(edge);
     return length;
   };
   std::vector<double> fixed{0};
@@ -79,7 +81,7 @@ std::vector<std::vector<double>> edge_places(const fem::ContactCells& cells, con
   std::vector<std::vector<double>> ends, places(lines.size());
   for (const fem::FlankCells& flank : cells.flanks)
     for (const std::vector<double>& across : flank.across) ends.push_back(across);
-  for (const wear::ZoneEdge& edge : wear::zone_edges(trail, lines)) {
+  for (const wear::ZoneEdge& edge : wear::zone_edges(trail, lines, cells.area)) {
     const auto line = static_cast<std::size_t>(edge.line);
     const auto middle = [&](int node) {
       const auto k = static_cast<std::size_t>(node - lines[line].front());
@@ -107,6 +109,17 @@ void drop_narrow(const EdgeLengths& lengths, const ContactFitOptions& options, s
 
 }  // namespace
 
+std::vector<fem::FlankCells> contact_grid(const fem::SectorMesh& trace, const ContactFitOptions& options) {
+  std::vector<fem::FlankCells> cells;
+  for (const fem::Flank& flank : trace.flanks) {
+    const fem::TraceLines lines = fem::trace_lines(flank);
+    fem::FlankCells of_flank{.along = lines.along.size() > 1 ? lines.along : std::vector<double>{0, 1}, .across = {}};
+    of_flank.across.assign(of_flank.along.size() - 1, fitted_ends(EdgeLengths(lines), {}, options));
+    cells.push_back(std::move(of_flank));
+  }
+  return cells;
+}
+
 ContactFit fit_contact(const Scene& scene, const ContactFitOptions& options, CandidateModel& candidate) {
   ContactFit fit;
   const response::SteadyOptions steady = steady_options(scene.solver);
@@ -123,7 +136,7 @@ ContactFit fit_contact(const Scene& scene, const ContactFitOptions& options, Can
     if (std::getenv("FITLOG")) {
       std::fprintf(stderr, "grid %d passes %d V %.5g\n", fit.grids, worn.passes, 1e9 * worn.worn_volume);
       const auto lines = lines_of(candidate.cells);
-      for (const wear::ZoneEdge& e : wear::zone_edges(worn.trail, lines)) {
+      for (const wear::ZoneEdge& e : wear::zone_edges(worn.trail, lines, candidate.cells.area)) {
         const auto& r = worn.trail.reserves[static_cast<std::size_t>(worn.trail.released_in[static_cast<std::size_t>(e.worn)])];
         std::fprintf(stderr, "  edge line %d worn %d bearing %d pass %d excess %.4g margin %.4g area %.3g %.3g\n", e.line, e.worn - lines[static_cast<std::size_t>(e.line)].front(), e.bearing - lines[static_cast<std::size_t>(e.line)].front(), worn.trail.released_in[static_cast<std::size_t>(e.worn)], -r[e.worn], r[e.bearing], candidate.cells.area[e.worn], candidate.cells.area[e.bearing]);
       }

@@ -13,10 +13,12 @@ struct ContactFitOptions {
   int grids = 4;
   /// > 0. Edges that would move by less than this have been found, in lengths of the mesh's edge there.
   double tolerance = 0.02;
-  /// in [0.5, 1]. Length of the cells beside an edge, in lengths of the mesh's edge there: what the trace resolves.
-  double finest = 0.5;
-  /// > 0. Growth of the cells' length with the distance from an edge.
-  double growth = 0.5;
+  /// >= 0.5. Length of the cells at the ends of a flank and beside the edges of worn zones, in edges of the mesh there.
+  double finest = 1;
+  /// >= finest. Length of the longest cells, in edges of the mesh.
+  double coarsest = 4;
+  /// > 0. Growth of the cells' length with the distance from an end or edge.
+  double growth = 0.35;
 };
 
 struct ContactFit {
@@ -25,6 +27,10 @@ struct ContactFit {
   bool settled = true;  ///< `moved` is within the tolerance
   int edges = 0;        ///< of worn zones
 };
+
+/// The grid to begin with: finest at the ends of the flanks, where pressures peak and wear begins.
+[[nodiscard]] std::vector<fem::FlankCells> contact_grid(const fem::SectorMesh& trace,
+                                                        const ContactFitOptions& options = {});
 
 /// Lays contact nodes on a candidate so that the worn zones of its asymptote at the unworn resonance end where nodes
 /// end: edges are found on one grid, a grid is laid with an end of a cell on each of them, and so on until they stay.

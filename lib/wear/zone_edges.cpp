@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 namespace dovetail::wear {
@@ -23,7 +22,17 @@ Eigen::VectorXd friction_reserve(const response::CondensedModel& model, const re
   return reserve;
 }
 
-std::vector<ZoneEdge> zone_edges(const ReleaseTrail& trail, std::span<const std::vector<int>> lines) {
+namespace {
+
+// Next to an edge the margin grows like the square root of the distance and slip like its power 3/2, so that means over
+// cells of equal length are not equally far from zero. Measured on dovetails with 24 to 96 edges per flank and cells of
+// unequal lengths: with this weight, times the ratio of the lengths, an edge stays where it is (within 1 % of the worn
+// volume) whatever the cells.
+constexpr double kExcess = 0.7;
+
+}  // namespace
+
+std::vector<ZoneEdge> zone_edges(const ReleaseTrail& trail, std::span<const std::vector<int>> lines, const Eigen::VectorXd& size) {
   std::vector<ZoneEdge> edges;
   for (std::size_t l = 0; l < lines.size(); ++l)
     for (std::size_t k = 0; k + 1 < lines[l].size(); ++k) {
@@ -32,8 +41,7 @@ std::vector<ZoneEdge> zone_edges(const ReleaseTrail& trail, std::span<const std:
       if ((pass_of(worn) < 0) == (pass_of(bearing) < 0)) continue;
       if (pass_of(worn) < 0) std::swap(worn, bearing);
       const Eigen::VectorXd& reserve = trail.reserves[static_cast<std::size_t>(pass_of(worn))];
-      static const double weight = std::getenv("EDGEW") ? std::atof(std::getenv("EDGEW")) : 1.0;
-      const double excess = -weight * reserve[worn], margin = reserve[bearing];
+      const double excess = -kExcess * size[worn] / size[bearing] * reserve[worn], margin = reserve[bearing];
       if (std::isnan(margin) || !(excess + margin > 0) || std::isinf(margin)) continue;
       edges.push_back({.line = static_cast<int>(l), .worn = worn, .bearing = bearing, .fraction = excess / (excess + margin)});
     }
