@@ -52,10 +52,11 @@ const Chain& finite(const Chain& chain) {
 
 class Builder {
  public:
-  Builder(const Chain& chain, const MeshSizes& sizes)
+  Builder(const Chain& chain, const MeshSizes& sizes, const std::vector<double>& flank)
       : chain_(finite(chain)),
         sizes_(sizes),
-        size_(element_sizes(chain_, sizes)),
+        flank_(flank),
+        size_(element_sizes(chain_, sizes, flank)),
         edges_(static_cast<int>(chain.size())) {
     assert(edges_ % 2 == 0);
   }
@@ -92,7 +93,7 @@ class Builder {
         continue;
       }
       if (edge.name.starts_with("flank"))
-        right = equal_fractions(sizes_.flank_elements);
+        right = flank_;
       else if (is_aerofoil(edge))
         right = equal_fractions(sizes_.aerofoil_elements);
       else
@@ -194,6 +195,7 @@ class Builder {
 
   const Chain& chain_;
   const MeshSizes& sizes_;
+  const std::vector<double>& flank_;
   SizeField size_;
   int edges_;
   CornerMesh mesh_;
@@ -226,8 +228,8 @@ Prescribed prescribed_nodes(const CornerMesh& mesh, const Chain& chain) {
   return result;
 }
 
-CornerMesh mesh_corners(const Chain& chain, const MeshSizes& sizes) {
-  return Builder(chain, sizes).run();
+CornerMesh mesh_corners(const Chain& chain, const MeshSizes& sizes, const std::vector<double>& flank) {
+  return Builder(chain, sizes, flank).run();
 }
 
 }  // namespace dovetail::geometry

@@ -33,11 +33,11 @@ struct Prescribed {
 /// Meshes a body whose chain is mirror-symmetric about x = 0: edge i mirrors edge n - i, edge 0 and edge
 /// n/2 cross the centre line. Only the right half is triangulated, so the mesh is a mirror image of
 /// itself. Division of the boundary:
-/// - flanks: flank_elements equal edges;
+/// - flanks: at the fractions `flank` (flank_fractions.hpp);
 /// - aerofoil ("aerofoil_right", "aerofoil_left"): aerofoil_elements equal edges along the span, two
 ///   elements through the thickness, middle nodes staggered against those of the sides;
 /// - everything else: edges in proportion to the local size of element_sizes().
 /// Throws InputError when the boundary crosses itself.
-[[nodiscard]] CornerMesh mesh_corners(const Chain& chain, const MeshSizes& sizes);
+[[nodiscard]] CornerMesh mesh_corners(const Chain& chain, const MeshSizes& sizes, const std::vector<double>& flank);
 
 }  // namespace dovetail::geometry

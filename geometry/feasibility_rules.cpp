@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "geometry/feasibility.hpp"
+#include "geometry/flank_form.hpp"
 #include "geometry/measures.hpp"
 #include "geometry/rule_list.hpp"
 
@@ -71,6 +72,8 @@ void radii(RuleList& rules, const ProfileParameters& p, double cutter) {
 void flank(RuleList& rules, const FlankParameters& f, const std::string& side, double friction) {
   rules.at_least("relief_" + side + "_fits", "the length of the " + side + " flank", f.length, 2 * f.relief_length,
                  "for the relieved zones not to meet");
+  rules.at_least("edge_" + side + "_fits", "the length of the " + side + " flank", f.length,
+                 4 * rounded_length(f.edge_radius), "for half of it to stay straight between its rounded ends");
   rules.angle_at_least("self_locking_" + side, "the angle of the " + side + " flank", f.angle, std::atan(friction),
                        fmt::format("for the joint to release with a friction of {:.3g}", friction));
 }

@@ -31,12 +31,12 @@ class FinishedFlank {
   }
   [[nodiscard]] Chain edges() const {
     Chain chain;
-    std::array<double, 4> borders = form_.pieces();
+    std::array<double, 6> borders = form_.pieces();
     if (from_root_) {
       std::reverse(borders.begin(), borders.end());
       for (double& border : borders) border = 1 - border;
     }
-    // Pieces shorter than a nanometre are rounding of the relief's border.
+    // Pieces shorter than a nanometre are rounding of a border.
     double from = 0;
     for (double border : borders)
       if ((border - from) * flank_.length() > 1e-9) {

@@ -88,6 +88,11 @@ const auto& flank_fields() {
                kMicrometre,
                {.lower = 0, .upper = 500},
                "Depth of the relief at the flank's ends."},
+      Field<F>{"flank_edge_radius_mm",
+               &F::edge_radius,
+               kMillimetre,
+               {.lower = 0, .upper = 1000},
+               "Radius with which the blade's flank rounds off at its ends; 0: sharp."},
   };
   return fields;
 }
@@ -111,6 +116,12 @@ const auto& size_fields() {
                1,
                {.lower = 2, .upper = 2000},
                "Element edges along each straight flank."},
+      Field<M>{"flank_grading",
+               &M::flank_grading,
+               1,
+               {.lower = 1, .upper = 50},
+               "Longest element edge along a flank, in its middle, over the shortest ones at its ends, where pressures "
+               "peak and worn zones begin; 1: all equal."},
       Field<M>{"fillet_fraction",
                &M::fillet_fraction,
                1,

@@ -12,6 +12,7 @@ struct FlankParameters {
   double crown = 0;     ///< height of the blade flank's bulge at mid-length, m (negative: hollow)
   double relief_length = 0;  ///< length of the relieved zone at each end of the flank, m
   double relief_depth = 0;   ///< depth of the relief at the ends, m
+  double edge_radius = 0;    ///< radius of the rounding at each end of the flank, m; 0: sharp (flank_form.hpp)
 };
 
 /// Every dimension of a dovetail section, SI. x is tangential, y radial; the blade's centre line is x = 0.
@@ -50,6 +51,7 @@ struct FeasibilityLimits {
 /// Sizes of the mesh.
 struct MeshSizes {
   int flank_elements = 24;       ///< element edges along each straight flank
+  double flank_grading = 4;      ///< longest of these edges, in the middle, over the shortest, at both ends; 1: equal
   double fillet_fraction = 0.1;  ///< element size on a fillet as a fraction of its radius
   double bulk_size = 3e-3;       ///< largest element size in the blade root and disk, m
   int aerofoil_elements = 24;    ///< element edges along the aerofoil's span

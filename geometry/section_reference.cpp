@@ -8,6 +8,7 @@
 
 #include "core/errors.hpp"
 #include "core/options.hpp"
+#include "geometry/flank_fractions.hpp"
 
 namespace dovetail::geometry {
 namespace {
@@ -32,20 +33,20 @@ std::string figures(const MeshQuality& q) {
                      q.minimum_scaled_jacobian, q.minimum_angle * 180 / std::numbers::pi, q.inverted_elements);
 }
 
-ReferenceBody::ReferenceBody(const Chain& chain, const MeshSizes& sizes)
-    : corners(mesh_corners(chain, sizes)), motion(corners, prescribed_nodes(corners, chain).nodes) {}
+ReferenceBody::ReferenceBody(const Chain& chain, const MeshSizes& sizes, const std::vector<double>& flank)
+    : corners(mesh_corners(chain, sizes, flank)), motion(corners, prescribed_nodes(corners, chain).nodes) {}
 
 Eigen::Matrix2Xd ReferenceBody::moved(const Chain& chain) const {
   return motion.positions(prescribed_nodes(corners, chain).positions);
 }
 
 SectionReference::SectionReference(const ProfileParameters& parameters, const MeshSizes& sizes)
-    : SectionReference(build_profile(symmetric(parameters)), sizes) {}
+    : SectionReference(build_profile(symmetric(parameters)), sizes, flank_fractions(parameters, sizes)) {}
 
-SectionReference::SectionReference(const Profile& profile, const MeshSizes& sizes)
+SectionReference::SectionReference(const Profile& profile, const MeshSizes& sizes, const std::vector<double>& flank)
     : blade_chain(profile.blade),
-      blade(profile.blade, sizes),
-      disk(profile.disk, sizes),
+      blade(profile.blade, sizes, flank),
+      disk(profile.disk, sizes, flank),
       topology(blade.corners, disk.corners, profile) {}
 
 MeshedSector SectionReference::mesh_of(const Profile& profile, const ProfileParameters& parameters) const {

@@ -19,7 +19,7 @@ struct ReferenceBody {
   CornerMesh corners;
   ElasticMotion motion;
 
-  ReferenceBody(const Chain& chain, const MeshSizes& sizes);
+  ReferenceBody(const Chain& chain, const MeshSizes& sizes, const std::vector<double>& flank);
   /// Positions [2, corners] when the boundary is `chain`.
   [[nodiscard]] Eigen::Matrix2Xd moved(const Chain& chain) const;
 };
@@ -36,7 +36,7 @@ struct SectionReference {
   [[nodiscard]] MeshedSector mesh_of(const Profile& profile, const ProfileParameters& parameters) const;
 
  private:
-  SectionReference(const Profile& profile, const MeshSizes& sizes);
+  SectionReference(const Profile& profile, const MeshSizes& sizes, const std::vector<double>& flank);
 };
 
 /// A reference on which a design meshes acceptably, and the plane mesh of the design.

@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "geometry/contact_grid.hpp"
+#include "geometry/fillet_share.hpp"
 #include "geometry/flank_form.hpp"
+#include "geometry/flank_fractions.hpp"
 
 namespace dovetail::geometry {
 namespace {
@@ -130,6 +132,24 @@ Eigen::Matrix2Xd SectorTopology::positions(const Profile& profile, const Eigen::
   return nodes;
 }
 
+void SectorTopology::share_fillets(const Profile& profile, fem::SectorMesh& sector) const {
+  const auto shares = [&](const Body& body, const Chain& chain, const std::string& name, bool flank_at_start,
+                          double straight) {
+    const std::size_t at = position(chain, name);
+    return fillet_shares(chain[at], flank_at_start, straight, sector.mesh.nodes(Eigen::all, body.along[at]));
+  };
+  const auto both = [](const Eigen::VectorXd& left, const Eigen::VectorXd& right) {
+    Eigen::VectorXd all(left.size() + right.size());
+    all << left, right;
+    return all;
+  };
+  sector.blade_fillet_share = both(shares(blade_, profile.blade, "neck_fillet_left", false, 0),
+                                   shares(blade_, profile.blade, "neck_fillet_right", true, 0));
+  const auto runout = [&](const char* name) { return profile.disk[position(profile.disk, name)].length(); };
+  sector.disk_fillet_share = both(shares(disk_, profile.disk, "slot_fillet_left", false, runout("runout_left")),
+                                  shares(disk_, profile.disk, "slot_fillet_right", true, runout("runout_right")));
+}
+
 Eigen::VectorXd SectorTopology::blade_values(const Eigen::VectorXd& at_corners) const {
   Eigen::VectorXd values = Eigen::VectorXd::Zero(node_count_);
   values.segment(blade_.first, blade_.corners) = at_corners;
@@ -146,8 +166,9 @@ fem::SectorMesh SectorTopology::place(const Profile& profile, const ProfileParam
   sector.mesh.regions[1].thickness = parameters.chord;
   sector.mesh.regions[2].thickness = parameters.slot_length;
   sector.mesh.nodes = positions(profile, blade_corners, disk_corners);
+  share_fillets(profile, sector);
 
-  const std::vector<double> pairs = equal_fractions(2 * (static_cast<int>(flank_fractions_.size()) - 1));
+  const std::vector<double> pairs = with_middles(flank_fractions_);
   for (fem::Flank& flank : sector.flanks) {
     const bool left = flank.name == "left";
     const Vector2d along = sector.mesh.nodes.col(flank.pairs.back()[0]) - sector.mesh.nodes.col(flank.pairs.front()[0]);

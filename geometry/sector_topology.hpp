@@ -25,6 +25,8 @@ class SectorTopology {
   /// The positions [2, nodes] alone.
   [[nodiscard]] Eigen::Matrix2Xd positions(const Profile& profile, const Eigen::Matrix2Xd& blade_corners,
                                            const Eigen::Matrix2Xd& disk_corners) const;
+  /// Of the contact nodes along either flank, from neck to root.
+  [[nodiscard]] const std::vector<double>& flank_fractions() const { return flank_fractions_; }
   /// Values given at the corner nodes of the blade at all nodes: means of the corners at mid-sides, 0 in the disk.
   [[nodiscard]] Eigen::VectorXd blade_values(const Eigen::VectorXd& at_corners) const;
 
@@ -43,6 +45,7 @@ class SectorTopology {
 
   Body add_body(const CornerMesh& corners, const Chain& chain, int regions_before);
   void add_flank(const char* side, const Profile& profile);
+  void share_fillets(const Profile& profile, fem::SectorMesh& sector) const;
 
   Body blade_, disk_;
   int node_count_ = 0;

@@ -40,7 +40,6 @@ double wall_behind(const Eigen::Vector2d& x, const Eigen::Vector2d& d, const Edg
 }
 
 double wanted_on(const Edge& e, const MeshSizes& sizes) {
-  if (e.name.starts_with("flank")) return e.length() / sizes.flank_elements;
   if (!e.is_arc()) return sizes.bulk_size;
   const auto named = [&e](const char* part) { return e.name.find(part) != std::string::npos; };
   if (named("blend")) return sizes.blend_fraction * e.radius;
@@ -65,13 +64,18 @@ double SizeField::operator()(const Eigen::Vector2d& x) const {
   return size;
 }
 
-SizeField element_sizes(const Chain& chain, const MeshSizes& sizes) {
+SizeField element_sizes(const Chain& chain, const MeshSizes& sizes, const std::vector<double>& flank) {
   SizeField field(sizes.bulk_size, sizes.growth);
   const std::vector<Segment> boundary = polyline(chain);
   for (const Edge& e : chain) {
-    const double wanted = wanted_on(e, sizes);
+    const bool bearing = e.name.starts_with("flank");
+    const double wanted = bearing ? e.length() / static_cast<double>(flank.size() - 1) : wanted_on(e, sizes);
     const int samples = std::max(2, static_cast<int>(std::ceil(e.length() / std::min(wanted, sizes.bulk_size / 2))));
-    for (int i = 0; i <= samples; ++i) field.add_source(e.point(static_cast<double>(i) / samples), wanted);
+    if (bearing)
+      for (std::size_t k = 1; k < flank.size(); ++k)
+        field.add_source(e.point((flank[k - 1] + flank[k]) / 2), (flank[k] - flank[k - 1]) * e.length());
+    else
+      for (int i = 0; i <= samples; ++i) field.add_source(e.point(static_cast<double>(i) / samples), wanted);
     for (int i = 0; i < samples; ++i) {
       const double fraction = (i + 0.5) / samples;
       const Eigen::Vector2d t = e.tangent(fraction);

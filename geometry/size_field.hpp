@@ -27,12 +27,12 @@ class SizeField {
 };
 
 /// Sizes asked for by one body of the section:
-/// - a bearing flank: its length / flank_elements;
+/// - a bearing flank: the lengths of its edges, between the fractions `flank`;
 /// - a fillet: fillet_fraction * radius, other arcs twice that: the peak stress sits in the fillets;
 /// - a blend (no stress is read there): blend_fraction * radius;
 /// - a wall of thickness t, measured along the inward normal of the boundary: t/2, i.e. at least two
 ///   quadratic elements through every wall;
 /// - away from these the size grows by `growth` times the distance up to bulk_size.
-[[nodiscard]] SizeField element_sizes(const Chain& chain, const MeshSizes& sizes);
+[[nodiscard]] SizeField element_sizes(const Chain& chain, const MeshSizes& sizes, const std::vector<double>& flank);
 
 }  // namespace dovetail::geometry

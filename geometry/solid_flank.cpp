@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "geometry/contact_grid.hpp"
+#include "geometry/flank_fractions.hpp"
 #include "geometry/slot_sweep.hpp"
 
 namespace dovetail::geometry {
@@ -23,25 +24,26 @@ SolidFlankForm::SolidFlankForm(const FlankParameters& flank, const ProfileParame
                                const SolidParameters& solid)
     : across_(flank), along_(along_slot(parameters, solid)) {}
 
-void lay_contact(fem::Flank& flank, const fem::Flank& section, const fem::Mesh& mesh,
-                 const ProfileParameters& parameters, const SolidParameters& solid, const SolidSizes& sizes) {
+void lay_contact(fem::Flank& flank, const fem::Flank& section, const std::vector<double>& fractions,
+                 const fem::Mesh& mesh, const ProfileParameters& parameters, const SolidParameters& solid,
+                 const SolidSizes& sizes) {
   const bool left = flank.name == "left";
   const int pairs_across = static_cast<int>(section.pairs.size());
-  const int elements = (pairs_across - 1) / 2;
+  assert(pairs_across == 2 * static_cast<int>(fractions.size()) - 1);
   const Eigen::Vector2d direction = section.tangents.col(0);
   const FlankFrame frame = flank_frame(direction, left, solid.skew_angle);
   flank.normal = frame.normal;
   flank.tangents = frame.tangents;
 
   const std::vector<double> across =
-      equal_fractions(sizes.contact_flank_elements > 0 ? sizes.contact_flank_elements : elements);
+      sizes.contact_flank_elements > 0 ? divided_like(fractions, sizes.contact_flank_elements) : fractions;
   const int parts = sizes.contact_slot_elements > 0 ? sizes.contact_slot_elements : sizes.slot_elements;
   const std::vector<double> along = layer_ends(parameters.slot_length, parts, sizes.slot_grading);
   std::vector<double> heights;
   for (std::size_t row = 0; row < flank.pairs.size(); row += section.pairs.size())
     heights.push_back(mesh.nodes(2, flank.pairs[row][0]));
   flank.grid = {static_cast<int>(across.size()), static_cast<int>(along.size())};
-  flank.interpolation = bilinear_interpolation(across, along, equal_fractions(pairs_across - 1), heights);
+  flank.interpolation = bilinear_interpolation(across, along, with_middles(fractions), heights);
 
   const Eigen::Vector2d neck = mesh.nodes.col(flank.pairs.front()[0]).head<2>();
   const Eigen::Vector2d root = mesh.nodes.col(flank.pairs[static_cast<std::size_t>(pairs_across - 1)][0]).head<2>();

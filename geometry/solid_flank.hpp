@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "fem/sector_mesh.hpp"
 #include "geometry/flank_form.hpp"
@@ -40,10 +41,11 @@ class SolidFlankForm {
 };
 
 /// Fills what solid_layers left of a flank whose nodes are placed: directions (slot_sweep.hpp), the contact grid with
-/// its positions and gaps, and the interpolation. Contact nodes divide the flank evenly across the slot and like the
-/// layers of elements along it; sizes of 0 give the mesh's own corner nodes. `section`: the plane flank, whose pairs
-/// go from neck to root side, corners and mid-sides in turn, in equal parts.
-void lay_contact(fem::Flank& flank, const fem::Flank& section, const fem::Mesh& mesh,
-                 const ProfileParameters& parameters, const SolidParameters& solid, const SolidSizes& sizes);
+/// its positions and gaps, and the interpolation. Contact nodes divide the flank like the mesh's edges across the slot
+/// and like the layers of elements along it; sizes of 0 give the mesh's own corner nodes. `section`: the plane flank,
+/// whose pairs go from neck to root side, corners (at `fractions`) and mid-sides in turn.
+void lay_contact(fem::Flank& flank, const fem::Flank& section, const std::vector<double>& fractions,
+                 const fem::Mesh& mesh, const ProfileParameters& parameters, const SolidParameters& solid,
+                 const SolidSizes& sizes);
 
 }  // namespace dovetail::geometry

@@ -27,6 +27,7 @@ class Heights {
       for (const auto& [first, second] : pairs) all.push_back({first + nodes_ * l, second + nodes_ * l});
     return all;
   }
+  [[nodiscard]] Eigen::VectorXd repeated(const Eigen::VectorXd& values) const { return values.replicate(count_, 1); }
   [[nodiscard]] std::vector<int> in_middle(std::vector<int> list) const {
     for (int& node : list) node += middle();
     return list;
@@ -62,6 +63,8 @@ fem::SectorMesh solid_layers(const fem::SectorMesh& plane, int layers) {
   solid.bore_nodes = heights.repeated(plane.bore_nodes);
   solid.blade_fillet_nodes = heights.repeated(plane.blade_fillet_nodes);
   solid.disk_fillet_nodes = heights.repeated(plane.disk_fillet_nodes);
+  solid.blade_fillet_share = heights.repeated(plane.blade_fillet_share);
+  solid.disk_fillet_share = heights.repeated(plane.disk_fillet_share);
   solid.neck_nodes = heights.in_middle(plane.neck_nodes);
   solid.axial_nodes = solid.bore_nodes;
   solid.tip_node = plane.tip_node + heights.middle();

@@ -55,8 +55,10 @@ void static_responses(const Scene& scene, const CandidateModel& model, Evaluatio
 void fillet_responses(const Scene& scene, CandidateResult& result) {
   const fem::SectorMesh& sector = result.model.mesh.sector;
   const response::SteadyState& state = result.unworn->state;
-  result.blade_fillet = fillet_stress(scene, result.model, state, sector.blade_fillet_nodes, scene.blade.poisson_ratio);
-  result.disk_fillet = fillet_stress(scene, result.model, state, sector.disk_fillet_nodes, scene.disk.poisson_ratio);
+  result.blade_fillet = fillet_stress(scene, result.model, state, sector.blade_fillet_nodes, sector.blade_fillet_share,
+                                      scene.blade.poisson_ratio);
+  result.disk_fillet = fillet_stress(scene, result.model, state, sector.disk_fillet_nodes, sector.disk_fillet_share,
+                                     scene.disk.poisson_ratio);
   std::map<std::string, double>& responses = result.evaluation.responses;
   responses["blade_fillet_stress_pa"] = result.blade_fillet->aggregate;
   responses["disk_fillet_stress_pa"] = result.disk_fillet->aggregate;

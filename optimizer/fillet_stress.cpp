@@ -48,7 +48,7 @@ Eigen::MatrixXd reduced_coordinates(const response::SteadyState& state) {
 }
 
 FilletStress fillet_stress(const Scene& scene, const CandidateModel& candidate, const response::SteadyState& state,
-                           std::span<const int> nodes, double poisson_ratio) {
+                           std::span<const int> nodes, const Eigen::VectorXd& share, double poisson_ratio) {
   const fem::Mesh& mesh = candidate.mesh.sector.mesh;
   const std::vector<fem::Material> bodies = materials(scene);
   const Eigen::SparseMatrix<double> operator_full = fem::nodal_stress_operator(mesh, bodies, nodes);
@@ -66,9 +66,10 @@ FilletStress fillet_stress(const Scene& scene, const CandidateModel& candidate, 
       result.nodal(i) =
           std::max(result.nodal(i), fem::von_mises(at.segment(components * i, components), poisson_ratio));
   }
-  const fem::Aggregate aggregate = fem::kreisselmeier_steinhauser(result.nodal, fem::boundary_weights(mesh, nodes));
-  result.aggregate = aggregate.value;
-  result.maximum = aggregate.maximum;
+  const Eigen::VectorXd weights = fem::boundary_weights(mesh, nodes).cwiseProduct(share);
+  result.aggregate = fem::kreisselmeier_steinhauser(result.nodal, weights).value;
+  for (Eigen::Index i = 0; i < result.nodal.size(); ++i)
+    if (share(i) == 1) result.maximum = std::max(result.maximum, result.nodal(i));
   return result;
 }
 

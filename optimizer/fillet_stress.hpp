@@ -13,15 +13,16 @@ namespace dovetail::optimizer {
 
 /// Stress on a fillet while the blade vibrates.
 struct FilletStress {
-  double aggregate = 0;   ///< Kreisselmeier-Steinhauser aggregate along the fillets, Pa
-  double maximum = 0;     ///< largest nodal value, Pa
+  double aggregate = 0;   ///< Kreisselmeier-Steinhauser aggregate along the fillets, weighted by the nodes' share, Pa
+  double maximum = 0;     ///< largest nodal value among the nodes that count in full, Pa
   Eigen::VectorXd nodal;  ///< [nodes] largest von Mises stress over one period, Pa
 };
 
 /// Von Mises stress (plane strain) at `nodes`, largest over one period of `state`: spin-up and vibration together.
+/// `share` [nodes] is that of fem::SectorMesh.
 /// Cost: the field of the nodes' elements only.
 [[nodiscard]] FilletStress fillet_stress(const Scene& scene, const CandidateModel& candidate,
                                          const response::SteadyState& state, std::span<const int> nodes,
-                                         double poisson_ratio);
+                                         const Eigen::VectorXd& share, double poisson_ratio);
 
 }  // namespace dovetail::optimizer

@@ -16,16 +16,22 @@ std::span<const ResponseName> response_names() {
       {"peak_amplitude_m", "m", "Amplitude of the aerofoil tip at the unworn resonance."},
       {"worn_peak_amplitude_m", "m", "Amplitude of the aerofoil tip at the worn resonance."},
       {"mass_kg", "kg", "Mass of one blade."},
-      {"peak_stress_pa", "Pa", "Largest nodal von Mises stress on the fillets, over a period at the unworn resonance."},
+      {"peak_stress_pa", "Pa",
+       "Largest nodal von Mises stress on the fillets, over a period at the unworn resonance, from 0.35 fillet radii "
+       "beyond "
+       "the flanks' ends on."},
       {"contact_pressure_max_pa", "Pa",
-       "Smooth maximum of the flank pressure under the spin-up load; at a sharp flank end its peak does not converge "
-       "with the mesh."},
+       "Smooth maximum of the flank pressure under the spin-up load; at a sharp flank end (flank_edge_radius_mm = "
+       "0) its peak does not converge with the mesh."},
       {"contact_pressure_mean_pa", "Pa", "Mean flank pressure under the spin-up load, of the more loaded flank."},
       {"neck_tension_pa", "Pa", "Mean tension across the narrowest width of the blade's neck under the spin-up load."},
       {"blade_fillet_stress_pa", "Pa",
-       "Smooth maximum of the von Mises stress on the blade's neck fillets, over a period at the unworn resonance."},
+       "Smooth maximum of the von Mises stress on the blade's neck fillets, over a period at the unworn resonance; it "
+       "fades out from 0.35 to 0.2 fillet radii from the flank's end, whose singularity is not the fillet's."},
       {"disk_fillet_stress_pa", "Pa",
-       "Smooth maximum of the von Mises stress on the disk's slot fillets, over a period at the unworn resonance."},
+       "Smooth maximum of the von Mises stress on the disk's slot fillets, over a period at the unworn resonance, "
+       "faded out "
+       "like the blade's."},
       {"post_width_m", "m", "Narrowest width of the disk post between two slots."},
       {"dissipated_energy_j", "J", "Energy lost to friction in one period at the unworn resonance."},
       {"glued_frequency_hz", "Hz", "Natural frequency of the followed mode with the flanks glued, at speed."},

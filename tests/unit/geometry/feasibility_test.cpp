@@ -171,6 +171,7 @@ const std::vector<Case> kCases{
      [](P&, L& l) { l.minimum_cutter_radius = 2.1e-3; },
      {"blend_cutter", "neck_fillet_cutter", "slot_fillet_cutter"}},
     {"Relief", [](P& p, L&) { p.left.relief_length = 3e-3; }, {"relief_left_fits"}},
+    {"EdgeRadius", [](P& p, L&) { p.left.edge_radius = 0.2; }, {"edge_left_fits"}},
     {"SelfLocking",
      [](P& p, L& l) {
        p.right.angle = 0.8;
@@ -187,7 +188,7 @@ TEST(Feasibility, HasACaseForEveryRule) {
     const auto side = r.name.find("left");  // the mirrored rules are told by their right one, or both at once
     if (side == std::string::npos) all.insert(r.name);
   }
-  std::set<std::string> tested{"relief_right_fits"};  // tested on the left
+  std::set<std::string> tested{"relief_right_fits", "edge_right_fits"};  // tested on the left
   for (const Case& c : kCases) tested.insert(c.breaks.begin(), c.breaks.end());
   for (const std::string& name : all) EXPECT_TRUE(tested.contains(name)) << name;
 }

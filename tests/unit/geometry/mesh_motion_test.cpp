@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/elastic_motion.hpp"
+#include "geometry/flank_fractions.hpp"
 #include "geometry/mesh_motion.hpp"
 
 namespace dovetail::geometry {
@@ -146,7 +147,7 @@ TEST(MeshFamily, SaysWhenADesignCannotBeMeshed) {
 
 TEST(ElasticMotion, ReproducesRigidDisplacements) {
   const Profile profile = build_profile({});
-  const CornerMesh disk = mesh_corners(profile.disk, {});
+  const CornerMesh disk = mesh_corners(profile.disk, {}, flank_fractions({}, {}));
   const Prescribed boundary = prescribed_nodes(disk, profile.disk);
   const ElasticMotion motion(disk, boundary.nodes);
   Eigen::Matrix2d turn;  // linearised rotation: no strain

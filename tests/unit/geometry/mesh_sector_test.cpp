@@ -8,6 +8,9 @@
 #include <set>
 
 #include "core/errors.hpp"
+#include "geometry/fillet_share.hpp"
+#include "geometry/flank_form.hpp"
+#include "geometry/flank_fractions.hpp"
 #include "geometry/mesh_motion.hpp"
 #include "mesh_checks.hpp"
 
@@ -26,7 +29,13 @@ ProfileParameters lopsided() {
   return p;
 }
 
-/// Every check of the mesh itself is run on a symmetric and a lopsided design, coarse and fine.
+ProfileParameters rounded(double radius) {
+  ProfileParameters p;
+  p.left.edge_radius = p.right.edge_radius = radius;
+  return p;
+}
+
+/// Every check of the mesh itself is run on a symmetric and a lopsided design, coarse and fine, and on rounded flanks.
 struct Case {
   const char* name;
   ProfileParameters parameters;
@@ -47,7 +56,9 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Case{"standard", {}, {}}, Case{"lopsided", lopsided(), {}},
         Case{"coarse", {}, {.flank_elements = 6, .fillet_fraction = 0.3, .bulk_size = 6e-3, .aerofoil_elements = 16}},
-        Case{"fine", lopsided(), {.flank_elements = 48, .fillet_fraction = 0.07, .bulk_size = 2.5e-3}}),
+        Case{"fine", lopsided(), {.flank_elements = 48, .fillet_fraction = 0.07, .bulk_size = 2.5e-3}},
+        Case{"equal", {}, {.flank_grading = 1}}, Case{"rounded", rounded(20e-3), {.flank_elements = 64}},
+        Case{"few_rounded", rounded(1e-3), {}}),
     [](const auto& given) { return given.param.name; });
 
 TEST_P(SectorMeshOf, HasWellShapedElements) {
@@ -104,6 +115,7 @@ TEST_P(SectorMeshOf, MatchesTheFlanksInPairs) {
     const bool left = flank.name == "left";
     const FlankParameters& p = left ? GetParam().parameters.left : GetParam().parameters.right;
     const int parts = GetParam().sizes.flank_elements;
+    const std::vector<double> fractions = with_middles(flank_fractions(GetParam().parameters, GetParam().sizes));
     ASSERT_EQ(flank.pairs.size(), static_cast<std::size_t>(2 * parts + 1));
     ASSERT_EQ(flank.grid, (std::array<int, 2>{parts + 1, 1}));
     const Vector2d neck = mesh_.nodes.col(flank.pairs.front()[0]);
@@ -115,7 +127,7 @@ TEST_P(SectorMeshOf, MatchesTheFlanksInPairs) {
     EXPECT_NEAR(flank.normal[0], mirror * std::cos(p.angle), 1e-12);
     EXPECT_NEAR(flank.normal[1], std::sin(p.angle), 1e-12);
     for (std::size_t k = 0; k < flank.pairs.size(); ++k) {
-      const double s = static_cast<double>(k) / (2 * parts);
+      const double s = fractions[k];
       const auto& [blade, disk] = flank.pairs[k];
       EXPECT_LE((mesh_.nodes.col(blade) - mesh_.nodes.col(disk)).norm(), 1e-15);
       EXPECT_NE(blade, disk);
@@ -159,6 +171,46 @@ TEST_P(SectorMeshOf, KeepsMiddleNodesOnTheArcs) {
      edge(profile_.blade, "neck_fillet_right"));
   on(meshed_.sector.disk_fillet_nodes, edge(profile_.disk, "slot_fillet_left"),
      edge(profile_.disk, "slot_fillet_right"));
+}
+
+TEST_P(SectorMeshOf, LeavesTheFlanksEndsOutOfTheFillets) {
+  const fem::SectorMesh& sector = meshed_.sector;
+  const auto shares = [&](const std::vector<int>& nodes, const Eigen::VectorXd& share, const char* fillet,
+                          const char* flank) {
+    ASSERT_EQ(share.size(), static_cast<Eigen::Index>(nodes.size()));
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      const Vector2d x = mesh_.nodes.col(nodes[k]);
+      const std::string side = x.x() < 0 ? "_left" : "_right";
+      const Chain& chain = std::string(fillet) == "neck_fillet" ? profile_.blade : profile_.disk;
+      const double radius = edge(chain, fillet + side).radius;
+      const Edge& on = edge(chain, flank + side);
+      const double away = std::min((x - on.start).norm(), (x - on.end).norm()) / radius;
+      // Along the arc it is a little further than straight.
+      const double value = share[static_cast<Eigen::Index>(k)];
+      if (away < 0.99 * kFilletFrom) {
+        EXPECT_EQ(value, 0) << fillet << " " << away;
+      }
+      if (away > kFilletTo) {
+        EXPECT_EQ(value, 1) << fillet << " " << away;
+      }
+    }
+    EXPECT_EQ(share.maxCoeff(), 1);
+  };
+  shares(sector.blade_fillet_nodes, sector.blade_fillet_share, "neck_fillet", "flank");
+  shares(sector.disk_fillet_nodes, sector.disk_fillet_share, "slot_fillet", "flank");
+  EXPECT_EQ(sector.blade_fillet_share.minCoeff(), 0);
+}
+
+TEST(FilletShare, RisesSmoothlyFromNoneToAll) {
+  EXPECT_EQ(fillet_share(0), 0);
+  EXPECT_EQ(fillet_share(kFilletFrom), 0);
+  EXPECT_NEAR(fillet_share((kFilletFrom + kFilletTo) / 2), 0.5, 1e-15);
+  EXPECT_EQ(fillet_share(kFilletTo), 1);
+  EXPECT_EQ(fillet_share(1), 1);
+  // A cubic with level ends: next to them it moves with the square of the distance, 3 t^2.
+  const double t = 1e-3;
+  EXPECT_NEAR(fillet_share(kFilletFrom + t * (kFilletTo - kFilletFrom)), 3 * t * t, 3 * t * t * t);
+  EXPECT_NEAR(1 - fillet_share(kFilletTo - t * (kFilletTo - kFilletFrom)), 3 * t * t, 3 * t * t * t);
 }
 
 TEST_P(SectorMeshOf, NamesTheTipAndTheNeck) {
@@ -236,8 +288,9 @@ TEST(SectorMesh, CarriesTheGapOfTheFlankForm) {
   const MeshedSector meshed = mesh_sector(p);
   const Eigen::VectorXd &left = meshed.sector.flanks[0].gap, &right = meshed.sector.flanks[1].gap;
   const Eigen::Index last = right.size() - 1;
+  const std::vector<double> fractions = flank_fractions(p, {});
   for (Eigen::Index k = 0; k <= last; ++k) {
-    const double s = static_cast<double>(k) / static_cast<double>(last);
+    const double s = fractions[static_cast<std::size_t>(k)];
     EXPECT_NEAR(right[k], 20e-6 * s, 1e-18);
     EXPECT_NEAR(left[k], 10e-6 * (1 - s), 1e-18);
   }

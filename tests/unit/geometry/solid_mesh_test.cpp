@@ -8,6 +8,7 @@
 #include <set>
 
 #include "fem/element.hpp"
+#include "geometry/flank_fractions.hpp"
 #include "geometry/solid_flank.hpp"
 #include "geometry/solid_measures.hpp"
 #include "geometry/solid_rules.hpp"
@@ -140,13 +141,15 @@ TEST_P(SolidMeshOf, InterpolatesBetweenContactNodes) {
 TEST_P(SolidMeshOf, CarriesTheGapOverTheFlank) {
   const ProfileParameters p = parameters();
   for (const fem::Flank& flank : sector_.flanks) {
+    const std::vector<double> across = divided_like(flank_fractions(p, coarse_section()), flank.grid[0] - 1);
     const SolidFlankForm form(flank.name == "left" ? p.left : p.right, p, GetParam().solid);
     ASSERT_EQ(flank.gap.size(), flank.contact_count());
     for (int j = 0; j < flank.grid[1]; ++j)
       for (int i = 0; i < flank.grid[0]; ++i) {
         const int node = i + flank.grid[0] * j;
-        const double s = static_cast<double>(i) / (flank.grid[0] - 1);
-        EXPECT_NEAR(flank.gap[node], form.gap(s, flank.position(2, node) / p.slot_length + 0.5), 1e-19);
+        EXPECT_NEAR(flank.gap[node],
+                    form.gap(across[static_cast<std::size_t>(i)], flank.position(2, node) / p.slot_length + 0.5),
+                    1e-19);
       }
   }
 }
