@@ -60,7 +60,7 @@ void lay_contact(fem::Flank& flank, const fem::Flank& section, const std::vector
   flank.pair_gap.resize(std::ssize(flank.pairs));
   Eigen::Index pair = 0;
   for (const double z : heights)
-    for (const double s : equal_fractions(pairs_across - 1))
+    for (const double s : with_middles(fractions))
       flank.pair_gap[pair++] = form.gap(s, z / parameters.slot_length + 0.5);
 }
 

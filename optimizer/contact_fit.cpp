@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <cstdio>
 #include <cstdlib>
 
@@ -30,9 +32,11 @@ class EdgeLengths {
   std::vector<double> corners_;
 };
 
-/// Ends of cells over a flank with an end on each of `edges` (rising, inside 0 to 1).
+/// Ends of cells over a flank with an end on each of `edges` (rising, inside 0 to 1). `counts`: of the cells between two
+/// of them; those of the last grid stay while they differ by one from what the lengths ask for: where an edge is found
+/// depends a little on the number of cells, and must not go to and fro between two of them.
 std::vector<double> fitted_ends(const EdgeLengths& lengths, const std::vector<double>& edges,
-                                const ContactFitOptions& options) {
+                                const ContactFitOptions& options, std::vector<int>& counts) {
   const auto wanted = [&](double s) {
     double length = options.coarsest * lengths.at(s);
     const auto grow_from = [&](double place) {
@@ -46,6 +50,8 @@ std::vector<double> fitted_ends(const EdgeLengths& lengths, const std::vector<do
   std::vector<double> fixed{0};
   for (const double edge : edges) fixed.push_back(edge);
   fixed.push_back(1);
+  const bool again = counts.size() + 1 == fixed.size();
+  counts.resize(fixed.size() - 1);
   std::vector<double> ends{0};
   constexpr int kSteps = 400;  // of the integral of 1 / length over a piece
   for (std::size_t p = 0; p + 1 < fixed.size(); ++p) {
@@ -54,7 +60,9 @@ std::vector<double> fitted_ends(const EdgeLengths& lengths, const std::vector<do
     for (int k = 0; k < kSteps; ++k)
       cells[static_cast<std::size_t>(k) + 1] =
           cells[static_cast<std::size_t>(k)] + piece / kSteps / wanted(from + piece * (k + 0.5) / kSteps);
-    const int count = std::max(1, static_cast<int>(std::lround(cells.back())));
+    int& count = counts[p];
+    const int asked = std::max(1, static_cast<int>(std::lround(cells.back())));
+    if (!again || std::abs(count - asked) > 1) count = asked;
     for (int c = 1; c < count; ++c) {
       const double at = cells.back() * c / count;
       const auto above = std::upper_bound(cells.begin(), cells.end() - 1, at);
@@ -75,10 +83,18 @@ std::vector<std::vector<int>> lines_of(const fem::ContactCells& cells) {
   return lines;
 }
 
-/// Edges of every strip as fractions of the flank, rising.
-std::vector<std::vector<double>> edge_places(const fem::ContactCells& cells, const wear::ReleaseTrail& trail) {
+/// An edge of a worn zone on a flank.
+struct Edge {
+  double place = 0;    ///< fraction of the flank
+  int outwards = 1;    ///< 1: the zone is on the neck side of it, -1: on the root side
+  bool grown = false;  ///< by a later pass of release than the one that began the zone
+};
+
+/// Edges of every strip, rising.
+std::vector<std::vector<Edge>> edge_places(const fem::ContactCells& cells, const wear::ReleaseTrail& trail) {
   const std::vector<std::vector<int>> lines = lines_of(cells);
-  std::vector<std::vector<double>> ends, places(lines.size());
+  std::vector<std::vector<double>> ends;
+  std::vector<std::vector<Edge>> places(lines.size());
   for (const fem::FlankCells& flank : cells.flanks)
     for (const std::vector<double>& across : flank.across) ends.push_back(across);
   for (const wear::ZoneEdge& edge : wear::zone_edges(trail, lines, cells.area)) {
@@ -87,21 +103,29 @@ std::vector<std::vector<double>> edge_places(const fem::ContactCells& cells, con
       const auto k = static_cast<std::size_t>(node - lines[line].front());
       return (ends[line][k] + ends[line][k + 1]) / 2;
     };
-    places[line].push_back(middle(edge.worn) + edge.fraction * (middle(edge.bearing) - middle(edge.worn)));
+    const auto border = [&](int a, int b) {
+      return ends[line][static_cast<std::size_t>(std::max(a, b) - lines[line].front())];
+    };
+    // A zone that grew in a later pass grows from where it ended: not at all while the node beside it hardly slips.
+    const double from = edge.before < 0 ? middle(edge.first) : border(edge.before, edge.first);
+    places[line].push_back({.place = from + middle(edge.worn) - middle(edge.first) +
+                                     edge.fraction * (middle(edge.bearing) - middle(edge.worn)),
+                            .outwards = edge.worn < edge.bearing ? 1 : -1,
+                            .grown = edge.before >= 0});
   }
-  for (std::vector<double>& of_line : places) std::sort(of_line.begin(), of_line.end());
+  for (std::vector<Edge>& of_line : places) std::ranges::sort(of_line, {}, &Edge::place);
   return places;
 }
 
-/// Edges closer to each other or to the ends of the flank than the trace resolves are none.
-void drop_narrow(const EdgeLengths& lengths, const ContactFitOptions& options, std::vector<double>& edges) {
+/// Zones narrower than the trace resolves: those at the ends of the flank stay as wide as it resolves, others are none.
+void widen_narrow(const EdgeLengths& lengths, const ContactFitOptions& options, std::vector<double>& edges) {
   constexpr double kNarrowest = 0.3;  // of the finest cell
-  const auto close = [&](double a, double b) {
-    return std::abs(a - b) < kNarrowest * options.finest * lengths.at(std::clamp((a + b) / 2, 0.0, 1.0));
+  const auto narrowest = [&](double at) {
+    return kNarrowest * options.finest * lengths.at(std::clamp(at, 0.0, 1.0));
   };
-  std::erase_if(edges, [&](double edge) { return close(edge, 0) || close(edge, 1); });
+  for (double& edge : edges) edge = std::clamp(edge, narrowest(0), 1 - narrowest(1));
   for (std::size_t k = 0; k + 1 < edges.size();)
-    if (close(edges[k], edges[k + 1]))
+    if (edges[k + 1] - edges[k] < narrowest(edges[k]))
       edges.erase(edges.begin() + static_cast<std::ptrdiff_t>(k), edges.begin() + static_cast<std::ptrdiff_t>(k) + 2);
     else
       ++k;
@@ -113,12 +137,68 @@ std::vector<fem::FlankCells> contact_grid(const fem::SectorMesh& trace, const Co
   std::vector<fem::FlankCells> cells;
   for (const fem::Flank& flank : trace.flanks) {
     const fem::TraceLines lines = fem::trace_lines(flank);
+    std::vector<int> counts;
     fem::FlankCells of_flank{.along = lines.along.size() > 1 ? lines.along : std::vector<double>{0, 1}, .across = {}};
-    of_flank.across.assign(of_flank.along.size() - 1, fitted_ends(EdgeLengths(lines), {}, options));
+    of_flank.across.assign(of_flank.along.size() - 1, fitted_ends(EdgeLengths(lines), {}, options, counts));
     cells.push_back(std::move(of_flank));
   }
   return cells;
 }
+
+namespace {
+
+/// Where the ends of cells are put so that edges found on the grid (`found`) coincide with them: at the zero of found -
+/// laid, by the secant through the last two grids, edge by edge. Beside a narrow zone edges move against the cells, and
+/// putting the next grid where the last one found them would go to and fro.
+class EdgeSearch {
+ public:
+  /// The places of `edges`. Those that grew in a later pass go on a little further than they have to, so that the
+  /// nodes beyond them stick, and do not come back: an earlier pass alone would end there before.
+  std::vector<std::vector<double>> hold(const std::vector<std::vector<Edge>>& edges,
+                                        const std::vector<EdgeLengths>& lengths) {
+    constexpr double kBeyond = 0.05;  // lengths of the mesh's edge
+    std::vector<std::vector<double>> places(edges.size());
+    held_.resize(edges.size());
+    for (std::size_t l = 0; l < edges.size(); ++l) {
+      if (held_[l].size() != edges[l].size()) held_[l].assign(edges[l].size(), std::nullopt);
+      for (std::size_t k = 0; k < edges[l].size(); ++k) {
+        const Edge& edge = edges[l][k];
+        double place = edge.place;
+        if (edge.grown) place += edge.outwards * kBeyond * lengths[l].at(edge.place);
+        if (held_[l][k]) place = edge.outwards > 0 ? std::max(place, *held_[l][k]) : std::min(place, *held_[l][k]);
+        if (edge.grown) held_[l][k] = place;
+        places[l].push_back(place);
+      }
+    }
+    return places;
+  }
+  std::vector<std::vector<double>> next(const std::vector<std::vector<double>>& found,
+                                        const std::vector<std::vector<double>>& laid) {
+    std::vector<std::vector<double>> places = found;
+    for (std::size_t l = 0; l < found.size(); ++l) {
+      if (laid_.size() != laid.size() || laid_[l].size() != laid[l].size() || found[l].size() != laid[l].size()) continue;
+      for (std::size_t k = 0; k < found[l].size(); ++k) {
+        const double step = laid[l][k] - laid_[l][k];
+        const double slope = step == 0 ? 0 : (miss(found, laid, l, k) - miss(found_, laid_, l, k)) / step;
+        // A slope of -1 is that of edges that do not depend on the grid.
+        if (slope < -0.5 && slope > -4) places[l][k] = laid[l][k] - miss(found, laid, l, k) / slope;
+      }
+    }
+    laid_ = laid;
+    found_ = found;
+    return places;
+  }
+
+ private:
+  using Places = std::vector<std::vector<double>>;
+  static double miss(const Places& found, const Places& laid, std::size_t l, std::size_t k) {
+    return found[l][k] - laid[l][k];
+  }
+  Places laid_, found_;
+  std::vector<std::vector<std::optional<double>>> held_;
+};
+
+}  // namespace
 
 ContactFit fit_contact(const Scene& scene, const ContactFitOptions& options, CandidateModel& candidate) {
   ContactFit fit;
@@ -126,6 +206,18 @@ ContactFit fit_contact(const Scene& scene, const ContactFitOptions& options, Can
   wear::AsymptoteOptions release;
   release.arbitration = "never";
   release.interpolate_edge = release.certify = release.certify_finer = false;
+  std::vector<EdgeLengths> lengths;  // of every strip
+  for (std::size_t f = 0; f < candidate.cells.flanks.size(); ++f)
+    lengths.insert(lengths.end(), candidate.cells.flanks[f].across.size(),
+                   EdgeLengths(fem::trace_lines(candidate.mesh.sector.flanks[f])));
+  std::vector<std::vector<double>> laid(lengths.size());
+  std::vector<std::vector<int>> counts(lengths.size());
+  EdgeSearch search;
+  struct Best {
+    double moved = std::numeric_limits<double>::infinity();
+    int grid = 0;
+    std::vector<fem::FlankCells> flanks;
+  } best;
   double omega = candidate.reduction.glued_frequencies(scene.loading.mode - 1);
   for (;; ++fit.grids) {
     const response::Resonance unworn = response::resonance(candidate.condensed, omega, {}, steady);
@@ -133,36 +225,50 @@ ContactFit fit_contact(const Scene& scene, const ContactFitOptions& options, Can
     omega = unworn.omega;
     const wear::Asymptote worn = wear::asymptote(candidate.condensed, omega, {}, steady, release, &unworn.state);
     if (worn.verdict != wear::Verdict::asymptote) return fit;
-    if (std::getenv("FITLOG")) {
-      std::fprintf(stderr, "grid %d passes %d V %.5g\n", fit.grids, worn.passes, 1e9 * worn.worn_volume);
-      const auto lines = lines_of(candidate.cells);
-      for (const wear::ZoneEdge& e : wear::zone_edges(worn.trail, lines, candidate.cells.area)) {
-        const auto& r = worn.trail.reserves[static_cast<std::size_t>(worn.trail.released_in[static_cast<std::size_t>(e.worn)])];
-        std::fprintf(stderr, "  edge line %d worn %d bearing %d pass %d excess %.4g margin %.4g area %.3g %.3g\n", e.line, e.worn - lines[static_cast<std::size_t>(e.line)].front(), e.bearing - lines[static_cast<std::size_t>(e.line)].front(), worn.trail.released_in[static_cast<std::size_t>(e.worn)], -r[e.worn], r[e.bearing], candidate.cells.area[e.worn], candidate.cells.area[e.bearing]);
-      }
-      for (const auto& pl : edge_places(candidate.cells, worn.trail)) for (double x : pl) std::fprintf(stderr, "  at %.5f\n", x);
-    }
-    std::vector<std::vector<double>> places = edge_places(candidate.cells, worn.trail);
+    std::vector<std::vector<double>> found =
+        search.hold(edge_places(candidate.cells, worn.trail), lengths);
     fit.moved = 0;
     fit.edges = 0;
-    std::size_t strip = 0;
-    std::vector<fem::FlankCells> flanks = candidate.cells.flanks;
-    for (std::size_t f = 0; f < flanks.size(); ++f) {
-      const EdgeLengths lengths(fem::trace_lines(candidate.mesh.sector.flanks[f]));
-      for (std::vector<double>& ends : flanks[f].across) {
-        std::vector<double>& edges = places[strip++];
-        drop_narrow(lengths, options, edges);
-        for (const double edge : edges) {
-          double nearest = 1;
-          for (const double end : ends) nearest = std::min(nearest, std::abs(end - edge));
-          fit.moved = std::max(fit.moved, nearest / lengths.at(edge));
-        }
-        fit.edges += static_cast<int>(edges.size());
-        if (!edges.empty()) ends = fitted_ends(lengths, edges, options);
-      }
+    for (std::size_t l = 0; l < found.size(); ++l) {
+      widen_narrow(lengths[l], options, found[l]);
+      fit.edges += static_cast<int>(found[l].size());
+      for (std::size_t k = 0; k < found[l].size(); ++k)
+        fit.moved = std::max(fit.moved, laid[l].size() == found[l].size()
+                                            ? std::abs(found[l][k] - laid[l][k]) / lengths[l].at(found[l][k])
+                                            : 1.0);
     }
-    fit.settled = fit.moved <= options.tolerance;
-    if (fit.settled || fit.grids == options.grids) return fit;
+    if (std::getenv("FITLOG")) {
+      std::fprintf(stderr, "grid %d passes %d V %.5g moved %.3g", fit.grids, worn.passes, 1e9 * worn.worn_volume, fit.moved);
+      const auto lines = lines_of(candidate.cells);
+      for (const wear::ZoneEdge& e : wear::zone_edges(worn.trail, lines, candidate.cells.area)) if (e.line == 0) {
+        const auto& r = worn.trail.reserves[static_cast<std::size_t>(worn.trail.released_in[static_cast<std::size_t>(e.worn)])];
+        std::fprintf(stderr, " | worn %d bearing %d of %zu pass %d e %.3g m %.3g A %.3g %.3g", e.worn, e.bearing, lines[0].size(), worn.trail.released_in[static_cast<std::size_t>(e.worn)], -r[e.worn], r[e.bearing], candidate.cells.area[e.worn], candidate.cells.area[e.bearing]);
+      }
+      for (double x : found[0]) std::fprintf(stderr, "  at %.5f", x);
+      std::fprintf(stderr, "\n");
+    }
+    // A zone that the finer cells beside its edge make vanish is none.
+    const bool vanished = fit.edges == 0 && fit.grids > 0;
+    fit.settled = vanished || fit.moved <= options.tolerance;
+    if (fit.moved <= best.moved || vanished) best = {.moved = fit.moved, .grid = fit.grids, .flanks = candidate.cells.flanks};
+    if (fit.settled) return fit;
+    if (fit.grids == options.grids) {
+      // Edges that go to and fro: the grid that they would have left least.
+      if (best.grid < fit.grids) lay_contact(scene, best.flanks, candidate);
+      fit.moved = best.moved;
+      return fit;
+    }
+    laid = search.next(found, laid);
+    std::vector<fem::FlankCells> flanks = candidate.cells.flanks;
+    std::size_t strip = 0;
+    for (fem::FlankCells& flank : flanks)
+      for (std::vector<double>& ends : flank.across) {
+        std::vector<double>& edges = laid[strip];
+        std::sort(edges.begin(), edges.end());
+        widen_narrow(lengths[strip], options, edges);
+        ends = fitted_ends(lengths[strip], edges, options, counts[strip]);
+        ++strip;
+      }
     lay_contact(scene, flanks, candidate);
     if (!candidate.converged()) return fit;
   }

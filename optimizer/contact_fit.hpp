@@ -10,7 +10,7 @@ namespace dovetail::optimizer {
 
 struct ContactFitOptions {
   /// >= 0. Grids of contact nodes tried at most; 0 leaves the model as it was built.
-  int grids = 4;
+  int grids = 6;
   /// > 0. Edges that would move by less than this have been found, in lengths of the mesh's edge there.
   double tolerance = 0.02;
   /// >= 0.5. Length of the cells at the ends of a flank and beside the edges of worn zones, in edges of the mesh there.

@@ -163,7 +163,7 @@ CandidateResult SceneEvaluator::evaluate(const Scene& scene) const {
   evaluation.feasible = result.model.feasibility.feasible;
   if (result.model.converged()) {
     Stopwatch watch;
-    const ContactFit fit = fit_contact(scene, {.grids = std::getenv("NOFIT") ? 0 : 4}, result.model);
+    const ContactFit fit = fit_contact(scene, {.grids = std::getenv("NOFIT") ? 0 : 6}, result.model);
     evaluation.timings_s["contact_fit"] = watch.lap();
     evaluation.model["contact_grids"] = fit.grids;
     evaluation.model["contact_edges"] = fit.edges;

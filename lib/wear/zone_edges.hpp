@@ -20,11 +20,14 @@ struct ReleaseTrail {
 [[nodiscard]] Eigen::VectorXd friction_reserve(const response::CondensedModel& model,
                                                const response::SteadyState& state, const std::vector<bool>& slips);
 
-/// A place on a line of nodes where a worn zone ends: between a worn node and the one that bears next to it.
+/// A place on a line of nodes where a worn zone ends: between a worn node and the one that bears next to it. Where the
+/// last pass that moved the end found a zone there already, it lies as far beyond the old end as the fraction says.
 struct ZoneEdge {
   int line = 0;
   int worn = 0, bearing = 0;  ///< nodes
   double fraction = 0;        ///< of the way from the worn node's middle to the bearing one's
+  int first = 0;              ///< of the run of nodes that ends with `worn` and that one pass released
+  int before = -1;            ///< node next to `first` that an earlier pass released, or -1
 };
 
 /// Ends of the worn zones along lines of neighbouring nodes. In the continuum a zone ends where the reserve of friction
