@@ -61,7 +61,7 @@ std::vector<double> fitted_ends(const EdgeLengths& lengths, const std::vector<do
       cells[static_cast<std::size_t>(k) + 1] =
           cells[static_cast<std::size_t>(k)] + piece / kSteps / wanted(from + piece * (k + 0.5) / kSteps);
     int& count = counts[p];
-    const int asked = std::max(1, static_cast<int>(std::lround(cells.back())));
+    const int asked = std::max(1, static_cast<int>(std::ceil(cells.back() - 0.1)));
     if (!again || std::abs(count - asked) > 1) count = asked;
     for (int c = 1; c < count; ++c) {
       const double at = cells.back() * c / count;
