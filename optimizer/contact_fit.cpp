@@ -205,7 +205,7 @@ ContactFit fit_contact(const Scene& scene, const ContactFitOptions& options, Can
   const response::SteadyOptions steady = steady_options(scene.solver);
   wear::AsymptoteOptions release;
   release.arbitration = "never";
-  release.interpolate_edge = release.certify = release.certify_finer = false;
+  release.certify = release.certify_finer = false;
   std::vector<EdgeLengths> lengths;  // of every strip
   for (std::size_t f = 0; f < candidate.cells.flanks.size(); ++f)
     lengths.insert(lengths.end(), candidate.cells.flanks[f].across.size(),

@@ -104,19 +104,13 @@ std::string dynamics(const Scene& scene, CandidateResult& result) {
                                            : wear::to_string(asymptote.verdict));
   evaluation.model["wear_certificate"] = asymptote.certificate;
   evaluation.model["wear_history_may_differ"] = asymptote.doubt.empty() ? 0 : 1;
-  evaluation.model["nodal_wear_volume_m3"] = asymptote.worn_volume;
-  // Edges between nodes never leave exactly the nodal volume, unless they fall back on it.
-  if (asymptote.largest_depth > 0 && asymptote.interpolated_volume == asymptote.worn_volume)
-    evaluation.messages.push_back("Worn volume and depth are those of whole contact nodes (decided by " +
-                                  asymptote.decided_by +
-                                  "): the edges of the worn zones are not placed between nodes here.");
   responses["initial_wear_rate_m3_per_cycle"] =
       wear::worn_volume(model.reduction.model.contact, result.held ? result.held->unworn_rate : asymptote.unworn_rate);
-  responses["asymptotic_wear_volume_m3"] = asymptote.interpolated_volume;
-  responses["asymptotic_wear_depth_max_m"] = asymptote.interpolated_largest_depth;
+  responses["asymptotic_wear_volume_m3"] = asymptote.worn_volume;
+  responses["asymptotic_wear_depth_max_m"] = asymptote.largest_depth;
 
   const wear::Drift drift =
-      wear::resonance_drift(model.condensed, *result.unworn, {}, asymptote.interpolated_depth, steady, {});
+      wear::resonance_drift(model.condensed, *result.unworn, {}, asymptote.depth, steady, {});
   result.worn = drift.worn;
   evaluation.timings_s["worn_resonance"] = watch.lap();
   if (result.worn->status != Status::converged) return "worn_resonance: " + std::string(to_string(result.worn->status));
@@ -144,7 +138,6 @@ response::SteadyOptions steady_options(const SolverSettings& settings) {
 wear::AsymptoteOptions asymptote_options() {
   wear::AsymptoteOptions options;
   options.arbitration = "unsettled";
-  options.interpolate_edge = false;
   return options;
 }
 

@@ -78,9 +78,9 @@ Verification verify(const SceneEvaluator& evaluator, const Scene& scene, const V
   if (!result.unworn || !result.asymptote || !result.evaluation.converged()) {
     verification.status = result.evaluation.status;
   } else {
-    verification.search_volume = result.asymptote->interpolated_volume;
-    verification.search_depth = result.asymptote->interpolated_largest_depth;
-    verification.search_profile = result.asymptote->interpolated_depth;
+    verification.search_volume = result.asymptote->worn_volume;
+    verification.search_depth = result.asymptote->largest_depth;
+    verification.search_profile = result.asymptote->depth;
     const auto bar = result.evaluation.error_estimates.find("asymptotic_wear_volume_m3");
     verification.search_bar = bar == result.evaluation.error_estimates.end() ? std::nan("") : bar->second;
     verification.status = compare(scene, result, options, control, verification);

@@ -7,7 +7,6 @@
 #include "wear/archard.hpp"
 #include "wear/certificate.hpp"
 #include "wear/implicit_history.hpp"
-#include "wear/partial_release.hpp"
 #include "wear/passes.hpp"
 #include "wear/start.hpp"
 
@@ -19,40 +18,9 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 void set_depth(const reduction::ContactNodes& contact, const VectorXd& depth, Asymptote& result) {
-  result.depth = result.interpolated_depth = depth;
-  result.worn_volume = result.interpolated_volume = worn_volume(contact, depth);
-  result.volume_bracket[0] = result.volume_bracket[1] = result.worn_volume;
-  result.largest_depth = result.interpolated_largest_depth = depth.size() == 0 ? 0.0 : depth.maxCoeff();
-}
-
-void place_edges(Release& release, double threshold, int limit, Asymptote& result) {
-  if (release.model().directions() != 2) return;  // in space the edge is a line through many nodes
-  const PartialRelease partial = release_partially(release, result.unworn, threshold, limit);
-  result.edge_status = partial.status;
-  // Zones that went on growing: the last ones that bear stand for the answer, and the nodal one bounds it.
-  if (!partial.settled && partial.passes == 0) {
-    result.volume_bracket[0] = 0.0;
-    return;
-  }
-  const reduction::ContactNodes& contact = release.model().contact();
-  result.share = partial.share;
-  result.interpolated_depth = partial.depth;
-  result.interpolated_volume = worn_volume(contact, partial.depth);
-  result.interpolated_largest_depth = partial.depth.size() == 0 ? 0.0 : partial.depth.maxCoeff();
-  result.volume_bracket.fill(result.interpolated_volume);
-  if (!partial.settled)
-    result.volume_bracket = {std::min(result.interpolated_volume, result.worn_volume),
-                             std::max(result.interpolated_volume, result.worn_volume)};
-  for (const bool outside : {false, true}) {
-    const VectorXd whole = outside ? VectorXd(partial.share.array().ceil()) : VectorXd(partial.share.array().floor());
-    if (whole == partial.share) continue;
-    const response::SteadyState state = release.solve_shared(whole, partial.state.displacement);
-    // Where nothing would hold with the edge outside, the other half of the bracket stands for both.
-    if (state.status != Status::converged) continue;
-    const double volume = worn_volume(contact, release.shared_depth(whole, state));
-    result.volume_bracket[0] = std::min(result.volume_bracket[0], volume);
-    result.volume_bracket[1] = std::max(result.volume_bracket[1], volume);
-  }
+  result.depth = depth;
+  result.worn_volume = worn_volume(contact, depth);
+  result.largest_depth = depth.size() == 0 ? 0.0 : depth.maxCoeff();
 }
 
 /// What is known when the passes of release are over.
@@ -89,14 +57,6 @@ struct Rates {
     return fastest > none ? std::max(certificate_limit, none / fastest) : 1.0;
   }
 };
-
-/// Whole nodes wear off what is not between the edges moved to the nodes inside and outside: two states at rest.
-bool edges_elsewhere(const Asymptote& result) {
-  const double width = std::max(result.volume_bracket[1] - result.volume_bracket[0], 0.1 * result.worn_volume);
-  return result.edge_status == Status::converged && result.share.size() > 0 &&
-         (result.worn_volume > result.volume_bracket[1] + width ||
-          result.worn_volume < result.volume_bracket[0] - width);
-}
 
 /// Solves once more with the worn gap and contact everywhere.
 void certify(Release& release, const Rates& rates, const AsymptoteOptions& options, Asymptote& result) {
@@ -156,24 +116,6 @@ bool same_depth(const VectorXd& a, const VectorXd& b, double tolerance) {
   return (a - b).cwiseAbs().maxCoeff() <= tolerance * std::max(a.maxCoeff(), b.maxCoeff());
 }
 
-/// The history's depths as the answer. Where all that was in doubt is a node at the edge of a zone, and the history
-/// took one node more or fewer than the direct answer, the edge between them is the same: then what is interpolated
-/// stands.
-void take_history(const reduction::ContactNodes& contact, const VectorXd& depth, bool at_the_edge, double tolerance,
-                  Asymptote& result) {
-  const Asymptote direct = result;
-  set_depth(contact, depth, result);
-  const double allowance = tolerance * direct.worn_volume;
-  if (!at_the_edge || direct.edge_status != Status::converged || direct.share.size() == 0 ||
-      result.worn_volume < direct.volume_bracket[0] - allowance ||
-      result.worn_volume > direct.volume_bracket[1] + allowance)
-    return;
-  result.interpolated_depth = direct.interpolated_depth;
-  result.interpolated_volume = direct.interpolated_volume;
-  result.interpolated_largest_depth = direct.interpolated_largest_depth;
-  result.volume_bracket = direct.volume_bracket;
-}
-
 /// The implicit history has the last word. Where it cannot be followed to its end a settled direct answer stands,
 /// unconfirmed; any other becomes not_converged.
 void arbitrate(const std::shared_ptr<const response::CondensedModel>& model, double omega, Release& release,
@@ -203,7 +145,7 @@ void arbitrate(const std::shared_ptr<const response::CondensedModel>& model, dou
   std::erase_if(result.other_states,
                 [&](const OtherState& state) { return same_depth(state.depth, depth, options.state_tolerance); });
   if (certified) result.other_states.insert(result.other_states.begin(), other_state("release", contact, result.depth));
-  take_history(contact, depth, direct.doubt == "near_slip", options.state_tolerance, result);
+  set_depth(contact, depth, result);
   result.decided_by = "history";
   result.rate = rate;
   result.steady = past.steady;
@@ -278,7 +220,6 @@ Asymptote asymptote(const std::shared_ptr<const response::CondensedModel>& model
     direct.settled = true;
     result.verdict = Verdict::asymptote;
     set_depth(contact, release.depth(passes.released, passes.state), result);
-    if (options.interpolate_edge) place_edges(release, threshold, options.passes, result);
     if (options.certify) certify(release, rates, options, result);
     if (result.verdict != Verdict::asymptote)
       direct.doubt = "certificate";
@@ -286,8 +227,6 @@ Asymptote asymptote(const std::shared_ptr<const response::CondensedModel>& model
       direct.doubt = "reload";
     else if (lifts_off(passes, result.depth, options.state_tolerance))
       direct.doubt = "lift_off";
-    else if (edges_elsewhere(result))
-      direct.doubt = "edges";
   }
   const int solves = release.solves();
   const int jacobians = release.jacobians();

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <memory>
 #include <span>
 #include <string>
@@ -45,8 +44,6 @@ struct AsymptoteOptions {
   double state_tolerance = 1e-2;
   // in (0, 0.5]. Local error per step of the implicit history, relative to the largest depth.
   double history_tolerance = 2e-4;
-  // Place the edges of worn zones between nodes, besides the nodal answer: smooth in the design. Plane models only.
-  bool interpolate_edge = true;
   // Solve once more with the worn gap and contact everywhere, and report the remaining rate.
   bool certify = true;
   // in (0, 1]. With a remaining rate above this fraction of the unworn one (and above rate_threshold), or when that
@@ -69,25 +66,11 @@ struct OtherState {
 struct Asymptote {
   Verdict verdict = Verdict::not_converged;
   Status status = Status::converged;  ///< of the last steady state asked for
-  Eigen::VectorXd depth;              ///< [Nc] W, m, nodal answer; of the history if that decided
+  Eigen::VectorXd depth;              ///< [Nc] W, m; of the history if that decided
   std::vector<bool> released;         ///< [Nc] worn off: carries nothing any more
   ReleaseTrail trail;                 ///< of the passes of release
-  double worn_volume = 0.0;           ///< m^3, nodal answer
-  double largest_depth = 0.0;         ///< m, nodal answer
-  /// The same with the edges of worn zones between nodes (PartialRelease): continuous in the design where the nodal
-  /// answer jumps by a node, and second order in the node spacing where that is first order. Equal to the nodal answer
-  /// when not asked for, and to the history's where that decided - unless all the history did was to take one node more
-  /// or fewer at the edge of a zone. `volume_bracket`: the volumes with the edges moved to the nearest whole nodes
-  /// inside and outside.
-  double interpolated_volume = 0.0;         ///< m^3
-  double interpolated_largest_depth = 0.0;  ///< m
-  Eigen::VectorXd interpolated_depth;       ///< [Nc] m
-  Eigen::VectorXd share;                    ///< [Nc] part of each node that is worn off, see PartialRelease
-  std::array<double, 2> volume_bracket{};   ///< m^3, lower and upper
-  /// Of the states it takes. Otherwise the zones had not settled: the last ones found stand and volume_bracket
-  /// reaches to the nodal answer, or, when there are none, that stands and volume_bracket begins at 0.
-  Status edge_status = Status::converged;
-
+  double worn_volume = 0.0;           ///< m^3
+  double largest_depth = 0.0;         ///< m
   Eigen::VectorXd unworn_rate;  ///< [Nc] dW of the unworn state, m per cycle
   Eigen::VectorXd rate;         ///< [Nc] dW of the worn state, m per cycle (no asymptote: the steady one)
   /// Largest rate with gap g + W and contact everywhere over the largest unworn rate; NaN when not computed.
@@ -98,9 +81,8 @@ struct Asymptote {
   /// Why the direct answer was in doubt: "" (not at all), nothing_holds (every loaded node slips), pass_failed,
   /// certificate (above its limit), lift_off (a worn node touched at times only), reload (a node worn off on the way
   /// did not need to), worst_first (releasing the fastest nodes first does not end there, or reloads), near_slip (a
-  /// node that sticks has less than 5 % of its friction to spare), edges (whole nodes and zones with edges between
-  /// nodes end in different states), finer_settings (the certificate is above its limit
-  /// at finer settings) or always (asked for).
+  /// node that sticks has less than 5 % of its friction to spare), finer_settings (the certificate is above its limit at
+  /// finer settings) or always (asked for).
   std::string doubt;
   std::string decided_by = "release";    ///< release | history: what `depth` and `verdict` are from
   bool confirmed_by_history = false;     ///< the history was run to an end and has decided

@@ -11,7 +11,7 @@ DepthScale depth_scale(const std::shared_ptr<const response::CondensedModel>& mo
   AsymptoteOptions options;
   options.rate_threshold = rate_threshold;
   options.arbitration = "never";
-  options.interpolate_edge = options.certify = options.certify_finer = false;
+  options.certify = options.certify_finer = false;
   const Asymptote found = asymptote(model, omega, start, steady, options, unworn, control);
   DepthScale scale{.status = found.unworn.status, .solves = found.solves, .jacobians = found.jacobians};
   if (scale.status != Status::converged) return scale;

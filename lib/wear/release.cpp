@@ -1,7 +1,5 @@
 #include "wear/release.hpp"
 
-#include "response/amplitude.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -78,59 +76,6 @@ response::SteadyState Release::solve(const std::vector<bool>& released, const Ma
   response::SteadyState state = solve_on(model_, condition, options, guess);
   if (state.status == Status::converged || quick || guess.size() == 0) return state;
   return solve_on(model_, condition, options, {});
-}
-
-double Release::compliance(const VectorXd& share, Index node, Index direction) const {
-  if (share[node] <= 0 || share[node] >= 1) return 0;
-  return share[node] / (1 - share[node]) / model_->local_stiffness()[node * model_->directions() + direction];
-}
-
-response::SteadyState Release::solve_shared(const VectorXd& share, const MatrixXd& guess) {
-  const Index nodes = model_->nodes(), d = model_->directions();
-  response::ContactCondition condition = start_;
-  condition.released.assign(static_cast<std::size_t>(nodes), 0);
-  // Behind a spring the contact dof is a new one; its place in the model is taken by the structure's.
-  reduction::ReducedModel model = model_->reduced();
-  std::vector<Index> sprung;
-  for (Index i = 0; i < nodes; ++i) {
-    condition.released[static_cast<std::size_t>(i)] = share[i] >= 1;
-    for (Index r = 0; r < d; ++r)
-      if (compliance(share, i, r) > 0) sprung.push_back(i * d + r);
-  }
-  const Index n = model.size(), added = std::ssize(sprung);
-  const auto grow = [&](MatrixXd& matrix) { matrix.conservativeResizeLike(MatrixXd::Zero(n + added, n + added)); };
-  grow(model.mass);
-  grow(model.damping);
-  grow(model.stiffness);
-  model.static_force.conservativeResizeLike(VectorXd::Zero(n + added));
-  for (MatrixXd* rows : {&model.cosine_force, &model.sine_force, &model.output_vectors})
-    rows->conservativeResizeLike(MatrixXd::Zero(rows->rows(), n + added));
-  for (Index q = 0; q < added; ++q) {
-    const Index dof = sprung[static_cast<std::size_t>(q)], node = dof / d, r = dof % d;
-    const double spring = 1 / compliance(share, node, r);
-    model.stiffness(dof, dof) += spring;
-    model.stiffness(n + q, n + q) += spring;
-    model.stiffness(dof, n + q) = model.stiffness(n + q, dof) = -spring;
-    if (r == 0)
-      model.contact.normal[node] = static_cast<int>(n + q);
-    else
-      model.contact.tangential(node, r - 1) = static_cast<int>(n + q);
-  }
-  const auto shared = std::make_shared<const response::CondensedModel>(model);
-  response::SteadyState state = solve_on(shared, condition, steady_, guess);
-  return state.status == Status::converged || guess.size() == 0 ? state : solve_on(shared, condition, steady_, {});
-}
-
-VectorXd Release::shared_depth(const VectorXd& share, const response::SteadyState& state) const {
-  VectorXd depth = start_.wear_depth;
-  const Index d = model_->directions();
-  for (Index i = 0; i < depth.size(); ++i) {
-    if (share[i] <= 0) continue;
-    const VectorXd closing =
-        (state.displacement.row(i * d) + compliance(share, i, 0) * state.force.row(i * d)).transpose();
-    depth[i] = std::max(depth[i], response::extremes(closing).maximum - model_->contact().gap[i]);
-  }
-  return depth;
 }
 
 response::SteadyState Release::solve_worn(const VectorXd& depth, const MatrixXd& guess) {

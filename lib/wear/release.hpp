@@ -32,11 +32,6 @@ class Release {
   /// exist because nothing holds the body; otherwise a failed start from `guess` is repeated from closed contact.
   [[nodiscard]] response::SteadyState solve(const std::vector<bool>& released, const Eigen::MatrixXd& guess,
                                             bool quick = false);
-  /// State with nodes of share 1 free of contact and nodes of shares between 0 and 1 stuck behind springs, see
-  /// PartialRelease.
-  [[nodiscard]] response::SteadyState solve_shared(const Eigen::VectorXd& share, const Eigen::MatrixXd& guess);
-  /// W [Nc] of that state: what the structure closes beyond the gap, where it is free or behind a spring.
-  [[nodiscard]] Eigen::VectorXd shared_depth(const Eigen::VectorXd& share, const response::SteadyState& state) const;
   /// State with depth W [Nc] and contact everywhere.
   [[nodiscard]] response::SteadyState solve_worn(const Eigen::VectorXd& depth, const Eigen::MatrixXd& guess);
 
@@ -51,8 +46,6 @@ class Release {
   [[nodiscard]] int jacobians() const { return jacobians_; }
 
  private:
-  /// c of a node and direction, m/N; 0 for shares 0 and 1.
-  [[nodiscard]] double compliance(const Eigen::VectorXd& share, Eigen::Index node, Eigen::Index direction) const;
   [[nodiscard]] response::SteadyState solve_on(const std::shared_ptr<const response::CondensedModel>& model,
                                                const response::ContactCondition& condition,
                                                const response::SteadyOptions& options, const Eigen::MatrixXd& guess);

@@ -84,7 +84,7 @@ class Study {
     const wear::Asymptote& found = *candidate_.asymptote;
     if (found.verdict != wear::Verdict::asymptote)
       fail("No worn state at rest was found: " + std::string(wear::to_string(found.verdict)) + ".");
-    results_.asymptote_volume_m3 = found.interpolated_volume;
+    results_.asymptote_volume_m3 = found.worn_volume;
     results_.nodal_volume_m3 = found.worn_volume;
     results_.certificate = found.certificate;
   }
@@ -140,7 +140,7 @@ class Study {
     }
     if (candidate_.asymptote->verdict == wear::Verdict::asymptote)
       states.push_back({.cycles = std::numeric_limits<double>::infinity(),
-                        .depth_m = list(candidate_.asymptote->interpolated_depth)});
+                        .depth_m = list(candidate_.asymptote->depth)});
     return states;
   }
 
@@ -202,7 +202,7 @@ class Study {
     results_.unequal_flanks_volume_m3.assign(2, 0.0);
     const fem::ContactSurface& surface = model.system.contact;
     for (Eigen::Index i = 0; i < surface.count(); ++i)
-      results_.unequal_flanks_volume_m3[surface.flank(i) == 0 ? 0 : 1] += surface.area(i) * found.interpolated_depth(i);
+      results_.unequal_flanks_volume_m3[surface.flank(i) == 0 ? 0 : 1] += surface.area(i) * found.depth(i);
   }
 
   ComputeOptions options_;

@@ -129,7 +129,7 @@ class Convergence {
     row.energy_j = unworn.state.friction_energy;
     const wear::Asymptote found =
         wear::asymptote(model.condensed, unworn.omega, {}, steady, {.arbitration = "unsettled"}, &unworn.state);
-    row.volume_m3 = found.interpolated_volume;
+    row.volume_m3 = found.worn_volume;
     return found.verdict == wear::Verdict::asymptote ? "converged" : std::string(wear::to_string(found.verdict));
   }
 

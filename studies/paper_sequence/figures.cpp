@@ -225,7 +225,7 @@ Figure rate_course_figure(const Results& r) {
 }
 
 Figure profile_figure(const Results& r) {
-  const Numbers& depth = r.design.contact.interpolated_depth_m;
+  const Numbers& depth = r.design.contact.depth_m;
   if (r.in_space())
     return of_contact("final_profiles", r, depth, {.symbol = "\u00b5m", .si = 1e-6},
                       {.title = "Final worn profile",

@@ -111,8 +111,8 @@ Finding depth(const Results& r) {
 /// Largest difference between the depths of the flanks, over the largest depth: between mirror images, or between
 /// images turned about the blade's radial axis, which is how flanks of a twisted blade resemble each other.
 double flanks_apart(const report::ContactRecord& contact, bool turned) {
-  const Numbers left = of_flank(contact, contact.interpolated_depth_m, 0);
-  Numbers right = of_flank(contact, contact.interpolated_depth_m, 1);
+  const Numbers left = of_flank(contact, contact.depth_m, 0);
+  Numbers right = of_flank(contact, contact.depth_m, 1);
   if (turned) {
     const Numbers across = of_flank(contact, contact.across_m, 1);
     std::vector<std::size_t> order(right.size());
@@ -131,7 +131,7 @@ double flanks_apart(const report::ContactRecord& contact, bool turned) {
 
 /// Share of a flank's worn volume in its half with z > 0.
 double front_share(const report::ContactRecord& contact, std::int64_t flank) {
-  const Numbers depth = of_flank(contact, contact.interpolated_depth_m, flank);
+  const Numbers depth = of_flank(contact, contact.depth_m, flank);
   const Numbers area = of_flank(contact, contact.area_m2, flank), across = of_flank(contact, contact.across_m, flank);
   double front = 0, all = 0;
   for (std::size_t i = 0; i < depth.size(); ++i) {
@@ -283,8 +283,8 @@ double neck_side_share(const report::ContactRecord& contact) {
   double neck = 0, all = 0;
   const double middle =
       contact.along_m.empty() ? 0 : *std::max_element(contact.along_m.begin(), contact.along_m.end()) / 2;
-  for (std::size_t i = 0; i < contact.interpolated_depth_m.size(); ++i) {
-    const double volume = contact.area_m2[i] * contact.interpolated_depth_m[i];
+  for (std::size_t i = 0; i < contact.depth_m.size(); ++i) {
+    const double volume = contact.area_m2[i] * contact.depth_m[i];
     all += volume;
     if (contact.along_m[i] < middle) neck += volume;
   }

@@ -70,7 +70,7 @@ Json results_json(const Results& r) {
                      {"area_m2", contact.area_m2},
                      {"preload_pressure_pa", contact.preload_pressure_pa},
                      {"first_rate_m_per_cycle", contact.wear_rate_m_per_cycle},
-                     {"asymptotic_depth_m", contact.interpolated_depth_m}};
+                     {"asymptotic_depth_m", contact.depth_m}};
   const report::NodalDiameterRecord& diameters = r.design.nodal_diameters;
   json["nodal_diameters"] = {{"nodal_diameter", diameters.nodal_diameter},
                              {"modes", diameters.modes},

@@ -112,8 +112,8 @@ wear::WornEnd worn_end(const WearAnswer& answer) {
                 : answer.status == "no_asymptote" ? wear::Verdict::no_asymptote
                                                   : wear::Verdict::not_converged;
   if (answer.asymptote && answer.worn_out()) {
-    end.volume = answer.comparable_volume();
-    end.depth = answer.comparable_depth();
+    end.volume = answer.volume;
+    end.depth = answer.depth;
   }
   return end;
 }
@@ -177,8 +177,6 @@ std::string summary(const WearQuestion& question, const WearAnswer& answer) {
   const auto known = [&](double value) { return answer.known() ? fmt::format("{:.6g}", value) : "not known"; };
   std::string text = fmt::format("status          {}\nfrequency_hz    {:.9g} ({})\nworn_volume_m3  {}\n", answer.status,
                                  question.frequency_hz, follow_words(question.follow), known(answer.volume));
-  if (answer.asymptote && answer.worn_out())
-    text += fmt::format("  edges between nodes {:.6g}\n", answer.asymptote->interpolated_volume);
   text += fmt::format("largest_depth_m {}\nsolves          {}\n", known(answer.largest_depth()), answer.solves);
   if (answer.asymptote && answer.worn_out()) text += certificate_words(*answer.asymptote);
   if (!question.spread) return text;

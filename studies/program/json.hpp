@@ -52,8 +52,7 @@ struct WearQuestion {
 /// history's end, which depth_m and the final rate are of; its number of cycles is null), "final_worn_volume_m3",
 /// "amplitude_m":[S], "depths_m":[S][Nc], "wear_rates_m_per_cycle":[S][Nc], "history" (how it was computed, and what
 /// --resume needs) and, when asked for, "response_curves". An asymptote has S = 1 and cycles [null] and adds
-/// "interpolated_volume_m3" and "interpolated_depth_m":[Nc] with the worn zones' edges between nodes,
-/// "volume_bracket_m3":[2], "certificate", "finer_certificate":{"harmonics", "samples", "status", "remaining",
+/// "certificate", "finer_certificate":{"harmonics", "samples", "status", "remaining",
 /// "holds"}, "decided_by", "doubt", "confirmed_by_history" and "other_states"; its `frequencies_hz` are those of the
 /// successive asymptotes when the resonance is followed.
 [[nodiscard]] std::string wear_json(const WearQuestion& question, const WearAnswer& answer);

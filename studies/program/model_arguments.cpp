@@ -92,7 +92,7 @@ void define_model_commands(CLI::App& app, Arguments& a) {
       "\"status\", \"follow\", \"frequency_hz\", \"frequencies_hz\", \"cycles\", \"worn_volume_m3\", \"depth_m\",\n"
       "\"final_wear_rate_m_per_cycle\", \"solves\", \"settings\"[, \"error_bars\", \"spread\", \"band\"]}; an "
       "asymptote adds\n"
-      "\"interpolated_volume_m3\", \"interpolated_depth_m\", \"volume_bracket_m3\", \"certificate\" "
+      "\"certificate\" "
       "(largest\nremaining wear rate over the unworn one), \"finer_certificate\" (at 2H+1 harmonics and 2N samples) "
       "and\n\"other_states\"; a history \"depths_m\" and \"wear_rates_m_per_cycle\" of every state, \"history\" "
       "(its options)\nand \"response_curves\".\n"

@@ -144,11 +144,7 @@ Json other_states(const wear::Asymptote& asymptote) {
 /// What an attempt without a verdict knows of the worn state: nothing.
 void add_unknown_asymptote(const wear::Asymptote& asymptote, Json& json) {
   for (const char* key : {"cycles", "worn_volume_m3"}) json[key] = unknown(1);
-  json["interpolated_volume_m3"] = nullptr;
-  json["edge_status"] =
-      asymptote.status == Status::converged ? Json(nullptr) : Json(std::string(to_string(asymptote.status)));
-  json["volume_bracket_m3"] = unknown(2);
-  for (const char* key : {"depth_m", "interpolated_depth_m", "final_wear_rate_m_per_cycle"})
+  for (const char* key : {"depth_m", "final_wear_rate_m_per_cycle"})
     json[key] = unknown(asymptote.depth.size());
   for (const char* key : {"certificate", "decided_by"}) json[key] = nullptr;
 }
@@ -157,11 +153,7 @@ void add_asymptote(const wear::Asymptote& asymptote, Json& json) {
   if (asymptote.verdict == wear::Verdict::not_converged) return add_unknown_asymptote(asymptote, json);
   json["cycles"] = Json::array({nullptr});
   json["worn_volume_m3"] = Json::array({number(asymptote.worn_volume)});
-  json["interpolated_volume_m3"] = number(asymptote.interpolated_volume);
-  json["edge_status"] = std::string(to_string(asymptote.edge_status));
-  json["volume_bracket_m3"] = Json::array({number(asymptote.volume_bracket[0]), number(asymptote.volume_bracket[1])});
   json["depth_m"] = numbers(asymptote.depth);
-  json["interpolated_depth_m"] = numbers(asymptote.interpolated_depth);
   json["final_wear_rate_m_per_cycle"] = numbers(asymptote.rate);
   json["certificate"] = number(asymptote.certificate);
   if (asymptote.finer.harmonics > 0)

@@ -121,14 +121,14 @@ WearBand wear_band(const WearOptions& options, const LoadedModel& loaded, const 
     band.solves += answer.solves;
     band.frequencies_hz.push_back(hz);
     band.status.push_back(answer.status);
-    band.volume.push_back(answer.worn_out() ? answer.comparable_volume() : kUnknown);
-    band.largest_depth.push_back(answer.worn_out() ? answer.comparable_depth().maxCoeff() : kUnknown);
+    band.volume.push_back(answer.worn_out() ? answer.volume : kUnknown);
+    band.largest_depth.push_back(answer.worn_out() ? answer.depth.maxCoeff() : kUnknown);
     if (answer.status == "not_converged") ++band.failed;
     if (answer.worn_out())
-      band.envelope = band.envelope.size() > 0 ? band.envelope.cwiseMax(answer.comparable_depth()).eval()
-                                               : answer.comparable_depth();
+      band.envelope = band.envelope.size() > 0 ? band.envelope.cwiseMax(answer.depth).eval()
+                                               : answer.depth;
     // Endless wear is worse than any volume; a failed one is only shown when there is nothing else.
-    const double badness = answer.worn_out()                 ? answer.comparable_volume()
+    const double badness = answer.worn_out()                 ? answer.volume
                            : answer.status == "no_asymptote" ? kInfinity
                                                              : -0.5;
     if (badness > worst) {

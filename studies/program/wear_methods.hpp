@@ -42,12 +42,6 @@ struct WearAnswer {
   Eigen::VectorXd depth;  ///< [Nc] m, of the last state
   int solves = 0;
 
-  /// With the edges of worn zones between nodes where they are placed: what may be compared.
-  [[nodiscard]] double comparable_volume() const { return asymptote ? asymptote->interpolated_volume : volume; }
-  [[nodiscard]] const Eigen::VectorXd& comparable_depth() const {
-    return asymptote ? asymptote->interpolated_depth : depth;
-  }
-
   /// Whether volume and depth are those of a state, not of an attempt that failed before any.
   [[nodiscard]] bool known() const {
     return history ? history->cycles.size() > 0 : asymptote && asymptote->verdict != wear::Verdict::not_converged;

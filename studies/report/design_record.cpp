@@ -132,7 +132,7 @@ void add_curves(const Scene& scene, const CandidateResult& result, const DesignR
   if (result.worn && result.worn->status == Status::converged && result.asymptote)
     record.worn =
         frictional_curve(scene, model, frequencies(range, result.worn->omega, options.curve_points),
-                         {.wear_depth = result.asymptote->interpolated_depth, .released = {}, .slip_origin = {}});
+                         {.wear_depth = result.asymptote->depth, .released = {}, .slip_origin = {}});
   for (const auto& [name, curve] : {std::pair{"new", &record.unworn}, std::pair{"worn", &record.worn}}) {
     const auto failed = std::count_if(curve->status.begin(), curve->status.end(),
                                       [](const std::string& s) { return s != "converged"; });
@@ -245,7 +245,6 @@ ContactRecord contact_record(const CandidateResult& result) {
   if (result.asymptote) {
     record.wear_rate_m_per_cycle = list(result.asymptote->unworn_rate);
     record.depth_m = list(result.asymptote->depth);
-    record.interpolated_depth_m = list(result.asymptote->interpolated_depth);
   }
   return record;
 }

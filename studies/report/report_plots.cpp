@@ -98,7 +98,7 @@ bool in_space(const ContactRecord& contact) {
 std::vector<FlankMap> contact_maps(const DesignRecord& design) {
   const ContactRecord& contact = design.contact;
   if (!in_space(contact)) return {};
-  return {flank_map(contact, contact.interpolated_depth_m, "m",
+  return {flank_map(contact, contact.depth_m, "m",
                     {.title = "Wear depth over the flanks",
                      .description = "When wear has come to rest; worn off both surfaces together.",
                      .quantity = "worn depth"}),
@@ -123,7 +123,7 @@ Numbers scaled(const Numbers& values, double si) {
 
 Plot wear_depth_plot(const Comparison& designs) {
   return flank_plot(
-      designs, &ContactRecord::interpolated_depth_m, "m",
+      designs, &ContactRecord::depth_m, "m",
       {
           .title = "Wear depth when wear has come to rest",
           .description = "Depth worn off both surfaces together. Where it is zero, the surfaces stick or do not touch.",

@@ -18,7 +18,6 @@ void contact_nodes(Archive& archive, const std::string& group, Contact& contact)
   archive.numbers(group + "/preload_pressure_pa", contact.preload_pressure_pa);
   archive.numbers(group + "/wear_rate_m_per_cycle", contact.wear_rate_m_per_cycle);
   archive.numbers(group + "/depth_m", contact.depth_m);
-  archive.numbers(group + "/interpolated_depth_m", contact.interpolated_depth_m);
 }
 
 template <class Archive, class Curve>
@@ -122,7 +121,7 @@ void require_list(const Reader& reader, const std::string& path, std::size_t fou
 void require_consistent(const Reader& reader, const std::string& group, const DesignRecord& design) {
   const ContactRecord& c = design.contact;
   for (const Numbers* list : {&c.along_m, &c.across_m, &c.x_m, &c.y_m, &c.area_m2, &c.gap_m, &c.preload_pressure_pa,
-                              &c.wear_rate_m_per_cycle, &c.depth_m, &c.interpolated_depth_m})
+                              &c.wear_rate_m_per_cycle, &c.depth_m})
     require_list(reader, group + "/contact", list->size(), c.flank.size());
   if (!c.flank.empty() && c.along_m.empty()) reader.refuse(group + "/contact/along_m", {}, "must not be empty");
   for (const std::int64_t flank : c.flank)

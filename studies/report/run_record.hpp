@@ -28,8 +28,7 @@ struct ContactRecord {
   Numbers gap_m;  ///< initial, unloaded
   Numbers preload_pressure_pa;
   Numbers wear_rate_m_per_cycle;  ///< of the unworn state at the unworn resonance
-  Numbers depth_m;                ///< asymptotic wear depth, both surfaces together, nodal answer
-  Numbers interpolated_depth_m;   ///< the same with the edge of the worn zone between nodes
+  Numbers depth_m;                ///< asymptotic wear depth, both surfaces together
 };
 
 /// Amplitude of the aerofoil tip over the excitation frequency; three lists of one length. Where `status` is not

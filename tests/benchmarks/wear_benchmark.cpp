@@ -77,7 +77,7 @@ void compare(const std::string& name) {
       median_seconds([&] { direct = wear::asymptote(at.model, at.omega, {}, at.steady, direct_options()); }, 0.0);
   wear::AsymptoteOptions alone = direct_options();
   alone.arbitration = "never";
-  alone.interpolate_edge = alone.certify_finer = false;
+  alone.certify_finer = false;
   wear::Asymptote released;
   const double released_time =
       median_seconds([&] { released = wear::asymptote(at.model, at.omega, {}, at.steady, alone); }, 0.0);

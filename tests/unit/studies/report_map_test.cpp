@@ -88,7 +88,7 @@ DesignRecord design_in_space() {
         c.flank.push_back(flank);
         c.along_m.push_back(s);
         c.across_m.push_back(z);
-        c.interpolated_depth_m.push_back(flank == 1 && z > 0 && s == 0 ? 3e-6 : 1e-6);
+        c.depth_m.push_back(flank == 1 && z > 0 && s == 0 ? 3e-6 : 1e-6);
         c.preload_pressure_pa.push_back(1e8);
       }
   return design;
@@ -109,9 +109,9 @@ TEST(FlankMap, ShowsTheContactOfADesignInSpaceOnly) {
 
 TEST(WorstLine, IsTheLineAlongTheFlankWithTheLargestValue) {
   const ContactRecord c = design_in_space().contact;
-  EXPECT_THAT(worst_line(c.flank, c.across_m, c.interpolated_depth_m, 1), testing::ElementsAre(9, 10, 11));
-  EXPECT_THAT(worst_line(c.flank, {}, c.interpolated_depth_m, 0), testing::ElementsAre(0, 1, 2, 3, 4, 5));
-  EXPECT_TRUE(worst_line(c.flank, c.across_m, c.interpolated_depth_m, 2).empty());
+  EXPECT_THAT(worst_line(c.flank, c.across_m, c.depth_m, 1), testing::ElementsAre(9, 10, 11));
+  EXPECT_THAT(worst_line(c.flank, {}, c.depth_m, 0), testing::ElementsAre(0, 1, 2, 3, 4, 5));
+  EXPECT_TRUE(worst_line(c.flank, c.across_m, c.depth_m, 2).empty());
 }
 
 }  // namespace

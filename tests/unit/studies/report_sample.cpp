@@ -43,8 +43,7 @@ ContactRecord contact(const geometry::Profile& profile, double depth_um) {
       record.gap_m.push_back(1e-5 * s);
       record.preload_pressure_pa.push_back(8e7 + 1e7 * flank * s);
       record.wear_rate_m_per_cycle.push_back(1e-12 * (1 - s));
-      record.depth_m.push_back(depth_um * 1e-6 * (1 - s));
-      record.interpolated_depth_m.push_back(depth_um * 1e-6 * (1 - s) * (1 - s));
+      record.depth_m.push_back(depth_um * 1e-6 * (1 - s) * (1 - s));
     }
   }
   return record;

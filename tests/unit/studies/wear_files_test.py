@@ -144,10 +144,9 @@ class WearFiles(unittest.TestCase):
         self.assertIn("unworn resonance", answer["reason"])
         for key in ("cycles", "worn_volume_m3", "frequencies_hz"):
             self.assertEqual(answer[key], [None], key)
-        for key in ("depth_m", "final_wear_rate_m_per_cycle", "interpolated_depth_m"):
+        for key in ("depth_m", "final_wear_rate_m_per_cycle"):
             self.assertEqual(answer[key], [None] * 4, key)
         self.assertIsNone(answer["frequency_hz"])
-        self.assertNotEqual(answer["edge_status"], "converged")
         answer = self.wear("damped.h5", *HISTORY, status=3)
         for key in STATES:
             self.assertEqual(answer[key], [], key)

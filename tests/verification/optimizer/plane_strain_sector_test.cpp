@@ -50,7 +50,7 @@ struct Chain {
     unworn = response::resonance(condensed, reduction.glued_frequencies(0), {}, steady);
     wear::AsymptoteOptions options;
     options.arbitration = "never";
-    options.interpolate_edge = options.certify_finer = false;
+    options.certify_finer = false;
     worn = wear::asymptote(condensed, unworn.omega, {}, steady, options, &unworn.state);
   }
 

@@ -20,7 +20,6 @@ std::shared_ptr<const response::CondensedModel> condensed(Family family, unsigne
 AsymptoteOptions options() {
   AsymptoteOptions options;
   options.rate_threshold = 0.0;
-  options.interpolate_edge = false;
   return options;
 }
 
@@ -74,21 +73,6 @@ TEST(Certificate, SaysWhatCouldNotBeSolved) {
       certificate(model, {}, Eigen::VectorXd::Zero(model->nodes()), unworn.wear_rate.maxCoeff(), unworn, hasty);
   EXPECT_NE(found.status, Status::converged);
   EXPECT_TRUE(std::isnan(found.remaining));
-}
-
-// With two tangential directions edges stay at nodes: both volumes are the nodal one, though edges were asked for.
-TEST(SpacePunch, ReportsItsNodalVolume) {
-  AsymptoteOptions edges = options();
-  edges.interpolate_edge = true;
-  const Asymptote worn = asymptote(condensed(Family::space, 1), 1.0, {}, scenes::kVerdictSettings, edges);
-  ASSERT_EQ(worn.verdict, Verdict::asymptote);
-  EXPECT_GT(worn.worn_volume, 0.0);
-  EXPECT_EQ(worn.interpolated_volume, worn.worn_volume);
-  EXPECT_EQ(worn.interpolated_largest_depth, worn.largest_depth);
-  EXPECT_EQ(worn.interpolated_depth, worn.depth);
-  EXPECT_EQ(worn.volume_bracket[0], worn.worn_volume);
-  EXPECT_EQ(worn.volume_bracket[1], worn.worn_volume);
-  EXPECT_EQ(worn.edge_status, Status::converged);
 }
 
 // The paraboloid, its load and a circular orbit are the same turned by a right angle: so is the wear.

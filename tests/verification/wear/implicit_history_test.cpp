@@ -27,7 +27,6 @@ Eigen::VectorXd last_depth(const ImplicitHistory& run) {
 AsymptoteOptions alone() {
   AsymptoteOptions options;
   options.rate_threshold = 0.0;
-  options.interpolate_edge = false;
   options.arbitration = "never";
   return options;
 }

@@ -37,7 +37,7 @@ Label explicit_label(const std::shared_ptr<const response::CondensedModel>& mode
   const double penetration = largest_penetration(*model, first);
   AsymptoteOptions direct;
   direct.rate_threshold = 0.0;
-  direct.interpolate_edge = direct.certify_finer = false;
+  direct.certify_finer = false;
   direct.arbitration = "never";
   const Asymptote released = asymptote(model, omega, {}, steady, direct, &first);
   const bool settled = released.verdict == Verdict::asymptote;

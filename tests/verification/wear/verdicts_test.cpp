@@ -37,7 +37,6 @@ std::shared_ptr<const response::CondensedModel> condensed(Family family, unsigne
 AsymptoteOptions settings(const char* arbitration) {
   AsymptoteOptions options;
   options.rate_threshold = 0.0;
-  options.interpolate_edge = false;
   options.arbitration = arbitration;
   return options;
 }
