@@ -67,7 +67,7 @@ PartialRelease release_partially(Release& release, const response::SteadyState& 
       break;
     }
     response::SteadyState state = release.solve_shared(share, result.state.displacement);
-    if (state.status != Status::converged && state.status != Status::interrupted) {
+    if (state.status != Status::converged && !cut_short(state.status)) {
       // Half the way first: the state there is a better guess.
       const response::SteadyState half =
           release.solve_shared(rounded(0.5 * (result.share + share)), result.state.displacement);

@@ -75,9 +75,7 @@ response::SteadyState Release::solve(const std::vector<bool>& released, const Ma
     options.penalty_cascade = false;
     options.max_iterations = std::min(options.max_iterations, 30);
   }
-  response::SteadyState state = solve_on(model_, condition, options, guess);
-  if (state.status == Status::converged || quick || guess.size() == 0) return state;
-  return solve_on(model_, condition, options, {});
+  return solve_on(model_, condition, options, guess);
 }
 
 double Release::compliance(const VectorXd& share, Index node, Index direction) const {
@@ -117,8 +115,7 @@ response::SteadyState Release::solve_shared(const VectorXd& share, const MatrixX
       model.contact.tangential(node, r - 1) = static_cast<int>(n + q);
   }
   const auto shared = std::make_shared<const response::CondensedModel>(model);
-  response::SteadyState state = solve_on(shared, condition, steady_, guess);
-  return state.status == Status::converged || guess.size() == 0 ? state : solve_on(shared, condition, steady_, {});
+  return solve_on(shared, condition, steady_, guess);
 }
 
 VectorXd Release::shared_depth(const VectorXd& share, const response::SteadyState& state) const {

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "response/steady_state.hpp"
+
+namespace dovetail::wear {
+
+/// What a state at rest leaves of a contact that alone holds its body. Near gross sliding nodes go on being worn off
+/// until the last ones that bear hold the whole joint like a hinge on which it rocks: a solution of the linear
+/// equations for small sliding, but no state of the joint. Where the structure holds the body without contact (springs,
+/// a negative gap) wear may well take all the load away, and nothing is judged.
+struct Bearing {
+  bool needed = false;        ///< nothing but the contact holds the body
+  double share = 1.0;         ///< of the area that carried load before wear, what still does
+  double penetrations = 0.0;  ///< largest depth over the largest local penetration of the unworn contact
+
+  /// So little bears, or the flanks have closed so far on what does, that only the history can confirm the state.
+  [[nodiscard]] bool doubtful() const { return needed && (share < kFew || penetrations > kDeep); }
+  /// Beyond the depth at which a history's rates count as going on for ever (kLevelDepth): no state, whoever finds it.
+  [[nodiscard]] bool impossible() const;
+
+  static constexpr double kFew = 0.25, kDeep = 100.0;
+};
+
+/// @param unworn  the state before wear
+/// @param worn    the state at rest
+/// @param depth   [Nc] what it has worn, m
+[[nodiscard]] Bearing bearing(const response::CondensedModel& model, const response::SteadyState& unworn,
+                              const response::SteadyState& worn, const Eigen::VectorXd& depth);
+
+}  // namespace dovetail::wear
