@@ -116,7 +116,7 @@ std::string dynamics(const Scene& scene, CandidateResult& result) {
                                            : wear::to_string(asymptote.verdict));
   evaluation.model["wear_certificate"] = asymptote.certificate;
   evaluation.model["wear_bearing_share"] = asymptote.bearing.share;
-  evaluation.model["wear_depth_in_penetrations"] = asymptote.bearing.penetrations;
+  evaluation.model["wear_depth_over_compression"] = asymptote.bearing.closing;
   evaluation.model["wear_history_may_differ"] = asymptote.doubt.empty() ? 0 : 1;
   evaluation.model["nodal_wear_volume_m3"] = asymptote.worn_volume;
   // Edges between nodes never leave exactly the nodal volume, unless they fall back on it.

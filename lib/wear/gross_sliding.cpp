@@ -1,9 +1,11 @@
 #include "wear/gross_sliding.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <map>
 
 #include "wear/archard.hpp"
-#include "wear/steady_rate.hpp"
 
 namespace dovetail::wear {
 
@@ -26,8 +28,25 @@ bool held_without_contact(const response::CondensedModel& model, double omega) {
 
 }  // namespace
 
-bool Bearing::impossible() const {
-  return needed && penetrations > kLevelDepth;
+double flank_compression(const response::CondensedModel& model, const response::SteadyState& state) {
+  const reduction::ContactNodes& contact = model.contact();
+  struct Flank {
+    double compression = 0.0;
+    int nodes = 0;
+  };
+  std::map<int, Flank> flanks;
+  for (Eigen::Index i = 0; i < model.nodes(); ++i) {
+    const response::NodeSummary& node = state.nodes[static_cast<std::size_t>(i)];
+    if (!node.carries_load) continue;
+    Flank& flank = flanks[contact.group.size() > 0 ? contact.group[i] : 0];
+    flank.compression += node.max_normal_force / own_stiffness(model, i, 0);
+    ++flank.nodes;
+  }
+  double largest = 0.0;
+  const double tangential = static_cast<double>(model.directions() - 1);
+  for (const auto& [group, flank] : flanks)
+    largest = std::max(largest, flank.compression / flank.nodes * std::pow(flank.nodes, 1.0 / tangential));
+  return largest;
 }
 
 Bearing bearing(const response::CondensedModel& model, const response::SteadyState& unworn,
@@ -36,8 +55,8 @@ Bearing bearing(const response::CondensedModel& model, const response::SteadySta
   if (depth.size() == 0) return left;
   left.needed = !held_without_contact(model, unworn.omega);
   if (const double before = loaded_area(model, unworn); before > 0.0) left.share = loaded_area(model, worn) / before;
-  if (const double penetration = largest_penetration(model, unworn); penetration > 0.0)
-    left.penetrations = depth.maxCoeff() / penetration;
+  if (const double compression = flank_compression(model, unworn); compression > 0.0)
+    left.closing = depth.maxCoeff() / compression;
   return left;
 }
 

@@ -11,17 +11,21 @@ namespace dovetail::wear {
 /// equations for small sliding, but no state of the joint. Where the structure holds the body without contact (springs,
 /// a negative gap) wear may well take all the load away, and nothing is judged.
 struct Bearing {
-  bool needed = false;        ///< nothing but the contact holds the body
-  double share = 1.0;         ///< of the area that carried load before wear, what still does
-  double penetrations = 0.0;  ///< largest depth over the largest local penetration of the unworn contact
+  bool needed = false;   ///< nothing but the contact holds the body
+  double share = 1.0;    ///< of the area that carried load before wear, what still does
+  double closing = 0.0;  ///< largest depth over the compression of the unworn flank, see flank_compression
 
   /// So little bears, or the flanks have closed so far on what does, that only the history can confirm the state.
-  [[nodiscard]] bool doubtful() const { return needed && (share < kFew || penetrations > kDeep); }
-  /// Beyond the depth at which a history's rates count as going on for ever (kLevelDepth): no state, whoever finds it.
-  [[nodiscard]] bool impossible() const;
+  [[nodiscard]] bool doubtful() const { return needed && (share < kFew || closing > kDeep); }
+  /// No state, whoever finds it.
+  [[nodiscard]] bool impossible() const { return needed && closing > kTooDeep; }
 
-  static constexpr double kFew = 0.25, kDeep = 100.0;
+  static constexpr double kFew = 0.25, kDeep = 10.0, kTooDeep = 30.0;
 };
+
+/// By how much the load compresses a flank, m: the mean over its loaded nodes of lambda_N over the node's own stiffness
+/// times the number of nodes across, which makes it p L / E of the flank whatever the mesh. Of the flank with the most.
+[[nodiscard]] double flank_compression(const response::CondensedModel& model, const response::SteadyState& state);
 
 /// @param unworn  the state before wear
 /// @param worn    the state at rest
