@@ -4,7 +4,7 @@
     python3 tests/benchmarks/evaluation_times.py build/dovetail --designs 60 --seed 1
 
 Two boxes: the variables of the quickstart ("design"), and a study's circumstances besides ("study"): friction, tip
-force, damping, speed, a titanium or nickel blade, flank angles of 40 to 55 degrees. Designs whose geometry is
+force, damping, speed, titanium or nickel, flank angles of 40 to 55 degrees. Designs whose geometry is
 impossible are drawn again. Prints one line per design and, per box, the median, the worst time over it and what the
 evaluations came to. --csv FILE keeps the lines.
 """
@@ -44,7 +44,7 @@ NICKEL = {"youngs_modulus_gpa": 207, "poisson_ratio": 0.3, "density_kg_m3": 8200
 def draw(box, generator):
     settings = {key: round(generator.uniform(*bounds), 6) for key, bounds in box.items()}
     if "contact.friction" in box and generator.random() < 0.5:
-        settings |= {f"material.blade.{key}": value for key, value in NICKEL.items()}
+        settings |= {f"material.{body}.{key}": value for body in ("blade", "disk") for key, value in NICKEL.items()}
     return settings
 
 
