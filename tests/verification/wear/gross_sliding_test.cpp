@@ -61,12 +61,13 @@ TEST(GrossSliding, IsNotJudgedWhereSpringsHold) {
   EXPECT_FALSE(worn.bearing.needed);
 }
 
-// sqrt(1 - 0.97) = 0.17 of the width bears: only a history may confirm that.
+// sqrt(1 - 0.99) = 0.1 of the width bears: only a history may confirm that.
 TEST(GrossSliding, NeedsTheHistorysWord) {
-  const Asymptote alone = asymptote(punch(0.97), 1.0, {}, kSteady, settings("never"));
+  const Asymptote alone = asymptote(punch(0.99), 1.0, {}, kSteady, settings("never"));
+  EXPECT_LT(alone.bearing.share, 0.25);
   EXPECT_EQ(alone.verdict, Verdict::not_converged);
   EXPECT_EQ(alone.status, Status::gross_sliding) << dovetail::to_string(alone.status);
-  const Asymptote confirmed = asymptote(punch(0.97), 1.0, {}, kSteady, settings("unsettled"));
+  const Asymptote confirmed = asymptote(punch(0.99), 1.0, {}, kSteady, settings("unsettled"));
   EXPECT_EQ(confirmed.doubt, "gross_sliding");
   EXPECT_TRUE(confirmed.confirmed_by_history || confirmed.verdict == Verdict::not_converged);
 }
