@@ -9,6 +9,7 @@
 #include "optimizer/contact_fit.hpp"
 #include "optimizer/stopwatch.hpp"
 #include "reduction/static_condensation.hpp"
+#include "response/work.hpp"
 
 namespace dovetail::optimizer {
 
@@ -66,13 +67,21 @@ Status geometric_stiffness(const Scene& scene, const CandidateModel& candidate, 
                             contact_nodes(candidate.cells, 0, scene.contact));
   if (condensed.status != Status::converged) return condensed.status;
   const auto model = std::make_shared<const response::CondensedModel>(condensed.model);
-  const response::Preload preload = response::quasi_static(model);
+  const response::Preload preload = response::quasi_static(model, {.budget = candidate.budget});
   if (preload.status != Status::converged) return preload.status;
   const Eigen::VectorXd independent = condensed.recovery.apply(preload.displacement, preload.force);
   const Eigen::VectorXd displacement = system.constraints.transformation * independent;
   const fem::Mesh& mesh = candidate.mesh.sector.mesh;
   result = assembler.geometric_stiffness(mesh, fem::quadrature_stress(mesh, materials, displacement));
   return Status::converged;
+}
+
+void set_budget(const SolverSettings& solver, CandidateModel& candidate) {
+  candidate.jacobian_operations = response::jacobian_operations(
+      candidate.system.contact.count(), candidate.system.full.dimensions, solver.harmonics, solver.samples);
+  candidate.budget = std::make_shared<Budget>(
+      solver.max_jacobians > 0 ? solver.max_jacobians * candidate.jacobian_operations : kInfinity,
+      solver.time_limit > 0 ? solver.time_limit : kInfinity);
 }
 
 /// The rules of the section, and in space those of the solid.
@@ -105,7 +114,8 @@ void lay_contact(const Scene& scene, const std::vector<fem::FlankCells>& flanks,
     return;
   }
   candidate.preload =
-      response::quasi_static(std::make_shared<const response::CondensedModel>(candidate.reduction.model));
+      response::quasi_static(std::make_shared<const response::CondensedModel>(candidate.reduction.model),
+                             {.budget = candidate.budget});
   if (candidate.preload.status != Status::converged) {
     candidate.status = failed("preload", candidate.preload.status);
     return;
@@ -170,6 +180,7 @@ CandidateModel ModelBuilder::build(const Scene& scene) const {
   const fem::Assembler assembler(mesh);
   candidate.system = fem::build_sector_system(candidate.mesh.sector, bodies, assembler);
   candidate.timings_s["assembly"] = watch.lap();
+  set_budget(scene.solver, candidate);
 
   Eigen::SparseMatrix<double> geometric;
   const Status prestress = geometric_stiffness(scene, candidate, assembler, bodies, geometric);

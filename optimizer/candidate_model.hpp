@@ -35,6 +35,8 @@ struct CandidateModel {
   reduction::Reduction reduction;  ///< its model carries the preload's slip origin
   std::shared_ptr<const response::CondensedModel> condensed;
   response::Preload preload;
+  SharedBudget budget;             ///< of everything computed with contact; counts also where nothing is limited
+  double jacobian_operations = 1;  ///< what it counts for a Jacobian in which all contact nodes take part
 
   std::map<std::string, double> sizes;      ///< dofs, contact nodes, modes, ...
   std::map<std::string, double> timings_s;  ///< by stage

@@ -65,12 +65,27 @@ void fillet_responses(const Scene& scene, CandidateResult& result) {
   responses["peak_stress_pa"] = std::max(result.blade_fillet->maximum, result.disk_fillet->maximum);
 }
 
+/// States that needed another pseudo-penalty than the one asked for: their truncation errors are others.
+void note_penalties(CandidateResult& result) {
+  double& farthest = result.evaluation.model["penalty_ratio"] = 1;
+  const auto note = [&](const char* what, const response::SteadyState& state) {
+    if (state.status != Status::converged || state.penalty_ratio == 1) return;
+    if (std::abs(std::log(state.penalty_ratio)) > std::abs(std::log(farthest))) farthest = state.penalty_ratio;
+    result.evaluation.messages.push_back(std::string("The ") + what + " was found with " +
+                                         shortest(state.penalty_ratio) + " times the pseudo-penalty.");
+  };
+  if (result.unworn) note("unworn resonance", result.unworn->state);
+  if (result.asymptote) note("worn state", result.asymptote->steady);
+  if (result.worn) note("worn resonance", result.worn->state);
+}
+
 /// The physics after the model; returns the status of the evaluation.
 std::string dynamics(const Scene& scene, CandidateResult& result) {
   Evaluation& evaluation = result.evaluation;
   std::map<std::string, double>& responses = evaluation.responses;
   const CandidateModel& model = result.model;
-  const response::SteadyOptions steady = steady_options(scene.solver);
+  response::SteadyOptions steady = steady_options(scene.solver);
+  steady.budget = model.budget;
   Stopwatch watch;
 
   const double glued = model.reduction.glued_frequencies(scene.loading.mode - 1);
@@ -103,6 +118,8 @@ std::string dynamics(const Scene& scene, CandidateResult& result) {
                                            ? to_string(asymptote.status)
                                            : wear::to_string(asymptote.verdict));
   evaluation.model["wear_certificate"] = asymptote.certificate;
+  evaluation.model["wear_bearing_share"] = asymptote.bearing.share;
+  evaluation.model["wear_depth_over_compression"] = asymptote.bearing.closing;
   evaluation.model["wear_history_may_differ"] = asymptote.doubt.empty() ? 0 : 1;
   responses["initial_wear_rate_m3_per_cycle"] =
       wear::worn_volume(model.reduction.model.contact, result.held ? result.held->unworn_rate : asymptote.unworn_rate);
@@ -120,7 +137,7 @@ std::string dynamics(const Scene& scene, CandidateResult& result) {
 
   if (!std::getenv("NOBARS")) evaluation.error_estimates = error_estimates(scene, result);
   evaluation.timings_s["error_estimates"] = watch.lap();
-  return "converged";
+  return spent(model.budget) ? "error_estimates: " + std::string(to_string(Status::budget_spent)) : "converged";
 }
 
 }  // namespace
@@ -164,6 +181,8 @@ CandidateResult SceneEvaluator::evaluate(const Scene& scene) const {
     evaluation.model["contact_nodes"] = static_cast<double>(result.model.cells.count());
     static_responses(scene, result.model, evaluation);
     evaluation.status = dynamics(scene, result);
+    note_penalties(result);
+    evaluation.model["jacobians_spent"] = result.model.budget->used() / result.model.jacobian_operations;
   }
   evaluation.timings_s["total"] = total.lap();
   return result;

@@ -121,7 +121,8 @@ Eigen::VectorXd wear_bars(const CandidateResult& result, const response::SteadyO
 }  // namespace
 
 std::map<std::string, double> error_estimates(const Scene& scene, const CandidateResult& result) {
-  const response::SteadyOptions finer = refined(steady_options(scene.solver));
+  response::SteadyOptions finer = refined(steady_options(scene.solver));
+  finer.budget = result.model.budget;
   const response::ResonanceOptions search;
   std::map<std::string, double> bars;
 

@@ -75,7 +75,7 @@ std::span<const Field<optimizer::Loading>> option_table<optimizer::Loading>() {
 template <>
 std::span<const Field<optimizer::SolverSettings>> option_table<optimizer::SolverSettings>() {
   using S = optimizer::SolverSettings;
-  static const std::array<Field<S>, 7> table{
+  static const std::array<Field<S>, 9> table{
       Field<S>{.key = "harmonics",
                .member = &S::harmonics,
                .range = {.lower = 1, .upper = 200},
@@ -103,7 +103,15 @@ std::span<const Field<optimizer::SolverSettings>> option_table<optimizer::Solver
       Field<S>{.key = "pseudo_penalty_normal_n_per_m",
                .member = &S::pseudo_penalty_normal,
                .range = kNonNegative,
-               .help = "pseudo-penalty in the normal direction; 0: as pseudo_penalty_n_per_m"}};
+               .help = "pseudo-penalty in the normal direction; 0: as pseudo_penalty_n_per_m"},
+      Field<S>{.key = "max_jacobians",
+               .member = &S::max_jacobians,
+               .range = kNonNegative,
+               .help = "work of one evaluation, in Jacobians of all contact nodes at these harmonics; 0: no limit"},
+      Field<S>{.key = "time_limit_s",
+               .member = &S::time_limit,
+               .range = kNonNegative,
+               .help = "seconds for the contact of one evaluation; repeated runs may then differ; 0: none"}};
   return table;
 }
 

@@ -15,6 +15,8 @@ enum class Status {
   not_periodic,     ///< the contact march did not become periodic
   no_bracket,       ///< a scalar search found no sign change / no extremum in its range
   interrupted,      ///< the caller asked to stop
+  gross_sliding,    ///< rest only with nearly the whole contact worn off (wear/gross_sliding.hpp)
+  budget_spent,     ///< the work allowed for the whole computation was used up (core/budget.hpp)
 };
 
 [[nodiscard]] constexpr std::string_view to_string(Status status) {
@@ -35,8 +37,17 @@ enum class Status {
       return "no_bracket";
     case Status::interrupted:
       return "interrupted";
+    case Status::gross_sliding:
+      return "gross_sliding";
+    case Status::budget_spent:
+      return "budget_spent";
   }
   return "unknown";
+}
+
+/// Ended from outside: this says nothing about what was to be solved.
+[[nodiscard]] constexpr bool cut_short(Status status) {
+  return status == Status::interrupted || status == Status::budget_spent;
 }
 
 }  // namespace dovetail

@@ -52,6 +52,7 @@ class PlaneEquations {
 
   Status newton_step(Eigen::VectorXd& step) {
     if (!problem_) return Status::not_finite;
+    if (spent(problem_->budget())) return Status::budget_spent;
     const Eigen::MatrixXd at = state_.displacement;
     problem_->evaluate(at, true, state_);
     if (state_.status == Status::not_finite) return state_.status;

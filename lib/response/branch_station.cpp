@@ -110,7 +110,7 @@ std::optional<BranchVector> StationMaker::tangent_ahead(const Station& now, cons
                                                         double step) {
   const BranchVector there = along(now.at, direction, step);
   const std::shared_ptr<const SteadyResidual> residual = equations_.at(there.omega);
-  if (!residual) return {};
+  if (!residual || spent(residual->budget())) return {};
   ResidualState state;
   residual->evaluate(there.displacement, true, state);
   ++jacobians_;

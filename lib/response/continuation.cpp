@@ -72,6 +72,8 @@ class Follower {
   Status follow() {
     double step = std::min(follow_.initial_step, follow_.largest_change);
     while (static_cast<int>(branch_.points.size()) < follow_.max_points) {
+      if (spent(options_.budget)) return Status::budget_spent;
+      if (follow_.max_jacobians > 0 && maker_->jacobians() >= follow_.max_jacobians) return Status::iteration_limit;
       std::optional<Station> next = attempt(step);
       if (next) {
         if (const std::optional<double> end = end_passed(next->at.omega)) {

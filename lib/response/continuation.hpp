@@ -20,6 +20,7 @@ struct ContinuationOptions {
   double smallest_turn = 1e-3;           ///< reversal of the frequency that counts, fraction of the interval, [0, 1]
   int max_corrections = 12;              ///< Jacobians per point tried, >= 2
   int max_points = 2000;                 ///< >= 2
+  int max_jacobians = 0;                 ///< of everything, rejected steps included; 0: no limit
   bool locate_turns = true;              ///< put a point on every turning point of the frequency
 };
 
@@ -33,8 +34,8 @@ struct ContinuationPoint {
 };
 
 struct Branch {
-  /// converged: followed until it left the interval. Otherwise why it ended early: iteration_limit (max_points),
-  /// interrupted, or what the last correction said when the step became the smallest.
+  /// converged: followed until it left the interval. Otherwise why it ended early: iteration_limit (max_points,
+  /// max_jacobians), interrupted, or what the last correction said when the step became the smallest.
   Status status = Status::iteration_limit;
   std::vector<ContinuationPoint> points;  ///< in order; only the first can be unconverged, when the start failed
   int jacobians = 0, evaluations = 0;     ///< of everything, rejected steps included

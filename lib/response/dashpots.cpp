@@ -1,5 +1,6 @@
 #include "response/dashpots.hpp"
 
+#include <cmath>
 #include <optional>
 
 #include "numerics/path.hpp"
@@ -40,6 +41,9 @@ Dashpots::Followed Dashpots::follow(double alpha, const Eigen::MatrixXd& displac
                                       },
                                   .jacobian =
                                       [&] {
+                                        // What is not finite ends the path.
+                                        if (spent(residual->budget()))
+                                          return Eigen::MatrixXd(Eigen::MatrixXd::Constant(n, n + 1, std::nan("")));
                                         // d f / d s = -alpha (I - D) (i h k U)
                                         Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(rows, columns);
                                         for (Eigen::Index h = 1; 2 * h < columns; ++h)

@@ -2,6 +2,8 @@
 
 #include <cassert>
 
+#include "response/work.hpp"
+
 namespace dovetail::response {
 namespace {
 
@@ -94,6 +96,7 @@ std::shared_ptr<const Linearisation::Factors> Linearisation::factorise(double re
   for (Eigen::Index j = 0; j < active; ++j)
     columns[static_cast<std::size_t>(factors->active[static_cast<std::size_t>(j)])] = matrix.col(j).data();
   assemble(blocks, factors->active, columns, regularisation);
+  if (residual_.budget()) residual_.budget()->spend(factorisation_operations(active));
   factors->lu.factorise(std::move(matrix));
   return factors;
 }

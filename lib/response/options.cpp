@@ -125,7 +125,11 @@ std::span<const Field<ResonanceOptions>> option_table<ResonanceOptions>() {
       Field<ResonanceOptions>{.key = "max_solves",
                               .member = &ResonanceOptions::max_solves,
                               .range = {.lower = 1},
-                              .help = "steady states computed at most"},
+                              .help = "steady states computed at most next to the start"},
+      Field<ResonanceOptions>{.key = "max_sweep_jacobians",
+                              .member = &ResonanceOptions::max_sweep_jacobians,
+                              .range = {.lower = 1},
+                              .help = "Jacobians spent at most on following the branch"},
   };
   return fields;
 }

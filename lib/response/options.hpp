@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "core/budget.hpp"
 #include "core/options.hpp"
 
 namespace dovetail::response {
@@ -25,6 +26,7 @@ struct SteadyOptions {
   /// Show that the Jacobian of the solution is regular, which takes a factorisation; may be left out without
   /// `linearise` for a state next to one that was shown to be.
   bool show_regular = true;
+  SharedBudget budget = {};  ///< of everything computed with these options; null: not limited
 };
 
 /// Throws InputError listing every option out of range.

@@ -36,6 +36,10 @@ Local linearised(const BranchEquations& branch, const BranchVector& point, const
                  const ArcMetric& metric, Eigen::Index output) {
   Local local;
   local.point = point;
+  if (spent(branch.options().budget)) {
+    local.status = Status::budget_spent;
+    return local;
+  }
   local.residual = branch.at(point.omega);
   if (!local.residual) return local;
   ResidualState state;

@@ -63,6 +63,7 @@ Resonance peak_sweep(const std::shared_ptr<const CondensedModel>& model, double 
                                    .largest_change = 0.5,
                                    .largest_turn = 0.8,
                                    .max_points = 1000,
+                                   .max_jacobians = resonance_options.max_sweep_jacobians,
                                    .locate_turns = false};
   SteadyOptions without = options;
   without.linearise = false;

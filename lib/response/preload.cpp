@@ -27,8 +27,10 @@ Level solve_level(const std::shared_ptr<const CondensedModel>& model, double sca
   const contact::PseudoPenalty penalty = contact::pseudo_penalty(model->local_stiffness(), model->directions(),
                                                                  options.normal_penalty, options.tangential_penalty);
   const auto attempt = [&](const std::shared_ptr<const HarmonicSystem>& at, double ratio, const Eigen::MatrixXd& from) {
+    level.status = Status::budget_spent;
+    if (spent(options.budget)) return false;
     const SteadyResidual residual(model, at, numerics::FourierBasis(0, 1), penalty.scaled(ratio), condition,
-                                  {.periodic = false});
+                                  {.periodic = false}, options.budget);
     Attempt found = solve(residual, from.size() > 0 ? from : residual.closed_start(), Method::newton, options.tolerance,
                           options.max_iterations);
     level.iterations += found.iterations;
@@ -80,7 +82,8 @@ Preload quasi_static(const std::shared_ptr<const CondensedModel>& model, const P
     if (scale > 1 - 1e-9) scale = 1;
     Level level = solve_level(model, scale, condition, options, displacement);
     preload.iterations += level.iterations;
-    preload.status = level.status;
+    preload.status = within(options.budget, level.status);
+    if (preload.status == Status::budget_spent) return preload;
     const bool tried_zero = std::exchange(at_zero, false);
     if (level.status != Status::converged) {
       if (tried_zero) continue;

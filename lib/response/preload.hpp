@@ -15,6 +15,7 @@ struct PreloadOptions {
   int max_iterations = 60;        ///< Jacobians per step and penalty, >= 1
   double normal_penalty = 0;      ///< N/m, 0: local contact stiffness
   double tangential_penalty = 0;  ///< N/m, 0: local contact stiffness
+  SharedBudget budget = {};       ///< null: not limited
 };
 
 /// The static state at the end of the loading path and the friction history it leaves.

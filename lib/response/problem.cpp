@@ -27,7 +27,8 @@ SteadyResidual steady_problem(const std::shared_ptr<const CondensedModel>& model
   const contact::PseudoPenalty penalty = contact::pseudo_penalty(model->local_stiffness(), model->directions(),
                                                                  options.normal_penalty, options.tangential_penalty);
   const contact::MarchOptions march = march_options(options, system->force_scale);
-  return {model, std::move(system), basis, penalty.scaled(penalty_ratio * options.penalty_scale), condition, march};
+  return {model, std::move(system), basis, penalty.scaled(penalty_ratio * options.penalty_scale), condition,
+          march, options.budget};
 }
 
 SteadyState described(const SteadyResidual& residual, const Eigen::MatrixXd& displacement, Status status,

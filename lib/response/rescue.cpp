@@ -57,7 +57,7 @@ class Rescue {
   }
 
  private:
-  [[nodiscard]] bool spent() const { return left_ <= reserve_; }
+  [[nodiscard]] bool spent() const { return left_ <= reserve_ || dovetail::spent(options_.budget); }
 
   [[nodiscard]] SteadyResidual residual_of(const std::shared_ptr<const HarmonicSystem>& system, double ratio) const {
     const auto harmonics = static_cast<int>(system->harmonics.size()) - 1;

@@ -6,6 +6,7 @@
 
 #include "numerics/dense_lu.hpp"
 #include "response/real_block.hpp"
+#include "response/work.hpp"
 
 namespace dovetail::response {
 
@@ -48,13 +49,15 @@ Eigen::MatrixXd residual_slope_linear(const CondensedModel& model, const Harmoni
 
 SteadyResidual::SteadyResidual(std::shared_ptr<const CondensedModel> model,
                                std::shared_ptr<const HarmonicSystem> system, numerics::FourierBasis basis,
-                               contact::PseudoPenalty penalty, ContactCondition condition, contact::MarchOptions march)
+                               contact::PseudoPenalty penalty, ContactCondition condition, contact::MarchOptions march,
+                               SharedBudget budget)
     : model_(std::move(model)),
       system_(std::move(system)),
       basis_(std::move(basis)),
       penalty_(std::move(penalty)),
       condition_(std::move(condition)),
-      march_(march) {
+      march_(march),
+      budget_(std::move(budget)) {
   const Eigen::Index nodes = model_->nodes(), d = model_->directions();
   const auto require = [](bool good, const char* key, Eigen::Index found, Eigen::Index wanted) {
     if (!good)
@@ -107,6 +110,7 @@ void SteadyResidual::evaluate(const Eigen::MatrixXd& displacement, bool with_der
                            .tangential_penalty = penalty_.tangential(i)};
       for (Eigen::Index r = 0; r + 1 < d; ++r) law.slip_origin(r) = condition_.slip_origin(i, r);
       contact::march(samples.middleCols(i * d, d), law, basis_, march_, with_derivative, node);
+      if (budget_) budget_->spend(march_operations(basis_.samples(), node.periods, with_derivative ? d * k : 0));
     }
     force.middleCols(i * d, d) = node.force;
     if (node.status != Status::converged) state.status = node.status;
@@ -148,6 +152,7 @@ Eigen::MatrixXd SteadyResidual::jacobian_rows(const ResidualState& state, const 
 }
 
 void SteadyResidual::jacobian(const ResidualState& state, Eigen::MatrixXd& into) const {
+  if (budget_) budget_->spend(factorisation_operations(unknowns()));
   std::vector<Eigen::Index> rows(static_cast<std::size_t>(unknowns()));
   std::iota(rows.begin(), rows.end(), Eigen::Index{0});
   assemble_rows(blocks(state), rows, into);

@@ -54,7 +54,7 @@ class SteadyResidual {
  public:
   SteadyResidual(std::shared_ptr<const CondensedModel> model, std::shared_ptr<const HarmonicSystem> system,
                  numerics::FourierBasis basis, contact::PseudoPenalty penalty, ContactCondition condition,
-                 contact::MarchOptions march);
+                 contact::MarchOptions march, SharedBudget budget = {});
 
   [[nodiscard]] const CondensedModel& model() const { return *model_; }
   [[nodiscard]] const HarmonicSystem& system() const { return *system_; }
@@ -66,12 +66,15 @@ class SteadyResidual {
   [[nodiscard]] bool released(Eigen::Index node) const {
     return condition_.released[static_cast<std::size_t>(node)] != 0;
   }
+  /// Counts the marches and factorisations of this problem; or null.
+  [[nodiscard]] const SharedBudget& budget() const { return budget_; }
   [[nodiscard]] double penalty_of(Eigen::Index contact_dof) const { return dof_penalty_(contact_dof); }
 
   /// Evaluates f at U [nc, 2H+1], with the nodal blocks D when asked. O(nc^2 H + Nc N m d).
   void evaluate(const Eigen::MatrixXd& displacement, bool with_derivative, ResidualState& state) const;
 
-  /// The full Jacobian J = Z + D (eps I - Z) [nc (2H+1)]^2 over vec(U). O(n^2 d), n = nc (2H+1).
+  /// The full Jacobian J = Z + D (eps I - Z) [nc (2H+1)]^2 over vec(U). O(n^2 d), n = nc (2H+1). The budget counts its
+  /// factorisation, too.
   [[nodiscard]] Eigen::MatrixXd jacobian(const ResidualState& state) const;
   /// The same into storage that is kept: a fresh large matrix costs more in page faults than in operations.
   void jacobian(const ResidualState& state, Eigen::MatrixXd& into) const;
@@ -94,6 +97,7 @@ class SteadyResidual {
   contact::PseudoPenalty penalty_;
   ContactCondition condition_;
   contact::MarchOptions march_;
+  SharedBudget budget_;
   Eigen::VectorXd offset_;       // (g + W) e_N [nc]
   Eigen::VectorXd dof_penalty_;  // eps [nc]
 };

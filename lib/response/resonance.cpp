@@ -52,9 +52,13 @@ class PeakSearch {
   bool go(double omega) {
     for (int halving = 0; halving < 8 && result_.solves < peak_.max_solves; ++halving) {
       Eigen::MatrixXd guess = guess_;
-      if (now_.state.linearisation)
+      SteadyOptions options = options_;
+      // Next to a state that is known, half the way is a better start than any rescue, which may end on another branch.
+      if (now_.state.linearisation) {
+        options.max_rescue_iterations = 0;
         guess = now_.state.displacement + (omega - now_.omega) * now_.state.linearisation->response_to_frequency();
-      SteadyState state = steady_state(model_, omega, condition_, options_, guess, now_.state.linearisation);
+      }
+      SteadyState state = steady_state(model_, omega, condition_, options, guess, now_.state.linearisation);
       ++result_.solves;
       result_.jacobians += state.iterations;
       last_status_ = state.status;
@@ -196,7 +200,7 @@ Resonance resonance(const std::shared_ptr<const CondensedModel>& model, double o
                      .allowed = "must be < " + std::to_string(outputs)});
   if (!found.empty()) throw InputError(std::move(found));
   Resonance near = PeakSearch(model, condition, options, resonance_options).run(omega_start, guess);
-  if (near.status == Status::converged || resonance_options.sweep_range == 0) return near;
+  if (near.status == Status::converged || cut_short(near.status) || resonance_options.sweep_range == 0) return near;
   Resonance far = peak_sweep(model, omega_start * (1 + resonance_options.search_range),
                              omega_start * (1 - resonance_options.sweep_range), condition, options, resonance_options);
   far.swept = true;

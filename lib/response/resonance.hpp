@@ -11,7 +11,8 @@ struct ResonanceOptions {
   double frequency_tolerance = 1e-7;  ///< of omega, relative; the stationarity chatters at 1e-8. > 0
   double search_range = 0.2;          ///< the search next to the start moves omega by at most this fraction, (0, 1)
   double sweep_range = 0.9;           ///< when it fails, the branch is followed within this fraction, [0, 1); 0: no
-  int max_solves = 80;                ///< steady states, >= 1
+  int max_solves = 80;                ///< steady states of the search next to the start, >= 1
+  int max_sweep_jacobians = 5000;     ///< of following the branch, >= 1
 };
 
 struct Resonance {
@@ -32,8 +33,9 @@ struct Resonance {
 /// When that ends without a maximum - it lies further away, the curve jumps between branches, a solve fails - the
 /// branch is followed from start (1 + search_range) down to start (1 - sweep_range), through its turning points, and
 /// its highest maximum taken: contact that slips or opens is softer than the glued one, so it is below that the peak
-/// can be far. This costs some hundred solves, which max_solves does not limit. With a sweep_range of 0 a peak that
-/// cannot be followed is said to be none: for peaks tracked from one that is known, where another is no answer.
+/// can be far. This costs some hundred solves; max_sweep_jacobians
+/// limits it. With a sweep_range of 0 a peak that cannot be followed is said to be none: for peaks tracked from one
+/// that is known, where another is no answer.
 [[nodiscard]] Resonance resonance(const std::shared_ptr<const CondensedModel>& model, double omega_start,
                                   const ContactCondition& condition, const SteadyOptions& options,
                                   const ResonanceOptions& resonance_options = {}, const Eigen::MatrixXd& guess = {});

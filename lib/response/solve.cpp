@@ -33,6 +33,7 @@ struct Scaled {
     return state.residual.reshaped() / force;
   }
   Status newton_step(Eigen::VectorXd& step) {
+    if (spent(problem.budget())) return Status::budget_spent;
     const Eigen::MatrixXd at = state.displacement;
     problem.evaluate(at, true, state);
     auto linear = std::make_shared<const Linearisation>(problem, state, last.get());
@@ -55,6 +56,9 @@ struct Scaled {
     return true;
   }
   Eigen::MatrixXd jacobian(const Eigen::VectorXd& x) {
+    // What is not finite ends Powell's method.
+    if (spent(problem.budget()))
+      return Eigen::MatrixXd::Constant(x.size(), x.size(), std::numeric_limits<double>::quiet_NaN());
     problem.evaluate(displacement(x), true, state);
     return problem.jacobian(state) * (unit / force).asDiagonal();
   }

@@ -27,6 +27,7 @@ class Search {
   // Tries one start; true when it converged. Keeps the attempt if it is the best so far.
   bool attempt(double ratio, const Eigen::MatrixXd& start, Method method,
                const std::shared_ptr<const Linearisation>& reuse = {}) {
+    if (spent(options_.budget)) return false;
     const SteadyResidual residual = problem(ratio);
     return keep(solve(residual, start.size() > 0 ? start : residual.closed_start(), method, options_.tolerance,
                       options_.max_iterations, reuse),
@@ -74,6 +75,7 @@ class Search {
                                                         : AtSolution::trust;
     SteadyState steady =
         described(problem(ratio_), best_.displacement, best_.status, jacobian, best_.linearisation.get());
+    steady.status = within(options_.budget, steady.status);
     steady.iterations = iterations_;
     steady.evaluations = evaluations_;
     steady.penalty_ratio = ratio_;
@@ -105,12 +107,14 @@ SteadyState steady_state(const std::shared_ptr<const CondensedModel>& model, dou
                       .key = "guess",
                       .value = std::to_string(guess.rows()) + " x " + std::to_string(guess.cols()),
                       .allowed = "must be " + std::to_string(model->contact_size()) + " x " + std::to_string(columns)});
+  SteadyState without;
+  without.omega = omega;
+  without.status = Status::budget_spent;
+  if (spent(options.budget)) return without;
   auto system = std::make_shared<const HarmonicSystem>(harmonic_system(*model, options.harmonics, omega));
   if (system->status != Status::converged) {
-    SteadyState steady;
-    steady.status = system->status;
-    steady.omega = omega;
-    return steady;
+    without.status = system->status;
+    return without;
   }
   Search search(model, std::move(system), condition, options);
   search.run(guess, reuse);

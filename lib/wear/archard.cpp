@@ -20,11 +20,19 @@ double cycle_jump(const Eigen::VectorXd& rate, double increment) {
   return largest > 0.0 ? increment / largest : std::numeric_limits<double>::infinity();
 }
 
+double own_stiffness(const response::CondensedModel& model, Eigen::Index node, Eigen::Index direction) {
+  constexpr double kNone = 1e-12, kFloor = 1e-3;
+  const double largest = model.local_stiffness().maxCoeff();
+  const double own = model.local_stiffness()[node * model.directions() + direction];
+  if (own > kNone * largest) return own;
+  return largest > 0.0 ? kFloor * largest : 1.0;
+}
+
 double largest_penetration(const response::CondensedModel& model, const response::SteadyState& state) {
   double penetration = 0.0;
   for (Eigen::Index i = 0; i < model.nodes(); ++i)
-    penetration = std::max(penetration, state.nodes[static_cast<std::size_t>(i)].max_normal_force /
-                                            model.local_stiffness()[i * model.directions()]);
+    penetration =
+        std::max(penetration, state.nodes[static_cast<std::size_t>(i)].max_normal_force / own_stiffness(model, i, 0));
   return penetration;
 }
 

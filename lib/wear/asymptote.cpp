@@ -6,6 +6,7 @@
 
 #include "wear/archard.hpp"
 #include "wear/certificate.hpp"
+#include "wear/gross_sliding.hpp"
 #include "wear/implicit_history.hpp"
 #include "wear/passes.hpp"
 #include "wear/start.hpp"
@@ -89,6 +90,20 @@ bool near_slip(const response::CondensedModel& model, const response::SteadyStat
   return false;
 }
 
+/// The larger of the depths by whole nodes and between them: neither may be beyond the model.
+Bearing bearing_of(const response::CondensedModel& model, const Asymptote& result) {
+  return bearing(model, result.unworn, result.steady, result.depth.cwiseMax(result.interpolated_depth));
+}
+
+/// A state that hardly anything bears is an answer only when the history comes to it.
+void refuse_gross_sliding(const response::CondensedModel& model, Asymptote& result) {
+  if (result.verdict != Verdict::asymptote) return;
+  result.bearing = bearing_of(model, result);
+  if (!result.bearing.impossible() && (result.confirmed_by_history || !result.bearing.doubtful())) return;
+  result.verdict = Verdict::not_converged;
+  result.status = Status::gross_sliding;
+}
+
 /// Whether the answer rests at finer settings, too.
 void certify_finer(const std::shared_ptr<const response::CondensedModel>& model, const Rates& rates,
                    const response::SteadyOptions& steady, const AsymptoteOptions& options, Release& release,
@@ -141,7 +156,11 @@ void arbitrate(const std::shared_ptr<const response::CondensedModel>& model, dou
   result.status = Status::converged;
   const VectorXd depth = past.depth.row(last).transpose();
   const VectorXd rate = past.rate.row(last).transpose();
-  if (past.end == HistoryEnd::worn_out && certified && same_depth(depth, result.depth, options.state_tolerance)) return;
+  if (past.end == HistoryEnd::worn_out && certified && same_depth(depth, result.depth, options.state_tolerance)) {
+    // Edges between nodes have no history that confirms them.
+    if (direct.doubt == "gross_sliding") set_depth(contact, result.depth, result);
+    return;
+  }
   std::erase_if(result.other_states,
                 [&](const OtherState& state) { return same_depth(state.depth, depth, options.state_tolerance); });
   if (certified) result.other_states.insert(result.other_states.begin(), other_state("release", contact, result.depth));
@@ -184,6 +203,7 @@ Asymptote asymptote(const std::shared_ptr<const response::CondensedModel>& model
   result.certificate = std::numeric_limits<double>::quiet_NaN();
   Passes passes(model->nodes());
   const auto finish = [&] {
+    refuse_gross_sliding(*model, result);
     result.released = passes.released;
     result.trail = passes.trail;
     result.passes = passes.count;
@@ -207,7 +227,7 @@ Asymptote asymptote(const std::shared_ptr<const response::CondensedModel>& model
   result.status = passes.status;
   result.steady = passes.state;
   result.rate = passes.state.wear_rate;
-  if (passes.status == Status::interrupted) return finish();
+  if (cut_short(passes.status)) return finish();
   Direct direct;
   if (ending == Ending::failed) {
     direct.doubt = "pass_failed";
@@ -223,6 +243,8 @@ Asymptote asymptote(const std::shared_ptr<const response::CondensedModel>& model
     if (options.certify) certify(release, rates, options, result);
     if (result.verdict != Verdict::asymptote)
       direct.doubt = "certificate";
+    else if (bearing_of(*model, result).doubtful())
+      direct.doubt = "gross_sliding";
     else if (reloads(passes.deepest, result.depth, options.state_tolerance))
       direct.doubt = "reload";
     else if (lifts_off(passes, result.depth, options.state_tolerance))
@@ -247,7 +269,7 @@ Asymptote asymptote(const std::shared_ptr<const response::CondensedModel>& model
       direct.doubt = "near_slip";
   }
   result.doubt = direct.doubt.empty() && asked ? "always" : direct.doubt;
-  const bool stands = direct.settled && result.verdict == Verdict::asymptote;
+  const bool stands = direct.settled && result.verdict == Verdict::asymptote && direct.doubt != "gross_sliding";
   if (result.doubt.empty() || options.arbitration == "never" || (options.arbitration == "unsettled" && stands)) {
     count_arbitration();
     certify_finer(model, rates, steady, options, release, result);

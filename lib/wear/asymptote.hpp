@@ -12,6 +12,7 @@
 #include "response/steady_state.hpp"
 #include "wear/certificate.hpp"
 #include "wear/control.hpp"
+#include "wear/gross_sliding.hpp"
 #include "wear/no_wear.hpp"
 #include "wear/zone_edges.hpp"
 
@@ -78,7 +79,11 @@ struct Asymptote {
   /// The same at 2H+1 harmonics and 2N samples, of the depth that is the answer; `harmonics` 0 when not asked for.
   Certificate finer;
   bool holds_finer = false;  ///< `finer` is within certificate_limit
+  /// Of the answer. Where it is doubtful and no history confirms it, or impossible, the verdict is not_converged and
+  /// the status gross_sliding, whatever `arbitration` says.
+  Bearing bearing;
   /// Why the direct answer was in doubt: "" (not at all), nothing_holds (every loaded node slips), pass_failed,
+  /// gross_sliding (hardly anything bears, see Bearing),
   /// certificate (above its limit), lift_off (a worn node touched at times only), reload (a node worn off on the way
   /// did not need to), worst_first (releasing the fastest nodes first does not end there, or reloads), near_slip (a
   /// node that sticks has less than 5 % of its friction to spare), finer_settings (the certificate is above its limit at

@@ -7,6 +7,7 @@
 
 #include "wear/archard.hpp"
 #include "wear/finish.hpp"
+#include "wear/steady_rate.hpp"
 
 namespace dovetail::wear {
 
@@ -257,6 +258,10 @@ History history(const std::shared_ptr<const response::CondensedModel>& model, do
     result.steady = std::move(next.state);
     accept(cycles, run.depth() + change);
     control.report(step, records.back().volume, records.back().rate.maxCoeff());
+    // Who asks for a number of cycles gets them.
+    if (limit == kInfinity && unchanged_while_doubling(records, kLevelChange) &&
+        insensitive_to_wear(result.steady, kLevelDepth * penetration, kLevelChange))
+      return finish(HistoryEnd::steady_rate, Status::converged);
   }
   const bool done = result.steady.wear_rate.maxCoeff() <= worn_out;
   return finish(done ? HistoryEnd::worn_out : HistoryEnd::steps, Status::converged);

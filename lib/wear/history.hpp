@@ -52,7 +52,7 @@ struct HistoryOptions {
 /// Why a history ended.
 enum class HistoryEnd {
   worn_out,     ///< rates died out
-  steady_rate,  ///< rates levelled out under load; only implicit histories look for it
+  steady_rate,  ///< rates levelled out under load: they go on for ever (steady_rate.hpp)
   cycles,       ///< as many as asked for
   steps,        ///< used up
   failed,       ///< no step could be solved however short

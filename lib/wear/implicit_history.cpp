@@ -40,13 +40,8 @@ void store(const reduction::ContactNodes& contact, const std::vector<Record>& re
 
 /// Whether the rates stayed as they were while the depth doubled, far beyond the elastic scale.
 bool levelled_out(const std::vector<Record>& records, double penetration, const ImplicitHistoryOptions& options) {
-  const Record& last = records.back();
-  const double deep = last.depth.maxCoeff();
-  if (deep < options.level_depth * penetration) return false;
-  const auto earlier = std::find_if(records.rbegin(), records.rend(),
-                                    [deep](const Record& record) { return record.depth.maxCoeff() <= 0.5 * deep; });
-  if (earlier == records.rend() || earlier->depth.maxCoeff() < 0.05 * deep) return false;
-  return (last.rate - earlier->rate).cwiseAbs().maxCoeff() <= options.level_change * last.rate.maxCoeff();
+  return records.back().depth.maxCoeff() >= options.level_depth * penetration &&
+         unchanged_while_doubling(records, options.level_change);
 }
 
 }  // namespace
@@ -142,6 +137,7 @@ ImplicitHistory implicit_history(const std::shared_ptr<const response::Condensed
   Status failure = Status::iteration_limit;
   for (int i = 0; i < options.steps; ++i) {
     if (control.stopped()) return leave(HistoryEnd::interrupted, Status::interrupted);
+    if (spent(steady.budget)) return leave(HistoryEnd::failed, Status::budget_spent);
     if (cycles >= limit) return leave(HistoryEnd::cycles, Status::converged);
     const bool last_step = jump >= limit - cycles;
     memory.step = jump;

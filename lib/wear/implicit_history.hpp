@@ -10,6 +10,7 @@
 #include "wear/control.hpp"
 #include "wear/history.hpp"
 #include "wear/no_wear.hpp"
+#include "wear/steady_rate.hpp"
 
 namespace dovetail::wear {
 
@@ -33,9 +34,9 @@ struct ImplicitHistoryOptions {
   double rate_threshold = kFromModel;
   // > 1. A rate that stays within `level_change` while the depth doubles, beyond this many of those penetrations, has
   // levelled out: wear goes on for ever.
-  double level_depth = 300.0;
+  double level_depth = kLevelDepth;
   // in (0, 1).
-  double level_change = 1e-3;
+  double level_change = kLevelChange;
   // Finish a worn-out history by releasing the nodes that still wear, so that no bias of the last rates remains.
   bool finish = true;
   // >= 0. Cycles that `start` has behind it, when a history is resumed.

@@ -117,6 +117,7 @@ Status ImplicitStage::solve(const VectorXd& base, const VectorXd& cycles, int ma
   const numerics::NewtonSystem system{.residual = residual,
                                       .newton_step =
                                           [&](VectorXd& step) {
+                                            if (spent(steady_.budget)) return Status::budget_spent;
                                             const response::SteadyResidual here = problem(depth);
                                             const MatrixXd at = state.displacement;
                                             here.evaluate(at, true, state);

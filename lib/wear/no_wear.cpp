@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "wear/archard.hpp"
+
 namespace dovetail::wear {
 
 double no_wear_rate(double given, const response::CondensedModel& model, const response::SteadyState& unworn) {
@@ -11,8 +13,7 @@ double no_wear_rate(double given, const response::CondensedModel& model, const r
   double largest = 0.0;
   for (Eigen::Index i = 0; i < contact.count(); ++i) {
     const double force = unworn.nodes[static_cast<std::size_t>(i)].max_normal_force;
-    const double stiffness = model.local_stiffness()[i * model.directions() + 1];
-    const double sliding = 4.0 * contact.friction[i] * force / stiffness;
+    const double sliding = 4.0 * contact.friction[i] * force / own_stiffness(model, i, 1);
     largest = std::max(largest, contact.wear_coefficient[i] * force / contact.area[i] * sliding);
   }
   return kShare * largest;

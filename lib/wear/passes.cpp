@@ -56,7 +56,7 @@ Ending release_slipping(Release& release, double threshold, int limit, const Con
     response::SteadyState state = release.solve(next, passes.state.displacement, !held);
     if (state.status != Status::converged) {
       passes.status = state.status;
-      return held || state.status == Status::interrupted ? Ending::failed : Ending::nothing_holds;
+      return held || cut_short(state.status) ? Ending::failed : Ending::nothing_holds;
     }
     passes.trail.reserves.push_back(friction_reserve(release.model(), passes.state, slips));
     for (std::size_t i = 0; i < next.size(); ++i) {

@@ -73,9 +73,7 @@ response::SteadyState Release::solve(const std::vector<bool>& released, const Ma
     options.penalty_cascade = false;
     options.max_iterations = std::min(options.max_iterations, 30);
   }
-  response::SteadyState state = solve_on(model_, condition, options, guess);
-  if (state.status == Status::converged || quick || guess.size() == 0) return state;
-  return solve_on(model_, condition, options, {});
+  return solve_on(model_, condition, options, guess);
 }
 
 response::SteadyState Release::solve_worn(const VectorXd& depth, const MatrixXd& guess) {

@@ -29,7 +29,7 @@ class Release {
           response::SteadyOptions steady, const Control& control);
 
   /// State with these nodes free of contact. `quick`: one pseudo-penalty and few iterations, for states that may not
-  /// exist because nothing holds the body; otherwise a failed start from `guess` is repeated from closed contact.
+  /// exist because nothing holds the body.
   [[nodiscard]] response::SteadyState solve(const std::vector<bool>& released, const Eigen::MatrixXd& guess,
                                             bool quick = false);
   /// State with depth W [Nc] and contact everywhere.

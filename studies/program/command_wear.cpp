@@ -175,7 +175,8 @@ std::string certificate_words(const wear::Asymptote& asymptote) {
 
 std::string summary(const WearQuestion& question, const WearAnswer& answer) {
   const auto known = [&](double value) { return answer.known() ? fmt::format("{:.6g}", value) : "not known"; };
-  std::string text = fmt::format("status          {}\nfrequency_hz    {:.9g} ({})\nworn_volume_m3  {}\n", answer.status,
+  const std::string status = answer.status + (answer.reason.empty() ? "" : " (" + answer.reason + ")");
+  std::string text = fmt::format("status          {}\nfrequency_hz    {:.9g} ({})\nworn_volume_m3  {}\n", status,
                                  question.frequency_hz, follow_words(question.follow), known(answer.volume));
   text += fmt::format("largest_depth_m {}\nsolves          {}\n", known(answer.largest_depth()), answer.solves);
   if (answer.asymptote && answer.worn_out()) text += certificate_words(*answer.asymptote);
@@ -190,7 +191,9 @@ std::string summary(const WearQuestion& question, const WearAnswer& answer) {
 
 int verdict(const std::string& input, const WearAnswer& answer, bool interrupted, const Streams& streams) {
   if (interrupted) return kInterrupted;
-  if (answer.status != "not_converged") return kDone;
+  // Who asked for a number of cycles has them.
+  const bool has_cycles = answer.history && answer.history->end == wear::HistoryEnd::cycles;
+  if (answer.status != "not_converged" || has_cycles) return kDone;
   const bool out_of_steps = answer.history && answer.history->end == wear::HistoryEnd::steps;
   streams.err << fmt::format("dovetail: {}: the worn state did not converge: {}{}\n", input, to_string(answer.solver),
                              !out_of_steps ? ""

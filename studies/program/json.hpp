@@ -57,7 +57,8 @@ struct WearQuestion {
 /// successive asymptotes when the resonance is followed.
 [[nodiscard]] std::string wear_json(const WearQuestion& question, const WearAnswer& answer);
 
-/// "asymptote" | "no_asymptote" | "not_converged": a history that ended at the cycles asked for is "no_asymptote".
+/// "asymptote" | "no_asymptote" | "not_converged"; the last also of a history that ended at the cycles asked for while
+/// it wore.
 [[nodiscard]] std::string wear_status(const wear::History& history);
 
 }  // namespace dovetail::studies

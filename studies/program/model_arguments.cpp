@@ -99,7 +99,8 @@ void define_model_commands(CLI::App& app, Arguments& a) {
       "\"spread\" holds, per source, \"status\", \"nominal\", \"low\", \"high\", \"profile_change\" and every member. "
       "A history "
       "that\n"
-      "reached --cycles while still wearing has the status no_asymptote, one that used up --steps not_converged.");
+      "reached --cycles while still wearing has the status not_converged, too, its \"reason\" says so, and the exit "
+      "status is 0.");
   wear->add_option("INPUT", a.wear.input, kInput)->required()->type_name("");
   wear->add_option("--method", a.wear.method, "history or asymptote")
       ->required()

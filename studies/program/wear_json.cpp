@@ -178,7 +178,6 @@ std::string wear_status(const wear::History& history) {
     case wear::HistoryEnd::worn_out:
       return "asymptote";
     case wear::HistoryEnd::steady_rate:
-    case wear::HistoryEnd::cycles:
       return "no_asymptote";
     default:
       return "not_converged";

@@ -13,6 +13,7 @@ namespace dovetail::studies {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
+constexpr const char* kCyclesReached = "the cycles asked for were reached while wearing";
 
 WearAnswer by_history(const WearOptions& options, const LoadedModel& loaded, const WearStart& at,
                       const response::ContactCondition& condition, const wear::Control& control) {
@@ -24,6 +25,7 @@ WearAnswer by_history(const WearOptions& options, const LoadedModel& loaded, con
   wear::History& history = *answer.history;
   if (at.resonance) history.solves += at.resonance->solves;
   answer.status = wear_status(history);
+  if (history.end == wear::HistoryEnd::cycles) answer.reason = kCyclesReached;
   answer.solver = history.end == wear::HistoryEnd::steps ? Status::iteration_limit : history.status;
   answer.solves = history.solves;
   for (const double omega : history.frequency)

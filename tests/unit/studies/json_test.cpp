@@ -65,8 +65,9 @@ TEST(WearJson, AHistoryEndsWithItsLastState) {
 }
 
 TEST(WearJson, OnlyRestIsAnAsymptote) {
-  EXPECT_EQ(wear_status(history(wear::HistoryEnd::cycles)), "no_asymptote");
-  for (const wear::HistoryEnd end : {wear::HistoryEnd::steps, wear::HistoryEnd::failed, wear::HistoryEnd::interrupted})
+  EXPECT_EQ(wear_status(history(wear::HistoryEnd::steady_rate)), "no_asymptote");
+  for (const wear::HistoryEnd end :
+       {wear::HistoryEnd::cycles, wear::HistoryEnd::steps, wear::HistoryEnd::failed, wear::HistoryEnd::interrupted})
     EXPECT_EQ(wear_status(history(end)), "not_converged");
 }
 

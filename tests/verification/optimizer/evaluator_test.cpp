@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "optimizer/problem.hpp"
@@ -40,6 +43,43 @@ TEST(SectionEvaluation, ConvergesWithEveryResponseAndAFiniteErrorBar) {
   for (const auto& [name, value] : evaluation.responses) EXPECT_TRUE(std::isfinite(value)) << name;
   EXPECT_GE(evaluation.responses.size(), 17U);
   for (const auto& [name, bar] : evaluation.error_estimates) EXPECT_TRUE(std::isfinite(bar) && bar >= 0) << name;
+}
+
+// Stage by stage, as the budget grows: the status names the stage that spent it, responses of those before it stay.
+TEST(SectionEvaluation, EndsWithItsBudget) {
+  const double needed = baseline().evaluation.model.at("jacobians_spent");
+  ASSERT_GT(needed, 4);
+  std::set<std::string> stages;
+  for (const double share : {0.02, 0.15, 0.4, 0.8}) {
+    Scene scene = coarse_scene();
+    scene.solver.max_jacobians = std::max(1, static_cast<int>(share * needed));
+    const Evaluation part = evaluator().evaluate(scene).evaluation;
+    const std::size_t colon = part.status.find(": ");
+    ASSERT_NE(colon, std::string::npos) << share << ": " << part.status;
+    EXPECT_EQ(part.status.substr(colon + 2), "budget_spent") << share;
+    stages.insert(part.status.substr(0, colon));
+    EXPECT_TRUE(part.responses.contains("mass_kg"));
+    for (const auto& [name, value] : part.responses) EXPECT_EQ(value, baseline().evaluation.responses.at(name)) << name;
+    // A Jacobian at twice the harmonics plus one costs eight times one of these, and what is under way is finished.
+    EXPECT_LT(part.model.at("jacobians_spent"), scene.solver.max_jacobians + 20);
+  }
+  EXPECT_GE(stages.size(), 2U);
+  Scene hurried = coarse_scene();
+  hurried.solver.time_limit = 1e-9;
+  EXPECT_NE(evaluator().evaluate(hurried).evaluation.status.find("budget_spent"), std::string::npos);
+}
+
+TEST(SectionEvaluation, TellsWhetherItNeededAnotherPseudoPenalty) {
+  EXPECT_EQ(baseline().evaluation.model.at("penalty_ratio"), 1);
+  // Far stiffer than the contact, the one asked for does not converge from closed contact.
+  Scene scene = coarse_scene();
+  scene.solver.pseudo_penalty = 1e16;
+  const Evaluation other = evaluator().evaluate(scene).evaluation;
+  if (!other.model.contains("penalty_ratio")) GTEST_SKIP() << other.status;
+  EXPECT_EQ(other.model.at("penalty_ratio") != 1,
+            std::any_of(other.messages.begin(), other.messages.end(), [](const std::string& message) {
+              return message.find("times the pseudo-penalty") != std::string::npos;
+            }));
 }
 
 TEST(SectionEvaluation, FlanksCarryTheCentrifugalPull) {

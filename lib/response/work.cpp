@@ -1,0 +1,21 @@
+#include "response/work.hpp"
+
+namespace dovetail::response {
+
+double factorisation_operations(Eigen::Index unknowns) {
+  const auto n = static_cast<double>(unknowns);
+  return 2.0 / 3.0 * n * n * n;
+}
+
+double march_operations(int samples, int periods, Eigen::Index coefficients) {
+  constexpr double kStep = 200, kCoefficient = 75;
+  return static_cast<double>(samples) * periods * (kStep + kCoefficient * static_cast<double>(coefficients));
+}
+
+double jacobian_operations(Eigen::Index nodes, Eigen::Index directions, int harmonics, int samples) {
+  const Eigen::Index coefficients = directions * (2 * harmonics + 1);
+  return static_cast<double>(nodes) * march_operations(samples, 1, coefficients) +
+         factorisation_operations(nodes * coefficients);
+}
+
+}  // namespace dovetail::response

@@ -1,0 +1,73 @@
+#include "wear/gross_sliding.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "wear/archard.hpp"
+
+namespace dovetail::wear {
+
+namespace {
+
+double largest_force(const response::SteadyState& state) {
+  double force = 0.0;
+  for (const response::NodeSummary& node : state.nodes) force = std::max(force, node.max_normal_force);
+  return force;
+}
+
+/// Of the nodes that carry more than `least`: worn ones that just touch bear nothing.
+double loaded_area(const response::CondensedModel& model, const response::SteadyState& state, double least) {
+  double area = 0.0;
+  for (Eigen::Index i = 0; i < model.nodes(); ++i)
+    if (state.nodes[static_cast<std::size_t>(i)].max_normal_force > least) area += model.contact().area[i];
+  return area;
+}
+
+bool held_without_contact(const response::CondensedModel& model, double omega) {
+  Eigen::MatrixXd stiffness = model.harmonic(0, omega).stiffness.real();
+  // What rounding leaves of a direction without stiffness is less.
+  constexpr double kNothing = 1e-9;
+  stiffness.diagonal().array() -= kNothing * stiffness.diagonal().cwiseAbs().maxCoeff();
+  return Eigen::LLT<Eigen::MatrixXd>(stiffness).info() == Eigen::Success;
+}
+
+}  // namespace
+
+double flank_compression(const response::CondensedModel& model, const response::SteadyState& state) {
+  const reduction::ContactNodes& contact = model.contact();
+  struct Flank {
+    double compression = 0.0;
+    int nodes = 0;
+  };
+  std::map<int, Flank> flanks;
+  for (Eigen::Index i = 0; i < model.nodes(); ++i) {
+    const response::NodeSummary& node = state.nodes[static_cast<std::size_t>(i)];
+    if (!node.carries_load) continue;
+    Flank& flank = flanks[contact.group.size() > 0 ? contact.group[i] : 0];
+    flank.compression += node.max_normal_force / own_stiffness(model, i, 0);
+    ++flank.nodes;
+  }
+  double largest = 0.0;
+  const double tangential = static_cast<double>(model.directions() - 1);
+  for (const auto& [group, flank] : flanks)
+    largest = std::max(largest, flank.compression / flank.nodes * std::pow(flank.nodes, 1.0 / tangential));
+  return largest;
+}
+
+Bearing bearing(const response::CondensedModel& model, const response::SteadyState& unworn,
+                const response::SteadyState& worn, const Eigen::VectorXd& depth) {
+  Bearing left;
+  if (depth.size() == 0) return left;
+  left.needed = !held_without_contact(model, unworn.omega);
+  constexpr double kTouches = 1e-3;
+  const double least = kTouches * largest_force(unworn);
+  if (const double before = loaded_area(model, unworn, least); before > 0.0)
+    left.share = loaded_area(model, worn, least) / before;
+  if (const double compression = flank_compression(model, unworn); compression > 0.0)
+    left.closing = depth.maxCoeff() / compression;
+  return left;
+}
+
+}  // namespace dovetail::wear

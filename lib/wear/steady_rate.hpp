@@ -1,0 +1,35 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <vector>
+
+#include "response/steady_state.hpp"
+
+namespace dovetail::wear {
+
+/// When rates have levelled out, so that wear goes on for ever: they stay within kLevelChange of the largest one while
+/// the joint wears by kLevelDepth of its largest local penetration (largest_penetration), far beyond the depth over
+/// which its pressures change.
+inline constexpr double kLevelDepth = 300.0;
+inline constexpr double kLevelChange = 1e-3;
+
+/// Whether no rate moved by more than `change` of the largest one while the largest depth doubled to what it is now.
+/// Records have `depth` and `rate` [Nc], in order.
+template <class Record>
+[[nodiscard]] bool unchanged_while_doubling(const std::vector<Record>& records, double change) {
+  const Record& last = records.back();
+  if (last.depth.size() == 0) return false;
+  const double deep = last.depth.maxCoeff();
+  const auto earlier = std::find_if(records.rbegin(), records.rend(),
+                                    [deep](const Record& record) { return record.depth.maxCoeff() <= 0.5 * deep; });
+  if (earlier == records.rend() || earlier->depth.maxCoeff() < 0.05 * deep) return false;
+  return (last.rate - earlier->rate).cwiseAbs().maxCoeff() <= change * last.rate.maxCoeff();
+}
+
+/// Whether wearing by `depth` (m, of the fastest node) at the rates of `state` moves no rate by more than `change` of
+/// the largest one, by their exact derivative: loads that do not depend on wear. False where nothing wears or without
+/// linearisation. Cost: one back substitution per node.
+[[nodiscard]] bool insensitive_to_wear(const response::SteadyState& state, double depth, double change);
+
+}  // namespace dovetail::wear
