@@ -12,10 +12,12 @@ namespace dovetail::hard_cases {
 struct Outcome {
   std::string family;
   int index = 0;
+  bool fresh = false;
   Status status = Status::iteration_limit;
   std::string thrown = {};  ///< message of an exception; none is expected
   std::string wrong = {};   ///< converged, and the independent check objects: why
-  Verdict verdict = {};     ///< of converged states
+  Claim claim = {};         ///< of converged states
+  Verdict verdict = {};     ///< on it
   bool has_answer = true;   ///< false: proved by construction that there is none
   bool contact_mass = false;
   int nodes = 0, unknowns = 0, iterations = 0;
@@ -26,7 +28,7 @@ struct Outcome {
 };
 
 /// Solves and examines one problem.
-[[nodiscard]] Outcome attempt(const std::string& family, int index, const Problem& problem);
+[[nodiscard]] Outcome attempt(const Family& family, int index, const Problem& problem);
 
 /// One line per family and their sums.
 [[nodiscard]] std::string table(const std::vector<Outcome>& outcomes);
