@@ -41,6 +41,7 @@ int main(int argc, char** argv) {
       std::fflush(stdout);
     }
   fmt::print("\n{}", table(outcomes));
+  if (only.empty()) fmt::print("\n{}", table(spoiled(asked_of)));
   if (!csv.empty()) std::ofstream(csv) << comma_separated(outcomes);
   return std::any_of(outcomes.begin(), outcomes.end(), [](const Outcome& o) { return !o.wrong.empty(); }) ? 1 : 0;
 }

@@ -181,6 +181,17 @@ class Node {
     for (const double e : step_error_) square += e * e;
     return std::sqrt(2 * square / static_cast<double>(samples_)) + std::sqrt(2) * fine_.uncertainty;
   }
+  [[nodiscard]] std::vector<Contact> states() const {
+    std::vector<Contact> result;
+    for (std::size_t n = 0; n < samples_; ++n) {
+      const Memory &now = orbit_.memory[n], &last = orbit_.memory[(n + samples_ - 1) % samples_];
+      result.push_back(now.open    ? Contact::open
+                       : last.open ? Contact::touching
+                       : now.slid  ? Contact::slipping
+                                   : Contact::sticking);
+    }
+    return result;
+  }
   [[nodiscard]] double friction() const { return mu_; }
   [[nodiscard]] double largest_force() const { return largest_; }
 
@@ -280,6 +291,14 @@ Eigen::MatrixXd reactions(const Problem& problem, const Eigen::MatrixXd& displac
     result.col(static_cast<Eigen::Index>(2 * h - 1)) = found[h].real();
     result.col(static_cast<Eigen::Index>(2 * h)) = -found[h].imag();
   }
+  return result;
+}
+
+std::vector<std::vector<Contact>> contact_states(const Problem& problem, const Claim& claim) {
+  const std::vector<Eigen::VectorXcd> displacement = series(claim.displacement), force = series(claim.force);
+  std::vector<std::vector<Contact>> result;
+  for (Eigen::Index i = 0; i < problem.model.contact.count(); ++i)
+    result.push_back(Node(problem, claim, displacement, force, i).states());
   return result;
 }
 

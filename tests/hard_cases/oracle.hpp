@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <string>
+#include <vector>
 
 #include "tests/hard_cases/problem.hpp"
 
@@ -54,6 +55,11 @@ struct Verdict {
 /// Condenses the model itself, marches the contact law itself from its own Fourier sums, and compares. Nothing of
 /// dovetail::contact, dovetail::numerics or dovetail::response takes part. O(n^3 H + Nc N H).
 [[nodiscard]] Verdict examine(const Problem& problem, const Claim& claim);
+
+/// What a node does at a sample by the oracle's march; `touching` at the first loaded sample.
+enum class Contact { open, touching, sticking, slipping };
+/// Of all nodes at all samples [Nc][N].
+[[nodiscard]] std::vector<std::vector<Contact>> contact_states(const Problem& problem, const Claim& claim);
 
 /// Reactions F - Z U of displacements U [nc, 2H+1], N, from the uncondensed equations.
 [[nodiscard]] Eigen::MatrixXd reactions(const Problem& problem, const Eigen::MatrixXd& displacement);

@@ -47,6 +47,20 @@ Outcome attempt(const Family& family, int index, const Problem& problem) {
   return outcome;
 }
 
+std::vector<Score> spoiled(const std::vector<Family>& families) {
+  constexpr int kEvery = 6, kNodes = 8;
+  std::vector<Score> scores;
+  for (const Family& family : families)
+    for (int index = 0; index < family.count; index += kEvery) {
+      const Problem problem = family.make(index);
+      if (!problem.no_answer.empty() || problem.contact_mass || problem.model.contact.count() > kNodes) continue;
+      const Outcome outcome = attempt(family, index, problem);
+      Random random(outcome.id(), 0);
+      if (outcome.converged()) spoil(problem, outcome.claim, random, scores);
+    }
+  return scores;
+}
+
 namespace {
 
 double median(std::vector<double> values) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/status.hpp"
+#include "tests/hard_cases/mutations.hpp"
 #include "tests/hard_cases/oracle.hpp"
 
 namespace dovetail::hard_cases {
@@ -29,6 +30,9 @@ struct Outcome {
 
 /// Solves and examines one problem.
 [[nodiscard]] Outcome attempt(const Family& family, int index, const Problem& problem);
+
+/// Every kind of spoiled claim made of the answers to a sixth of the problems, the small ones of each family in turn.
+[[nodiscard]] std::vector<Score> spoiled(const std::vector<Family>& families);
 
 /// One line per family and their sums.
 [[nodiscard]] std::string table(const std::vector<Outcome>& outcomes);
