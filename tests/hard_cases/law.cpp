@@ -65,8 +65,8 @@ double kept(const Memory& a, const Memory& b, bool in_plane) {
 
 }  // namespace
 
-Orbit periodic_orbit(const std::vector<Vector>& prediction, const Law& law, const Memory& start) {
-  constexpr int kMaxPeriods = 20000;
+Orbit periodic_orbit(const std::vector<Vector>& prediction, const Law& law, const Memory& start, double resolution) {
+  constexpr int kMaxPeriods = 100000;
   constexpr double kRounding = 1e-16, kResolved = 1e-12;
   double largest = 0;
   for (const Vector& p : prediction) largest = std::max({largest, std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
@@ -85,6 +85,7 @@ Orbit periodic_orbit(const std::vector<Vector>& prediction, const Law& law, cons
     if (change > kResolved * largest && previous > 0) ratio = std::min(change / previous, 1 - 1e-6);
     orbit.periodic = change <= kRounding * largest || (change <= kResolved * largest && change >= previous);
     orbit.uncertainty = (change + kRounding * largest) / (1 - ratio);
+    orbit.periodic = orbit.periodic || (period > 0 && orbit.uncertainty <= resolution * largest);
     previous = change;
   }
   return orbit;

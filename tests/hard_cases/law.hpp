@@ -35,8 +35,10 @@ struct Orbit {
 
 /// Unilateral contact and Coulomb friction followed from sample to sample: at every sample the force is the closest
 /// point of the friction cone's section |lambda_T| <= mu lambda_N, lambda_N = max(0, prediction_N), to the trial force
-/// prediction_T - eps X_T. Repeated until the slip at the end of a period is that at its start.
-[[nodiscard]] Orbit periodic_orbit(const std::vector<Vector>& prediction, const Law& law, const Memory& start);
+/// prediction_T - eps X_T. Repeated until the slip at the end of a period is that at its start, or as far from it as
+/// `resolution`, relative to the largest prediction, permits (0: to rounding).
+[[nodiscard]] Orbit periodic_orbit(const std::vector<Vector>& prediction, const Law& law, const Memory& start,
+                                   double resolution = 0);
 
 /// No contact force at all.
 [[nodiscard]] Orbit free_orbit(const std::vector<Vector>& prediction);

@@ -28,6 +28,7 @@ int main(int argc, char** argv) {
            });
   };
   std::vector<Outcome> outcomes;
+  std::vector<Score> scores;
   std::vector<Family> asked_of = families();
   for (Family& family : fresh_families(seed)) asked_of.push_back(std::move(family));
   fmt::print("Fresh problems: --seed {} repeats them.\n", seed);
@@ -37,11 +38,12 @@ int main(int argc, char** argv) {
       Problem problem = family.make(index);
       if (!slip_return.empty()) problem.options.slip_return = slip_return;
       outcomes.push_back(attempt(family, index, problem));
+      if (only.empty()) spoil(problem, outcomes.back(), scores);
       if (!quiet) fmt::print("{}", failures({outcomes.back()}));
       std::fflush(stdout);
     }
   fmt::print("\n{}", table(outcomes));
-  if (only.empty()) fmt::print("\n{}", table(spoiled(asked_of)));
+  if (only.empty()) fmt::print("\n{}", table(scores));
   if (!csv.empty()) std::ofstream(csv) << comma_separated(outcomes);
   return std::any_of(outcomes.begin(), outcomes.end(), [](const Outcome& o) { return !o.wrong.empty(); }) ? 1 : 0;
 }

@@ -14,9 +14,10 @@ constexpr double kShare = 0.01;
 // A claim sample by sample, and changes of it.
 class Canvas {
  public:
-  Canvas(const Problem& problem, const Claim& claim)
+  Canvas(const Problem& problem, const Claim& claim, double floor)
       : problem_(problem),
         claim_(claim),
+        floor_(floor),
         d_(problem.model.contact.directions()),
         terms_(claim.displacement.cols()),
         samples_(problem.options.samples) {
@@ -46,12 +47,13 @@ class Canvas {
   [[nodiscard]] Eigen::VectorXd traction(Eigen::Index i, Eigen::Index n) const {
     return force_.col(n).segment(i * d_ + 1, d_ - 1);
   }
-  // A hundredth of the largest force; of a node without any, of its largest gap, as a force. 0: it has neither.
+  // A hundredth of the largest force; of a node without any, of its largest gap, as a force. 0: it is too small.
   [[nodiscard]] double unit(Eigen::Index i) const {
     double largest = 0;
     for (Eigen::Index n = 0; n < samples_; ++n)
       largest = std::max({largest, std::abs(force_(i * d_, n)), traction(i, n).norm()});
-    return largest > 0 ? kShare * largest : gap_unit(i);
+    const double unit = largest > 0 ? kShare * largest : gap_unit(i);
+    return unit > floor_ ? unit : 0;
   }
   [[nodiscard]] double gap_unit(Eigen::Index i) const {
     double largest = 0;
@@ -89,6 +91,7 @@ class Canvas {
  private:
   const Problem& problem_;
   const Claim& claim_;
+  double floor_;
   Eigen::Index d_, terms_;
   int samples_;
   Eigen::MatrixXd basis_, force_, opening_;
@@ -127,51 +130,51 @@ Eigen::RowVectorXd any_harmonic(const Canvas& canvas, Random& random, int from =
   return canvas.harmonic(random.integer(from, static_cast<int>(canvas.terms()) - 1));
 }
 
-std::optional<Claim> force_harmonic(const Problem& problem, const Claim& claim, Random& random) {
-  const Canvas canvas(problem, claim);
+std::optional<Claim> force_harmonic(const Problem& problem, const Claim& claim, double floor, Random& random) {
+  const Canvas canvas(problem, claim, floor);
   const auto at = place(canvas, random, anywhere);
   if (!at) return std::nullopt;
   return canvas.pushed(any_row(canvas, at->node, random), sign(random) * canvas.unit(at->node),
                        any_harmonic(canvas, random));
 }
 
-std::optional<Claim> displacement_harmonic(const Problem& problem, const Claim& claim, Random& random) {
-  const Canvas canvas(problem, claim);
+std::optional<Claim> displacement_harmonic(const Problem& problem, const Claim& claim, double floor, Random& random) {
+  const Canvas canvas(problem, claim, floor);
   const auto at = place(canvas, random, anywhere);
   if (!at) return std::nullopt;
   return canvas.displaced(canvas.moved(any_row(canvas, at->node, random), sign(random) * canvas.unit(at->node),
                                        any_harmonic(canvas, random)));
 }
 
-std::optional<Claim> state_harmonic(const Problem& problem, const Claim& claim, Random& random) {
-  const Canvas canvas(problem, claim);
+std::optional<Claim> state_harmonic(const Problem& problem, const Claim& claim, double floor, Random& random) {
+  const Canvas canvas(problem, claim, floor);
   const auto at = place(canvas, random, anywhere);
   if (!at) return std::nullopt;
   return canvas.balanced(canvas.moved(any_row(canvas, at->node, random), sign(random) * canvas.unit(at->node),
                                       any_harmonic(canvas, random)));
 }
 
-std::optional<Claim> state_sample(const Problem& problem, const Claim& claim, Random& random) {
-  const Canvas canvas(problem, claim);
+std::optional<Claim> state_sample(const Problem& problem, const Claim& claim, double floor, Random& random) {
+  const Canvas canvas(problem, claim, floor);
   const auto at = place(canvas, random, anywhere);
   if (!at) return std::nullopt;
   return canvas.balanced(
       canvas.moved(any_row(canvas, at->node, random), sign(random) * canvas.unit(at->node), canvas.spike(at->sample)));
 }
 
-std::optional<Claim> state_gap(const Problem& problem, const Claim& claim, Random& random) {
-  const Canvas canvas(problem, claim);
+std::optional<Claim> state_gap(const Problem& problem, const Claim& claim, double floor, Random& random) {
+  const Canvas canvas(problem, claim, floor);
   const auto at = place(canvas, random, [&](Eigen::Index i, Eigen::Index n) {
     return canvas.prediction(i * canvas.directions(), n) < 0;
   });
-  if (!at || !(canvas.gap_unit(at->node) > 0)) return std::nullopt;
+  if (!at || !(canvas.gap_unit(at->node) > floor)) return std::nullopt;
   return canvas.balanced(canvas.moved(at->node * canvas.directions(), sign(random) * canvas.gap_unit(at->node),
                                       any_harmonic(canvas, random)));
 }
 
 // One harmonic with the other sign, if it is of a hundredth at least.
-std::optional<Claim> state_sign(const Problem& problem, const Claim& claim, Random& random) {
-  const Canvas canvas(problem, claim);
+std::optional<Claim> state_sign(const Problem& problem, const Claim& claim, double floor, Random& random) {
+  const Canvas canvas(problem, claim, floor);
   std::vector<std::pair<Eigen::Index, Eigen::Index>> places;
   for (Eigen::Index row = 0; row < claim.displacement.rows(); ++row)
     for (Eigen::Index k = 0; k < canvas.terms(); ++k) {
@@ -187,8 +190,8 @@ std::optional<Claim> state_sign(const Problem& problem, const Claim& claim, Rand
 }
 
 // Two nodes with each other's displacements, if these are a hundredth apart at least.
-std::optional<Claim> state_swap(const Problem& problem, const Claim& claim, Random& random) {
-  const Canvas canvas(problem, claim);
+std::optional<Claim> state_swap(const Problem& problem, const Claim& claim, double floor, Random& random) {
+  const Canvas canvas(problem, claim, floor);
   const Eigen::Index d = canvas.directions();
   if (canvas.nodes() < 2) return std::nullopt;
   const Eigen::Index a = random.integer(0, static_cast<int>(canvas.nodes()) - 2), b = a + 1;
@@ -204,9 +207,9 @@ std::optional<Claim> state_swap(const Problem& problem, const Claim& claim, Rand
 }
 
 // Forces and displacements at one sample. A change by a hundredth must not turn the contact there into another state.
-std::optional<Claim> normal_sample(const Problem& problem, const Claim& claim, Random& random, bool open, bool force,
-                                   double direction) {
-  const Canvas canvas(problem, claim);
+std::optional<Claim> normal_sample(const Problem& problem, const Claim& claim, double floor, Random& random, bool open,
+                                   bool force, double direction) {
+  const Canvas canvas(problem, claim, floor);
   const auto at = place(canvas, random, [&](Eigen::Index i, Eigen::Index n) {
     const double prediction = canvas.prediction(i * canvas.directions(), n);
     return open ? prediction < -2 * canvas.unit(i) : prediction > 2 * canvas.unit(i);
@@ -218,22 +221,22 @@ std::optional<Claim> normal_sample(const Problem& problem, const Claim& claim, R
   return force ? canvas.pushed(row, size, spike) : canvas.displaced(canvas.moved(row, size, spike));
 }
 
-std::optional<Claim> pull(const Problem& problem, const Claim& claim, Random& random) {
-  return normal_sample(problem, claim, random, true, true, -1);
+std::optional<Claim> pull(const Problem& problem, const Claim& claim, double floor, Random& random) {
+  return normal_sample(problem, claim, floor, random, true, true, -1);
 }
-std::optional<Claim> press(const Problem& problem, const Claim& claim, Random& random) {
-  return normal_sample(problem, claim, random, true, true, 1);
+std::optional<Claim> press(const Problem& problem, const Claim& claim, double floor, Random& random) {
+  return normal_sample(problem, claim, floor, random, true, true, 1);
 }
-std::optional<Claim> sink(const Problem& problem, const Claim& claim, Random& random) {
-  return normal_sample(problem, claim, random, false, false, 1);
+std::optional<Claim> sink(const Problem& problem, const Claim& claim, double floor, Random& random) {
+  return normal_sample(problem, claim, floor, random, false, false, 1);
 }
-std::optional<Claim> lift(const Problem& problem, const Claim& claim, Random& random) {
-  return normal_sample(problem, claim, random, false, false, -1);
+std::optional<Claim> lift(const Problem& problem, const Claim& claim, double floor, Random& random) {
+  return normal_sample(problem, claim, floor, random, false, false, -1);
 }
 
 // Slips as the oracle's own march says.
-std::optional<Claim> drag(const Problem& problem, const Claim& claim, Random& random) {
-  const Canvas canvas(problem, claim);
+std::optional<Claim> drag(const Problem& problem, const Claim& claim, double floor, Random& random) {
+  const Canvas canvas(problem, claim, floor);
   const std::vector<std::vector<Contact>> states = contact_states(problem, claim);
   const auto at = place(canvas, random, [&](Eigen::Index i, Eigen::Index n) {
     return states[static_cast<std::size_t>(i)][static_cast<std::size_t>(n)] == Contact::slipping &&
@@ -247,8 +250,8 @@ std::optional<Claim> drag(const Problem& problem, const Claim& claim, Random& ra
   return changed;
 }
 
-std::optional<Claim> drag_open(const Problem& problem, const Claim& claim, Random& random) {
-  const Canvas canvas(problem, claim);
+std::optional<Claim> drag_open(const Problem& problem, const Claim& claim, double floor, Random& random) {
+  const Canvas canvas(problem, claim, floor);
   const auto at = place(canvas, random, [&](Eigen::Index i, Eigen::Index n) {
     return canvas.prediction(i * canvas.directions(), n) < 0;
   });
@@ -257,8 +260,8 @@ std::optional<Claim> drag_open(const Problem& problem, const Claim& claim, Rando
                        canvas.spike(at->sample));
 }
 
-std::optional<Claim> creep(const Problem& problem, const Claim& claim, Random& random) {
-  const Canvas canvas(problem, claim);
+std::optional<Claim> creep(const Problem& problem, const Claim& claim, double floor, Random& random) {
+  const Canvas canvas(problem, claim, floor);
   const std::vector<std::vector<Contact>> states = contact_states(problem, claim);
   const auto at = place(canvas, random, [&](Eigen::Index i, Eigen::Index n) {
     return states[static_cast<std::size_t>(i)][static_cast<std::size_t>(n)] == Contact::sticking;
@@ -268,13 +271,17 @@ std::optional<Claim> creep(const Problem& problem, const Claim& claim, Random& r
   return canvas.displaced(canvas.moved(row, sign(random) * canvas.unit(at->node), any_harmonic(canvas, random, 1)));
 }
 
-std::optional<Claim> miscount(const Problem& /*problem*/, const Claim& claim, Random& random) {
+// Of a state that dissipates something: else its energies are rounding.
+std::optional<Claim> miscount(const Problem& problem, const Claim& claim, double /*floor*/, Random& random) {
+  bool dissipates = !problem.model.damping.isZero(0);
+  for (const std::vector<Contact>& node : contact_states(problem, claim))
+    dissipates = dissipates || std::find(node.begin(), node.end(), Contact::slipping) != node.end();
+  if (!dissipates) return std::nullopt;
   const double largest =
       std::max({std::abs(claim.input_energy), std::abs(claim.damping_energy), std::abs(claim.contact_work)});
   Claim changed = claim;
   std::array<double*, 3> terms{&changed.input_energy, &changed.damping_energy, &changed.contact_work};
   *terms[static_cast<std::size_t>(random.integer(0, 2))] += sign(random) * kShare * largest;
-  if (!(largest > 0)) return std::nullopt;
   return changed;
 }
 
@@ -302,15 +309,19 @@ const std::vector<Mutation>& mutations() {
   return all;
 }
 
-void spoil(const Problem& problem, const Claim& claim, Random& random, std::vector<Score>& scores) {
+void spoil(const Problem& problem, const Claim& claim, const Verdict& verdict, Random& random,
+           std::vector<Score>& scores) {
+  const double floor = 1e3 * verdict[Check::march].allowed;
   scores.resize(mutations().size());
   for (std::size_t m = 0; m < scores.size(); ++m) {
-    const std::optional<Claim> spoiled = mutations()[m].apply(problem, claim, random);
+    const std::optional<Claim> spoiled = mutations()[m].apply(problem, claim, floor, random);
     if (!spoiled) continue;
-    const Verdict verdict = examine(problem, *spoiled);
-    ++scores[m].shown;
-    for (std::size_t c = 0; c < kChecks; ++c)
-      if (verdict.findings[c].rejects()) ++scores[m].rejected[c];
+    const Verdict found = examine(problem, *spoiled);
+    for (const Check check : mutations()[m].seen_by) {
+      if (check == Check::finer_march && verdict.resolution > kShare / 2) continue;
+      ++scores[m].shown[static_cast<std::size_t>(check)];
+      if (found.rejects(check)) ++scores[m].rejected[static_cast<std::size_t>(check)];
+    }
   }
 }
 
@@ -323,7 +334,7 @@ std::string table(const std::vector<Score>& scores) {
     for (std::size_t c = 0; c < kChecks; ++c) {
       const std::vector<Check>& seen = mutations()[m].seen_by;
       const bool due = std::find(seen.begin(), seen.end(), static_cast<Check>(c)) != seen.end();
-      text += fmt::format("{:>16}", due ? fmt::format("{} / {}", scores[m].rejected[c], scores[m].shown) : ".");
+      text += fmt::format("{:>16}", due ? fmt::format("{} / {}", scores[m].rejected[c], scores[m].shown[c]) : ".");
     }
     text += "\n";
   }

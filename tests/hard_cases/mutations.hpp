@@ -14,20 +14,24 @@ namespace dovetail::hard_cases {
 struct Mutation {
   std::string name;
   std::vector<Check> seen_by;
-  /// The spoiled claim, or nothing when the state has no place for this: no node that slips, no second node...
-  std::optional<Claim> (*apply)(const Problem& problem, const Claim& claim, Random& random);
+  /// The spoiled claim, or nothing when the state has no place for this: no node that slips, no second node... Nodes
+  /// are passed over whose hundredth is below `floor` N.
+  std::optional<Claim> (*apply)(const Problem& problem, const Claim& claim, double floor, Random& random);
 };
 
 [[nodiscard]] const std::vector<Mutation>& mutations();
 
 /// How many spoiled claims each check was shown and rejected.
 struct Score {
-  int shown = 0;
-  std::array<int, kChecks> rejected = {};
+  std::array<int, kChecks> shown = {}, rejected = {};
 };
 
-/// One spoiled claim of every kind that applies is added to `scores` [mutations()].
-void spoil(const Problem& problem, const Claim& claim, Random& random, std::vector<Score>& scores);
+/// One spoiled claim of every kind that applies is added to `scores` [mutations()]; `verdict` is on the claim as it
+/// was. The hundredth has to be a thousand times what the tolerance of the solve leaves open, since a node may answer a
+/// displacement with a force that much smaller; and the finer march is shown those claims only where the cost of large
+/// steps is less than half a hundredth.
+void spoil(const Problem& problem, const Claim& claim, const Verdict& verdict, Random& random,
+           std::vector<Score>& scores);
 
 /// One line per mutation, one column per check that has to see it: rejected / shown.
 [[nodiscard]] std::string table(const std::vector<Score>& scores);

@@ -162,7 +162,9 @@ class Node {
     orbit_ = released_ ? free_orbit(prediction_) : periodic_orbit(prediction_, law, start);
     // As close to the law in continuous time as it gets, whichever rule the claim was solved with.
     const Law finest{.friction = mu_, .second_order = true};
-    fine_ = released_ ? free_orbit(fine_prediction_) : periodic_orbit(fine_prediction_, finest, orbit_.memory.back());
+    constexpr double kResolution = 1e-8;  // far below what large steps cost
+    fine_ = released_ ? free_orbit(fine_prediction_)
+                      : periodic_orbit(fine_prediction_, finest, orbit_.memory.back(), kResolution);
     step_error_.assign(samples_, 0);
     if (!released_) step_error_ = march_error(fine_prediction_, finest, orbit_, fine_, d_ == 2);
     for (const Vector& f : claimed_) largest_ = std::max({largest_, std::abs(f[0]), std::hypot(f[1], f[2])});

@@ -32,7 +32,7 @@ struct Family {
 /// All families of the suite, random ones first.
 [[nodiscard]] std::vector<Family> families();
 [[nodiscard]] std::vector<Family> random_families();
-/// A quarter as many problems of the same recipes from other random numbers.
+/// A fifth as many problems of the same recipes from other random numbers.
 [[nodiscard]] std::vector<Family> fresh_families(std::uint64_t seed);
 /// The seed of this run: DOVETAIL_SEED if that is set, else a new one in every run.
 [[nodiscard]] std::uint64_t seed_of_run();

@@ -165,7 +165,7 @@ std::vector<Family> random_families() {
 }
 
 std::vector<Family> fresh_families(std::uint64_t seed) {
-  std::vector<Family> families = made_by({.stream = "/" + std::to_string(seed), .divisor = 4});
+  std::vector<Family> families = made_by({.stream = "/" + std::to_string(seed), .divisor = 5});
   for (Family& family : families) family.name = "fresh_" + family.name;
   return families;
 }

@@ -31,8 +31,11 @@ struct Outcome {
 /// Solves and examines one problem.
 [[nodiscard]] Outcome attempt(const Family& family, int index, const Problem& problem);
 
-/// Every kind of spoiled claim made of the answers to a sixth of the problems, the small ones of each family in turn.
-[[nodiscard]] std::vector<Score> spoiled(const std::vector<Family>& families);
+/// One problem in a dozen of each family, by turns of either rule for slip.
+[[nodiscard]] bool chosen_for_spoiling(int index);
+/// Adds every kind of spoiled claim made of the outcome to `scores`, when it is a chosen one, small, massless,
+/// converged.
+void spoil(const Problem& problem, const Outcome& outcome, std::vector<Score>& scores);
 
 /// One line per family and their sums.
 [[nodiscard]] std::string table(const std::vector<Outcome>& outcomes);
