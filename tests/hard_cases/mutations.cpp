@@ -9,7 +9,7 @@
 namespace dovetail::hard_cases {
 namespace {
 
-constexpr double kShare = 0.01;
+constexpr double kShare = 0.01, kCost = 0.2;
 
 // A claim sample by sample, and changes of it.
 class Canvas {
@@ -82,6 +82,16 @@ class Canvas {
     displacement.row(row) += size / penalty_(row) * shape;
     return displacement;
   }
+  // The same, further where needed so that the node's reactions change by as much, too; not where they hardly change.
+  [[nodiscard]] std::optional<Eigen::MatrixXd> felt(Eigen::Index row, double size,
+                                                    const Eigen::RowVectorXd& shape) const {
+    constexpr double kIdle = 1e-6;
+    const Eigen::MatrixXd displacement = moved(row, size, shape);
+    const Eigen::MatrixXd change = reactions(problem_, displacement) - reactions(problem_, claim_.displacement);
+    const double share = change.middleRows(row / d_ * d_, d_).norm() / (std::abs(size) * shape.norm());
+    if (!(share > kIdle)) return std::nullopt;
+    return share < 1 ? moved(row, size / share, shape) : displacement;
+  }
   [[nodiscard]] Claim pushed(Eigen::Index row, double size, const Eigen::RowVectorXd& shape) const {
     Claim changed = claim_;
     changed.force.row(row) += size * shape;
@@ -138,38 +148,35 @@ std::optional<Claim> force_harmonic(const Problem& problem, const Claim& claim, 
                        any_harmonic(canvas, random));
 }
 
-std::optional<Claim> displacement_harmonic(const Problem& problem, const Claim& claim, double floor, Random& random) {
+// A displacement of one node in one direction, anywhere or where it opens at times, alone or with all reactions to it.
+std::optional<Claim> displace(const Problem& problem, const Claim& claim, double floor, Random& random, bool alone,
+                              bool one_sample, bool gap) {
   const Canvas canvas(problem, claim, floor);
-  const auto at = place(canvas, random, anywhere);
-  if (!at) return std::nullopt;
-  return canvas.displaced(canvas.moved(any_row(canvas, at->node, random), sign(random) * canvas.unit(at->node),
-                                       any_harmonic(canvas, random)));
-}
-
-std::optional<Claim> state_harmonic(const Problem& problem, const Claim& claim, double floor, Random& random) {
-  const Canvas canvas(problem, claim, floor);
-  const auto at = place(canvas, random, anywhere);
-  if (!at) return std::nullopt;
-  return canvas.balanced(canvas.moved(any_row(canvas, at->node, random), sign(random) * canvas.unit(at->node),
-                                      any_harmonic(canvas, random)));
-}
-
-std::optional<Claim> state_sample(const Problem& problem, const Claim& claim, double floor, Random& random) {
-  const Canvas canvas(problem, claim, floor);
-  const auto at = place(canvas, random, anywhere);
-  if (!at) return std::nullopt;
-  return canvas.balanced(
-      canvas.moved(any_row(canvas, at->node, random), sign(random) * canvas.unit(at->node), canvas.spike(at->sample)));
-}
-
-std::optional<Claim> state_gap(const Problem& problem, const Claim& claim, double floor, Random& random) {
-  const Canvas canvas(problem, claim, floor);
+  const Eigen::Index d = canvas.directions();
   const auto at = place(canvas, random, [&](Eigen::Index i, Eigen::Index n) {
-    return canvas.prediction(i * canvas.directions(), n) < 0;
+    return !gap || (canvas.prediction(i * d, n) < 0 && canvas.gap_unit(i) > floor);
   });
-  if (!at || !(canvas.gap_unit(at->node) > floor)) return std::nullopt;
-  return canvas.balanced(canvas.moved(at->node * canvas.directions(), sign(random) * canvas.gap_unit(at->node),
-                                      any_harmonic(canvas, random)));
+  if (!at) return std::nullopt;
+  const Eigen::Index row = gap ? at->node * d : any_row(canvas, at->node, random);
+  const double unit = canvas.unit(at->node);
+  const double size = sign(random) * (gap ? std::max(canvas.gap_unit(at->node), unit) : unit);
+  const auto displacement =
+      canvas.felt(row, size, one_sample ? canvas.spike(at->sample) : any_harmonic(canvas, random));
+  if (!displacement) return std::nullopt;
+  return alone ? canvas.displaced(*displacement) : canvas.balanced(*displacement);
+}
+
+std::optional<Claim> displacement_harmonic(const Problem& problem, const Claim& claim, double floor, Random& random) {
+  return displace(problem, claim, floor, random, true, false, false);
+}
+std::optional<Claim> state_harmonic(const Problem& problem, const Claim& claim, double floor, Random& random) {
+  return displace(problem, claim, floor, random, false, false, false);
+}
+std::optional<Claim> state_sample(const Problem& problem, const Claim& claim, double floor, Random& random) {
+  return displace(problem, claim, floor, random, false, true, false);
+}
+std::optional<Claim> state_gap(const Problem& problem, const Claim& claim, double floor, Random& random) {
+  return displace(problem, claim, floor, random, false, false, true);
 }
 
 // One harmonic with the other sign, if it is of a hundredth at least.
@@ -260,15 +267,19 @@ std::optional<Claim> drag_open(const Problem& problem, const Claim& claim, doubl
                        canvas.spike(at->sample));
 }
 
+// Where it sticks for half of the period at least: a displacement elsewhere is no slip, but a slide's.
 std::optional<Claim> creep(const Problem& problem, const Claim& claim, double floor, Random& random) {
   const Canvas canvas(problem, claim, floor);
   const std::vector<std::vector<Contact>> states = contact_states(problem, claim);
-  const auto at = place(canvas, random, [&](Eigen::Index i, Eigen::Index n) {
-    return states[static_cast<std::size_t>(i)][static_cast<std::size_t>(n)] == Contact::sticking;
+  const auto at = place(canvas, random, [&](Eigen::Index i, Eigen::Index /*n*/) {
+    const std::vector<Contact>& node = states[static_cast<std::size_t>(i)];
+    return 2 * std::count(node.begin(), node.end(), Contact::sticking) >= canvas.samples();
   });
   if (!at) return std::nullopt;
   const Eigen::Index row = at->node * canvas.directions() + 1;
-  return canvas.displaced(canvas.moved(row, sign(random) * canvas.unit(at->node), any_harmonic(canvas, random, 1)));
+  const auto displacement = canvas.felt(row, sign(random) * canvas.unit(at->node), any_harmonic(canvas, random, 1));
+  if (!displacement) return std::nullopt;
+  return canvas.displaced(*displacement);
 }
 
 // Of a state that dissipates something: else its energies are rounding.
@@ -318,7 +329,7 @@ void spoil(const Problem& problem, const Claim& claim, const Verdict& verdict, R
     if (!spoiled) continue;
     const Verdict found = examine(problem, *spoiled);
     for (const Check check : mutations()[m].seen_by) {
-      if (check == Check::finer_march && verdict.resolution > kShare / 2) continue;
+      if (check == Check::finer_march && verdict.resolution > kCost * kShare) continue;
       ++scores[m].shown[static_cast<std::size_t>(check)];
       if (found.rejects(check)) ++scores[m].rejected[static_cast<std::size_t>(check)];
     }
