@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "geometry/exact_section.hpp"
+#include "geometry/measures.hpp"
 #include "geometry/solid_rules.hpp"
 
 namespace dovetail::geometry {
@@ -24,11 +25,13 @@ double crossing_margin(const std::vector<Rule>& rules, std::initializer_list<std
 
 Rule simple_rule(const char* body, const Chain& chain, const std::vector<Rule>& rules,
                  std::initializer_list<std::string_view> causes) {
-  const bool simple = is_simple(chain);
-  return {
-      .name = std::string(body) + "_simple",
-      .margin = simple ? 0 : crossing_margin(rules, causes),
-      .sentence = fmt::format("the outline of the {} {}", body, simple ? "does not cross itself" : "crosses itself")};
+  const bool simple = is_simple(chain), bounds = simple && area(chain) > 0;
+  return {.name = std::string(body) + "_simple",
+          .margin = bounds ? 0 : crossing_margin(rules, causes),
+          .sentence = fmt::format("the outline of the {} {}", body,
+                                  bounds   ? "does not cross itself"
+                                  : simple ? "is inside out"
+                                           : "crosses itself")};
 }
 
 Rule overlap_rule(double overlap, double flank_length) {
@@ -62,9 +65,10 @@ Feasibility check_feasibility(const ProfileParameters& parameters, const Feasibi
   result.rules.push_back(blade);
   result.rules.push_back(disk);
   if (blade.margin < 0 || disk.margin < 0) {
-    result.rules.push_back({.name = "no_overlap",
-                            .margin = std::min(blade.margin, disk.margin),
-                            .sentence = "whether blade and disk overlap cannot be told: an outline crosses itself"});
+    result.rules.push_back(
+        {.name = "no_overlap",
+         .margin = std::min(blade.margin, disk.margin),
+         .sentence = "whether blade and disk overlap cannot be told: an outline crosses itself or is inside out"});
   } else {
     const double overlap = overlap_area(profile.blade, profile.disk);
     result.overlap_area = overlap > kOverlapNoise ? overlap : 0;

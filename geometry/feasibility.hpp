@@ -18,7 +18,7 @@ struct Rule {
 struct Feasibility {
   bool feasible = false;    ///< every margin >= 0
   std::vector<Rule> rules;  ///< all of them, kept or not
-  double overlap_area = 0;  ///< of blade and disk, m2; 0 when a chain crosses itself (then it is not defined)
+  double overlap_area = 0;  ///< of blade and disk, m2; 0 when a chain crosses itself or is inside out (not defined then)
 };
 
 /// Shortest straight part, and least step between the lobe's and the neck fillet's radius, that counts as one, m.
@@ -48,8 +48,8 @@ inline constexpr double kShortestStraight = 0.05e-3;
 
 /// All rules: the closed forms and, last, the exact checks of the chains (exact_section.hpp), which arbitrate:
 ///
-/// - blade_simple, disk_simple: no chain crosses itself. Margin 0 when kept; otherwise minus the sum of squares of
-///   the broken margins among the chain's straight parts (-1 when none is broken).
+/// - blade_simple, disk_simple: no chain crosses itself or runs clockwise. Margin 0 when kept; otherwise minus the
+///   sum of squares of the broken margins among the chain's straight parts (-1 when none is broken).
 /// - no_overlap: blade and disk have nothing but their flanks in common. Margin 0 when kept; otherwise minus the
 ///   mean depth of penetration, overlap area/(length of both flanks), /1 mm: continuous, and smooth while they
 ///   overlap. When a chain crosses itself the overlap is not defined and the margin is that chain's.

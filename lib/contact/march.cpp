@@ -14,9 +14,9 @@ constexpr int kPatience = 16, kInterval = 8;
 // A change below this is none: no ratio of it says anything.
 constexpr double kRounding = 1e-14;
 
-// Aitken's limit of a geometric sequence of slip states from its last two changes; false when it is not one.
+// Aitken's limit of a geometric sequence of slip states from its last two changes. Its ratio; 0 when it is not one.
 template <int Directions>
-bool extrapolate(const double* change, const double* change_before, Memory& memory) {
+double extrapolate(const double* change, const double* change_before, Memory& memory) {
   double dot = 0, square = 0, rest = 0, now = 0;
   for (int r = 0; r < Directions; ++r) {
     dot += change[r] * change_before[r];
@@ -25,9 +25,9 @@ bool extrapolate(const double* change, const double* change_before, Memory& memo
   }
   const double ratio = dot / square;
   for (int r = 0; r < Directions; ++r) rest += std::pow(change[r] - ratio * change_before[r], 2);
-  if (!(ratio > 0 && ratio < 0.9999 && rest <= 0.01 * now)) return false;
+  if (!(ratio > 0 && ratio < 0.9999 && rest <= 0.01 * now)) return 0;
   for (int r = 0; r < Directions; ++r) memory.slip_force[r] += change[r] * ratio / (1 - ratio);
-  return true;
+  return ratio;
 }
 
 template <int Directions>
@@ -48,7 +48,7 @@ void march_node(const double* prediction, const NodeLaw& law, int samples, const
   const double rounding = std::max(kRounding * limit, kRounding / 8 * largest_force);
   const int periods = options.periodic ? options.max_periods : 1;
   bool moved = false;
-  double change_before[2] = {0, 0}, largest_before = 0;
+  double change_before[2] = {0, 0}, largest_before = 0, slowest = 0;
   result.extrapolated = false;
   Memory before, reset_memory;
   long reset = -1;
@@ -78,10 +78,11 @@ void march_node(const double* prediction, const NodeLaw& law, int samples, const
       change[r] = memory.slip_force[r] - before.slip_force[r];
       largest = std::max(largest, std::abs(change[r]));
     }
-    // Slip that dies out geometrically is as far from its orbit as the changes still to come: their sum counts.
+    // Slip that dies out geometrically is as far from its orbit as the changes still to come: their sum counts. What an
+    // extrapolation stirs up dies out faster than what it was made for, of which a little is left.
     double rest = largest;
     if (Directions == 2 && largest > rounding) {
-      const double ratio = largest_before > 0 ? largest / largest_before : 1;
+      const double ratio = largest_before > 0 ? std::max(largest / largest_before, slowest) : 1;
       rest = ratio < 1 ? largest * std::max(1.0, ratio / (1 - ratio)) : kInfinity;
     }
     largest_before = largest;
@@ -98,9 +99,13 @@ void march_node(const double* prediction, const NodeLaw& law, int samples, const
       break;
     }
     if (Directions == 2 && may_extrapolate && result.periods >= kPatience && result.periods % kInterval == 0 &&
-        result.periods < periods && extrapolate<Directions>(change, change_before, memory)) {
-      result.extrapolated = true;
-      largest_before = 0;
+        result.periods < periods) {
+      const double ratio = extrapolate<Directions>(change, change_before, memory);
+      if (ratio > 0) {
+        result.extrapolated = true;
+        largest_before = 0;
+        slowest = std::max(slowest, ratio);
+      }
     }
     std::copy(change, change + 2, change_before);
   }

@@ -182,7 +182,7 @@ struct CondensedModel::Dynamic {
   Complex damping_slope, mass_slope;  // dS/dw
   Dynamic(int h, double omega)
       : damping(0, h * omega),
-        mass(-h * h * omega * omega, 0),
+        mass(-std::pow(h * omega, 2), 0),
         damping_slope(0, h),
         mass_slope(-2.0 * h * h * omega, 0) {}
   [[nodiscard]] Eigen::MatrixXcd value(const Eigen::MatrixXd& k, const Eigen::MatrixXd& c,

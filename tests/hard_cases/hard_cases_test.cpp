@@ -16,7 +16,7 @@ TEST_P(HardCases, AreSolvedOrClassified) {
   const Family& family = GetParam();
   std::vector<Outcome> outcomes;
   for (int index = 0; index < family.count; ++index) {
-    outcomes.push_back(attempt(family.name, index, family.make(index)));
+    outcomes.push_back(attempt(family, index, family.make(index)));
     const Outcome& outcome = outcomes.back();
     EXPECT_EQ(outcome.wrong, "") << outcome.id();
     EXPECT_EQ(outcome.thrown, "") << outcome.id();

@@ -8,83 +8,122 @@ namespace {
 
 class Follower {
  public:
-  Follower(double friction, bool second_order, const Vector& slip_force)
-      : friction_(friction), second_order_(second_order), slip_(slip_force) {}
+  Follower(const Law& law, const Memory& memory) : law_(law), memory_(memory) {}
 
-  // Touches down where the prediction, a straight line from the sample before, starts to press.
-  void touch(const Vector& before, const Vector& prediction) {
-    if (!second_order_ || !open_ || before[0] > 0 || prediction[0] <= 0) return;
-    const double open_share = -before[0] / (prediction[0] - before[0]);
-    for (std::size_t r = 1; r < 3; ++r) slip_[r] = before[r] + open_share * (prediction[r] - before[r]);
-  }
-
-  Vector advance(const Vector& prediction) {
+  Vector advance(const Vector& before, const Vector& prediction) {
+    touch(before, prediction);
     const double normal = std::max(0.0, prediction[0]);
-    const double limit = friction_ * normal;
-    const double trial_y = prediction[1] - slip_[1], trial_z = prediction[2] - slip_[2];
+    const double limit = law_.friction * normal;
+    const double trial_y = prediction[1] - memory_.slip[1], trial_z = prediction[2] - memory_.slip[2];
     const double size = std::hypot(trial_y, trial_z);
     Vector force{normal, trial_y, trial_z};
-    const bool slides = normal > 0 && (size > limit || friction_ == 0);
+    const bool slides = normal > 0 && (size > limit || law_.friction == 0);
     if (normal <= 0) {
       force = {0, 0, 0};
     } else if (slides) {
       double angle = size > 0 ? std::atan2(trial_z, trial_y) : 0;
-      const double turn = std::remainder(angle - angle_, 8 * std::atan(1.0));
+      const double turn = std::remainder(angle - memory_.angle, 8 * std::atan(1.0));
       // On a straight path at constant limit b, tan(phi / 2) = |pre| sin(turn) / (b + |pre| cos(turn)).
-      if (second_order_ && slid_ && std::cos(turn) > 0)
-        angle = angle_ + 2 * std::atan2(size * std::sin(turn), limit + size * std::cos(turn));
+      if (law_.second_order && memory_.slid && std::cos(turn) > 0)
+        angle = memory_.angle + 2 * std::atan2(size * std::sin(turn), limit + size * std::cos(turn));
       force[1] = limit * std::cos(angle);
       force[2] = limit * std::sin(angle);
-      angle_ = angle;
+      memory_.angle = angle;
     }
-    slid_ = slides;
-    open_ = normal <= 0;
+    memory_.slid = slides;
+    memory_.open = normal <= 0;
+    memory_.stretch = slides ? std::max(1.0, size / std::max(limit, 1e-300)) : 1;
     for (std::size_t r = 0; r < 3; ++r)
-      if (r == 0 || normal <= 0 || slides) slip_[r] = prediction[r] - force[r];
+      if (r == 0 || normal <= 0 || slides) memory_.slip[r] = prediction[r] - force[r];
     return force;
   }
-  [[nodiscard]] const Vector& slip() const { return slip_; }
+  [[nodiscard]] const Memory& memory() const { return memory_; }
 
  private:
-  double friction_;
-  bool second_order_;
-  Vector slip_;
-  double angle_ = 0;
-  bool slid_ = false, open_ = false;
+  // Touches down where the prediction, a straight line from the sample before, starts to press.
+  void touch(const Vector& before, const Vector& prediction) {
+    if (!law_.second_order || !memory_.open || before[0] > 0 || prediction[0] <= 0) return;
+    const double open_share = -before[0] / (prediction[0] - before[0]);
+    for (std::size_t r = 1; r < 3; ++r) memory_.slip[r] = before[r] + open_share * (prediction[r] - before[r]);
+  }
+
+  Law law_;
+  Memory memory_;
 };
+
+double distance(const Vector& a, const Vector& b) {
+  return std::hypot(a[1] - b[1], a[2] - b[2]);
+}
+
+// What is left of a difference between two slips after one sample that led to these states.
+double kept(const Memory& a, const Memory& b, bool in_plane) {
+  if (a.open && b.open) return 0;
+  if (!a.slid || !b.slid) return 1;
+  if (in_plane) return std::cos(a.angle - b.angle) > 0 ? 0 : 1;
+  return 1 / std::min(a.stretch, b.stretch);
+}
 
 }  // namespace
 
-Orbit periodic_orbit(const std::vector<Vector>& prediction, double friction, bool second_order,
-                     const Vector& slip_force) {
-  constexpr int kMaxPeriods = 20000;
+Orbit periodic_orbit(const std::vector<Vector>& prediction, const Law& law, const Memory& start, double resolution) {
+  constexpr int kMaxPeriods = 100000;
   constexpr double kRounding = 1e-16, kResolved = 1e-12;
   double largest = 0;
   for (const Vector& p : prediction) largest = std::max({largest, std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
-  Follower follower(friction, second_order, slip_force);
+  Follower follower(law, start);
   Orbit orbit;
   orbit.force.resize(prediction.size());
-  orbit.slip_force.resize(prediction.size());
+  orbit.memory.resize(prediction.size());
   double previous = 0, ratio = 0;
   for (int period = 0; period < kMaxPeriods && !orbit.periodic; ++period) {
-    const Vector before = follower.slip();
+    const Vector before = follower.memory().slip;
     for (std::size_t n = 0; n < prediction.size(); ++n) {
-      follower.touch(prediction[(n + prediction.size() - 1) % prediction.size()], prediction[n]);
-      orbit.force[n] = follower.advance(prediction[n]);
-      orbit.slip_force[n] = follower.slip();
+      orbit.force[n] = follower.advance(prediction[(n + prediction.size() - 1) % prediction.size()], prediction[n]);
+      orbit.memory[n] = follower.memory();
     }
-    const Vector& after = follower.slip();
-    const double change = std::hypot(after[1] - before[1], after[2] - before[2]);
+    const double change = distance(follower.memory().slip, before);
     if (change > kResolved * largest && previous > 0) ratio = std::min(change / previous, 1 - 1e-6);
     orbit.periodic = change <= kRounding * largest || (change <= kResolved * largest && change >= previous);
     orbit.uncertainty = (change + kRounding * largest) / (1 - ratio);
+    orbit.periodic = orbit.periodic || (period > 0 && orbit.uncertainty <= resolution * largest);
     previous = change;
   }
   return orbit;
 }
 
 Orbit free_orbit(const std::vector<Vector>& prediction) {
-  return {.force = std::vector<Vector>(prediction.size(), Vector{0, 0, 0}), .slip_force = prediction, .periodic = true};
+  Orbit orbit{.force = std::vector<Vector>(prediction.size(), Vector{0, 0, 0}), .memory = {}, .periodic = true};
+  for (const Vector& p : prediction) orbit.memory.push_back({.slip = p, .open = true});
+  return orbit;
+}
+
+std::vector<double> march_error(const std::vector<Vector>& prediction, const Law& law, const Orbit& coarse,
+                                const Orbit& fine, bool in_plane) {
+  const std::size_t steps = coarse.force.size(), ratio = prediction.size() / steps, all = prediction.size();
+  std::vector<double> defect(steps), factor(steps, 1), widest(steps);
+  for (std::size_t n = 0; n < steps; ++n) {
+    // Samples of both are counted from 0: the step to coarse sample n ends at fine sample n ratio.
+    Follower follower(law, coarse.memory[(n + steps - 1) % steps]);
+    for (std::size_t k = 1; k <= ratio; ++k) {
+      const std::size_t at = (n * ratio + all - ratio + k) % all;
+      follower.advance(prediction[(at + all - 1) % all], prediction[at]);
+      factor[n] *= kept(follower.memory(), fine.memory[at], in_plane);
+    }
+    defect[n] = distance(coarse.memory[n].slip, follower.memory().slip);
+    widest[n] = 2 * law.friction * std::max(0.0, prediction[n * ratio][0]);
+  }
+  // From anywhere, once around to the periodic bound, and once more to write it down.
+  std::vector<double> error(steps);
+  double now = 0, around = 1;
+  for (std::size_t n = 0; n < steps; ++n) {
+    now = std::min(widest[n], defect[n] + factor[n] * now);
+    around *= factor[n];
+  }
+  // Where neither moves for good, the fine march started on the coarse orbit; alternating closest points of convex sets
+  // stay within twice the distance to what these have in common.
+  now = around < 1 ? now / (1 - around) : 2 * now;
+  for (std::size_t n = 0; n < steps; ++n) error[n] = now = std::min(widest[n], defect[n] + factor[n] * now);
+  return error;
 }
 
 }  // namespace dovetail::hard_cases

@@ -14,10 +14,12 @@ int main(int argc, char** argv) {
   std::vector<std::string> only;
   std::string csv;
   std::string slip_return;
+  std::uint64_t seed = seed_of_run();
   bool quiet = false;
   app.add_option("--only", only, "families, or single problems as FAMILY/NUMBER");
   app.add_option("--csv", csv, "file for one line per problem");
   app.add_option("--slip-return", slip_return, "first_order or second_order for all problems instead of their own");
+  app.add_option("--seed", seed, "of the fresh problems; default: DOVETAIL_SEED, or another one in every run");
   app.add_flag("--quiet", quiet, "no line per problem that did not converge");
   CLI11_PARSE(app, argc, argv);
   const auto asked = [&](const std::string& family, int index) {
@@ -26,16 +28,22 @@ int main(int argc, char** argv) {
            });
   };
   std::vector<Outcome> outcomes;
-  for (const Family& family : families())
+  std::vector<Score> scores;
+  std::vector<Family> asked_of = families();
+  for (Family& family : fresh_families(seed)) asked_of.push_back(std::move(family));
+  fmt::print("Fresh problems: --seed {} repeats them.\n", seed);
+  for (const Family& family : asked_of)
     for (int index = 0; index < family.count; ++index) {
       if (!asked(family.name, index)) continue;
       Problem problem = family.make(index);
       if (!slip_return.empty()) problem.options.slip_return = slip_return;
-      outcomes.push_back(attempt(family.name, index, problem));
+      outcomes.push_back(attempt(family, index, problem));
+      if (only.empty()) spoil(problem, outcomes.back(), scores);
       if (!quiet) fmt::print("{}", failures({outcomes.back()}));
       std::fflush(stdout);
     }
   fmt::print("\n{}", table(outcomes));
+  if (only.empty()) fmt::print("\n{}", table(scores));
   if (!csv.empty()) std::ofstream(csv) << comma_separated(outcomes);
   return std::any_of(outcomes.begin(), outcomes.end(), [](const Outcome& o) { return !o.wrong.empty(); }) ? 1 : 0;
 }

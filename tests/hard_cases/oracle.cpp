@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -42,7 +43,7 @@ Eigen::VectorXcd excitation(const reduction::ReducedModel& model, int h) {
   return force;
 }
 
-Balance balance(const Problem& problem, const Claim& claim) {
+Balance balance(const Problem& problem, const Eigen::MatrixXd& displacement) {
   const reduction::ReducedModel& model = problem.model;
   const std::vector<Eigen::Index> c = contact_dofs(model);
   std::vector<char> taken(static_cast<std::size_t>(model.size()), 0);
@@ -56,11 +57,11 @@ Balance balance(const Problem& problem, const Claim& claim) {
     const Eigen::MatrixXcd dynamic =
         model.stiffness.cast<Complex>() + Complex(0, w) * model.damping - (w * w) * model.mass;
     const Eigen::VectorXcd force = excitation(model, h);
-    Eigen::VectorXcd contact(claim.displacement.rows()), all(model.size());
+    Eigen::VectorXcd contact(displacement.rows()), all(model.size());
     if (h == 0)
-      contact = claim.displacement.col(0).cast<Complex>();
+      contact = displacement.col(0).cast<Complex>();
     else
-      contact = claim.displacement.col(2 * h - 1) - Complex(0, 1) * claim.displacement.col(2 * h);
+      contact = displacement.col(2 * h - 1) - Complex(0, 1) * displacement.col(2 * h);
     all(c) = contact;
     Eigen::VectorXcd blocked = force(c);
     if (!internal.empty()) {
@@ -85,68 +86,184 @@ Balance balance(const Problem& problem, const Claim& claim) {
   return result;
 }
 
-// Value at tau of a series given by complex amplitudes.
-double at(const std::vector<Eigen::VectorXcd>& series, Eigen::Index row, double tau) {
-  double sum = 0;
-  for (std::size_t h = 0; h < series.size(); ++h)
-    sum += (series[h](row) * std::polar(1.0, static_cast<double>(h) * tau)).real();
-  return sum;
+// The claim as complex amplitudes per harmonic.
+std::vector<Eigen::VectorXcd> series(const Eigen::MatrixXd& coefficients) {
+  std::vector<Eigen::VectorXcd> result{coefficients.col(0).cast<Complex>()};
+  for (Eigen::Index h = 1; 2 * h < coefficients.cols(); ++h)
+    result.push_back(coefficients.col(2 * h - 1) - Complex(0, 1) * coefficients.col(2 * h));
+  return result;
 }
 
-struct Marched {
-  std::vector<Orbit> orbits;                // per node
-  std::vector<Eigen::VectorXcd> harmonics;  // of the marched forces
-};
+// e^(i tau) at all instants of the period.
+std::vector<Complex> circle(int samples) {
+  std::vector<Complex> result;
+  for (int n = 0; n < samples; ++n) result.push_back(std::polar(1.0, 2 * std::numbers::pi * n / samples));
+  return result;
+}
 
-Marched march_all(const Problem& problem, const Claim& claim, const Balance& balance, int samples,
-                  const std::vector<Orbit>* start) {
-  const reduction::ContactNodes& contact = problem.model.contact;
-  const Eigen::Index d = contact.directions();
-  const std::size_t terms = balance.reaction.size();
-  Marched marched;
-  marched.harmonics.assign(terms, Eigen::VectorXcd::Zero(contact.count() * d));
-  for (Eigen::Index i = 0; i < contact.count(); ++i) {
-    const bool released =
-        !problem.condition.released.empty() && problem.condition.released[static_cast<std::size_t>(i)] != 0;
-    const double wear = problem.condition.wear_depth.size() > 0 ? problem.condition.wear_depth(i) : 0;
-    std::vector<Vector> prediction(static_cast<std::size_t>(samples));
-    for (int n = 0; n < samples; ++n) {
-      const double tau = 2 * std::numbers::pi * n / samples;
-      Vector& p = prediction[static_cast<std::size_t>(n)];
-      for (Eigen::Index r = 0; r < d; ++r) {
-        const double eps = r == 0 ? claim.normal(i) : claim.tangential(i);
-        const double offset = r == 0 ? contact.gap(i) + wear : 0;
-        p[static_cast<std::size_t>(r)] =
-            at(balance.reaction, i * d + r, tau) + eps * (at(balance.displacement, i * d + r, tau) - offset);
+// Values of one row of a series, times `factor`, added to component `r` of `into`.
+void add(const std::vector<Eigen::VectorXcd>& series, Eigen::Index row, double factor,
+         const std::vector<Complex>& circle, std::size_t r, std::vector<Vector>& into) {
+  for (std::size_t h = 0; h < series.size(); ++h) {
+    const Complex amplitude = factor * series[h](row);
+    if (amplitude == Complex(0, 0)) continue;
+    for (std::size_t n = 0; n < into.size(); ++n) into[n][r] += (amplitude * circle[h * n % into.size()]).real();
+  }
+}
+
+// Amplitudes [terms] of one component by the discrete transform of every `stride`-th value.
+std::vector<Complex> analyse(const std::vector<Vector>& values, std::size_t r, std::size_t terms,
+                             const std::vector<Complex>& circle, std::size_t stride = 1) {
+  const std::size_t count = values.size() / stride;
+  std::vector<Complex> result(terms);
+  for (std::size_t h = 0; h < terms; ++h) {
+    for (std::size_t n = 0; n < count; ++n)
+      result[h] += values[n * stride][r] * std::conj(circle[h * n % count * stride]);
+    result[h] *= (h == 0 ? 1.0 : 2.0) / static_cast<double>(count);
+  }
+  return result;
+}
+
+// One node of the claim: its prediction and its two orbits.
+class Node {
+ public:
+  Node(const Problem& problem, const Claim& claim, const std::vector<Eigen::VectorXcd>& displacement,
+       const std::vector<Eigen::VectorXcd>& force, Eigen::Index i)
+      : d_(static_cast<std::size_t>(problem.model.contact.directions())),
+        terms_(force.size()),
+        samples_(static_cast<std::size_t>(problem.options.samples)),
+        mu_(problem.model.contact.friction(i)),
+        coarse_circle_(circle(problem.options.samples)),
+        fine_circle_(circle(kFiner * problem.options.samples)) {
+    const reduction::ContactNodes& contact = problem.model.contact;
+    const response::ContactCondition& condition = problem.condition;
+    released_ = !condition.released.empty() && condition.released[static_cast<std::size_t>(i)] != 0;
+    const double wear = condition.wear_depth.size() > 0 ? condition.wear_depth(i) : 0;
+    fine_prediction_.assign(kFiner * samples_, Vector{});
+    claimed_.assign(samples_, Vector{});
+    Memory start;
+    for (std::size_t r = 0; r < d_; ++r) {
+      const Eigen::Index row = i * static_cast<Eigen::Index>(d_) + static_cast<Eigen::Index>(r);
+      const double eps = r == 0 ? claim.normal(i) : claim.tangential(i);
+      add(force, row, 1, fine_circle_, r, fine_prediction_);
+      add(displacement, row, eps, fine_circle_, r, fine_prediction_);
+      add(force, row, 1, coarse_circle_, r, claimed_);
+      for (std::size_t h = 0; h < terms_; ++h) amplitudes_[r].push_back(force[h](row));
+      if (r == 0) {
+        for (Vector& p : fine_prediction_) p[0] -= eps * (contact.gap(i) + wear);
+      } else {
+        const auto column = static_cast<Eigen::Index>(r) - 1;
+        start.slip[r] = eps * (condition.slip_origin.size() > 0 ? condition.slip_origin(i, column)
+                                                                : contact.slip_origin(i, column));
       }
     }
-    Vector slip{};
-    for (Eigen::Index r = 1; r < d; ++r)
-      slip[static_cast<std::size_t>(r)] =
-          claim.tangential(i) * (problem.condition.slip_origin.size() > 0 ? problem.condition.slip_origin(i, r - 1)
-                                                                          : contact.slip_origin(i, r - 1));
-    if (start != nullptr) slip = (*start)[static_cast<std::size_t>(i)].slip_force.back();
-    Orbit orbit =
-        released ? free_orbit(prediction)
-                 : periodic_orbit(prediction, contact.friction(i), problem.options.slip_return == "second_order", slip);
-    for (int n = 0; n < samples; ++n)
-      for (std::size_t h = 0; h < terms; ++h) {
-        const Complex weight =
-            std::polar((h == 0 ? 1.0 : 2.0) / samples, -2 * std::numbers::pi * static_cast<double>(h) * n / samples);
-        for (Eigen::Index r = 0; r < d; ++r)
-          marched.harmonics[h](i * d + r) +=
-              weight * orbit.force[static_cast<std::size_t>(n)][static_cast<std::size_t>(r)];
-      }
-    marched.orbits.push_back(std::move(orbit));
+    for (std::size_t n = 0; n < samples_; ++n) prediction_.push_back(fine_prediction_[n * kFiner]);
+    const Law law{.friction = mu_, .second_order = problem.options.slip_return == "second_order"};
+    orbit_ = released_ ? free_orbit(prediction_) : periodic_orbit(prediction_, law, start);
+    // As close to the law in continuous time as it gets, whichever rule the claim was solved with.
+    const Law finest{.friction = mu_, .second_order = true};
+    constexpr double kResolution = 1e-8;  // far below what large steps cost
+    fine_ = released_ ? free_orbit(fine_prediction_)
+                      : periodic_orbit(fine_prediction_, finest, orbit_.memory.back(), kResolution);
+    step_error_.assign(samples_, 0);
+    if (!released_) step_error_ = march_error(fine_prediction_, finest, orbit_, fine_, d_ == 2);
+    for (const Vector& f : claimed_) largest_ = std::max({largest_, std::abs(f[0]), std::hypot(f[1], f[2])});
   }
-  return marched;
-}
 
-double distance(const std::vector<Eigen::VectorXcd>& a, const std::vector<Eigen::VectorXcd>& b) {
-  double square = 0;
-  for (std::size_t h = 0; h < a.size(); ++h) square += (a[h] - b[h]).squaredNorm();
-  return std::sqrt(square);
-}
+  [[nodiscard]] bool periodic() const { return orbit_.periodic && fine_.periodic; }
+  [[nodiscard]] double uncertainty() const { return orbit_.uncertainty; }
+  // |lambda - T L|.
+  [[nodiscard]] double march_distance() const { return distance(orbit_.force, coarse_circle_, 1); }
+  // The finer march where the claim has its samples: between them, only the series of the transform differ.
+  [[nodiscard]] double finer_distance() const { return distance(fine_.force, fine_circle_, kFiner); }
+  // What large steps may cost of that: an error e_n of the force at sample n is one of its amplitudes, of which
+  // c_0^2 + sum |c_h|^2 <= 2 mean e_n^2 [Parseval].
+  [[nodiscard]] double step_cost() const {
+    double square = 0;
+    for (const double e : step_error_) square += e * e;
+    return std::sqrt(2 * square / static_cast<double>(samples_)) + std::sqrt(2) * fine_.uncertainty;
+  }
+  [[nodiscard]] std::vector<Contact> states() const {
+    std::vector<Contact> result;
+    for (std::size_t n = 0; n < samples_; ++n) {
+      const Memory &now = orbit_.memory[n], &last = orbit_.memory[(n + samples_ - 1) % samples_];
+      result.push_back(now.open    ? Contact::open
+                       : last.open ? Contact::touching
+                       : now.slid  ? Contact::slipping
+                                   : Contact::sticking);
+    }
+    return result;
+  }
+  [[nodiscard]] double friction() const { return mu_; }
+  [[nodiscard]] double largest_force() const { return largest_; }
+
+  // The largest violations of the laws at the samples by the claim completed by its truncation error. `tolerance`, N,
+  // is what a force may be off.
+  struct Violations {
+    double tension = 0, penetration = 0, complementarity = 0, cone = 0, stick = 0;
+  };
+  [[nodiscard]] Violations violations(double tolerance) const {
+    Violations worst;
+    if (released_) return worst;
+    const std::vector<Vector> force = completed();
+    for (std::size_t n = 0; n < samples_; ++n) {
+      const std::size_t last = (n + samples_ - 1) % samples_;
+      const Vector &f = force[n], &p = prediction_[n];
+      worst.tension = std::max(worst.tension, -f[0]);
+      worst.penetration = std::max(worst.penetration, p[0] - f[0]);
+      worst.complementarity = std::max(worst.complementarity, std::min(f[0], f[0] - p[0]));
+      const double traction = std::hypot(f[1], f[2]), inside = mu_ * std::max(0.0, f[0]) - traction;
+      worst.cone = std::max(worst.cone, -inside);
+      if (prediction_[n][0] <= 0 || prediction_[last][0] <= 0) continue;
+      const double slip_y = p[1] - f[1] - prediction_[last][1] + force[last][1];
+      const double slip_z = p[2] - f[2] - prediction_[last][2] + force[last][2];
+      const double slip = std::hypot(slip_y, slip_z);
+      if (inside > (1 + mu_) * tolerance)
+        worst.stick = std::max(worst.stick, slip);
+      else if (traction > tolerance)  // whose direction is known as well as that
+        worst.stick = std::max(worst.stick, (-(slip_y * f[1] + slip_z * f[2]) - tolerance * slip) / traction);
+    }
+    return worst;
+  }
+
+ private:
+  static constexpr int kFiner = 16;
+
+  [[nodiscard]] double distance(const std::vector<Vector>& force, const std::vector<Complex>& circle,
+                                std::size_t stride) const {
+    double square = 0;
+    for (std::size_t r = 0; r < d_; ++r) {
+      const std::vector<Complex> found = analyse(force, r, terms_, circle, stride);
+      for (std::size_t h = 0; h < terms_; ++h) square += std::norm(found[h] - amplitudes_[r][h]);
+    }
+    return std::sqrt(square);
+  }
+
+  // lambda + E at the samples.
+  [[nodiscard]] std::vector<Vector> completed() const {
+    std::vector<Vector> exact = orbit_.force;
+    for (std::size_t n = 0; n < samples_; ++n) exact[n][0] = std::max(0.0, prediction_[n][0]);
+    std::vector<Vector> result = claimed_;
+    for (std::size_t r = 0; r < d_; ++r) {
+      const std::vector<Complex> kept = analyse(exact, r, terms_, coarse_circle_);
+      for (std::size_t n = 0; n < samples_; ++n) {
+        double truncated = 0;
+        for (std::size_t h = 0; h < terms_; ++h) truncated += (kept[h] * coarse_circle_[h * n % samples_]).real();
+        result[n][r] += exact[n][r] - truncated;
+      }
+    }
+    return result;
+  }
+
+  std::size_t d_, terms_, samples_;
+  double mu_, largest_ = 0;
+  bool released_ = false;
+  std::vector<Complex> coarse_circle_, fine_circle_;
+  std::vector<Vector> prediction_, fine_prediction_, claimed_;
+  std::array<std::vector<Complex>, 3> amplitudes_;
+  Orbit orbit_, fine_;
+  std::vector<double> step_error_;
+};
 
 double norm(const std::vector<Eigen::VectorXcd>& a, std::size_t from = 0) {
   double square = 0;
@@ -154,86 +271,86 @@ double norm(const std::vector<Eigen::VectorXcd>& a, std::size_t from = 0) {
   return std::sqrt(square);
 }
 
-// Violations by the series themselves. What they may violate the law by is what the marched orbit has beyond harmonic
-// H: everything more is an error of the solution. Relative to the largest force or displacement of the node.
-void check_law(const Problem& problem, const Claim& claim, const Balance& balance, const Marched& marched,
-               Verdict& verdict) {
-  const reduction::ContactNodes& contact = problem.model.contact;
-  const Eigen::Index d = contact.directions();
-  double largest_force = 0, largest_gap = 0;
-  struct Excess {
-    double force = 0, tension = 0, cone = 0, penetration = 0;
-  } excess;
-  for (Eigen::Index i = 0; i < contact.count(); ++i) {
-    const Orbit& orbit = marched.orbits[static_cast<std::size_t>(i)];
-    const double mu = contact.friction(i), eps = claim.normal(i);
-    const double wear = problem.condition.wear_depth.size() > 0 ? problem.condition.wear_depth(i) : 0;
-    const auto samples = static_cast<int>(orbit.force.size());
-    for (int n = 0; n < samples; ++n) {
-      const double tau = 2 * std::numbers::pi * n / samples;
-      const Vector& exact = orbit.force[static_cast<std::size_t>(n)];
-      double traction = 0, remainder = 0;
-      for (Eigen::Index r = 1; r < d; ++r) {
-        const double force = at(balance.reaction, i * d + r, tau);
-        traction += force * force;
-        remainder += std::pow(force - exact[static_cast<std::size_t>(r)], 2);
-      }
-      const double normal = at(balance.reaction, i * d, tau);
-      const double missed = std::abs(normal - exact[0]);
-      const double gap = contact.gap(i) + wear - at(balance.displacement, i * d, tau);
-      const double exact_gap = -orbit.slip_force[static_cast<std::size_t>(n)][0] / eps;
-      excess.tension = std::max(excess.tension, -normal - missed);
-      excess.cone =
-          std::max(excess.cone, std::sqrt(traction) - mu * std::max(0.0, normal) - std::sqrt(remainder) - mu * missed);
-      excess.penetration = std::max(excess.penetration, -gap - std::abs(gap - exact_gap));
-      largest_force = std::max({largest_force, std::abs(normal), std::sqrt(traction)});
-      largest_gap = std::max(largest_gap, std::abs(gap));
-    }
-  }
-  verdict.tension = excess.tension / std::max(largest_force, 1e-300);
-  verdict.cone = excess.cone / std::max(largest_force, 1e-300);
-  verdict.penetration = excess.penetration / std::max(largest_gap, 1e-300);
+// Keeps the finding that exceeds what is allowed by the largest factor.
+void note(Verdict& verdict, Check check, double found, double allowed) {
+  Verdict::Finding& kept = verdict.findings[static_cast<std::size_t>(check)];
+  if (!(found * kept.allowed <= kept.found * allowed) || kept.allowed == 0) kept = {found, allowed};
 }
 
 }  // namespace
 
+const char* name(Check check) {
+  constexpr std::array<const char*, kChecks> kNames{"equilibrium",     "march", "finer march", "tension", "penetration",
+                                                    "complementarity", "cone",  "stick",       "energy"};
+  return kNames[static_cast<std::size_t>(check)];
+}
+
+Eigen::MatrixXd reactions(const Problem& problem, const Eigen::MatrixXd& displacement) {
+  const std::vector<Eigen::VectorXcd> found = balance(problem, displacement).reaction;
+  Eigen::MatrixXd result(displacement.rows(), displacement.cols());
+  result.col(0) = found[0].real();
+  for (std::size_t h = 1; h < found.size(); ++h) {
+    result.col(static_cast<Eigen::Index>(2 * h - 1)) = found[h].real();
+    result.col(static_cast<Eigen::Index>(2 * h)) = -found[h].imag();
+  }
+  return result;
+}
+
+std::vector<std::vector<Contact>> contact_states(const Problem& problem, const Claim& claim) {
+  const std::vector<Eigen::VectorXcd> displacement = series(claim.displacement), force = series(claim.force);
+  std::vector<std::vector<Contact>> result;
+  for (Eigen::Index i = 0; i < problem.model.contact.count(); ++i)
+    result.push_back(Node(problem, claim, displacement, force, i).states());
+  return result;
+}
+
 Verdict examine(const Problem& problem, const Claim& claim) {
-  const Balance sum = balance(problem, claim);
-  const int samples = problem.options.samples;
-  const Marched same = march_all(problem, claim, sum, samples, nullptr);
-  const Marched fine = march_all(problem, claim, sum, 16 * samples, &same.orbits);
+  const Balance sum = balance(problem, claim.displacement);
+  const std::vector<Eigen::VectorXcd> force = series(claim.force);
+  const double tolerance = problem.options.tolerance;
   // As the engine measures: by the excitation as the contact sees it.
   double scale = norm(sum.blocked, 1);
   if (!(scale > 0)) scale = norm(sum.blocked);
   if (!(scale > 0)) scale = 1;
+  std::vector<Node> nodes;
   Verdict verdict;
-  verdict.residual = distance(same.harmonics, sum.reaction) / scale;
   double uncertainty = 1e-14 * (sum.magnitude + norm(sum.load));
-  for (const Orbit& orbit : same.orbits) uncertainty += orbit.uncertainty;
+  for (Eigen::Index i = 0; i < problem.model.contact.count(); ++i) {
+    nodes.emplace_back(problem, claim, sum.displacement, force, i);
+    uncertainty += nodes.back().uncertainty();
+    verdict.periodic = verdict.periodic && nodes.back().periodic();
+  }
   verdict.rounding = uncertainty / scale;
-  verdict.fine_residual =
-      distance(fine.harmonics, sum.reaction) / std::max(norm(sum.load) + norm(sum.reaction), 1e-300);
-  for (const Marched* marched : {&same, &fine})
-    for (const Orbit& orbit : marched->orbits) verdict.periodic = verdict.periodic && orbit.periodic;
-  check_law(problem, claim, sum, fine, verdict);
-  if (sum.energy > 0)
-    verdict.energy = std::abs(claim.input_energy - claim.damping_energy - claim.contact_work) / sum.energy;
+  // Slip that dies out slowly is extrapolated by the engine and marched to its end here: a few tolerances apart.
+  const double allowed = 5 * tolerance * scale + uncertainty;
+  double unbalanced = 0, marched = 0;
+  for (std::size_t h = 0; h < force.size(); ++h) unbalanced += (sum.reaction[h] - force[h]).squaredNorm();
+  note(verdict, Check::equilibrium, std::sqrt(unbalanced), allowed);
+  // A value of a series is at most the sum of its H + 1 amplitudes: sqrt(H + 1) of their norm.
+  const double value = std::sqrt(static_cast<double>(force.size())) * allowed;
+  for (const Node& node : nodes) {
+    marched += std::pow(node.march_distance(), 2);
+    note(verdict, Check::finer_march, node.finer_distance(), allowed + node.step_cost());
+    if (node.largest_force() > 0)
+      verdict.resolution = std::max(verdict.resolution, node.step_cost() / node.largest_force());
+    const Node::Violations found = node.violations(value);
+    note(verdict, Check::tension, found.tension, value);
+    note(verdict, Check::penetration, found.penetration, value);
+    note(verdict, Check::complementarity, found.complementarity, value);
+    note(verdict, Check::cone, found.cone, (1 + node.friction()) * value);
+    note(verdict, Check::stick, found.stick, 2 * value);  // two instants differ
+  }
+  note(verdict, Check::march, std::sqrt(marched), allowed);
+  note(verdict, Check::energy, std::abs(claim.input_energy - claim.damping_energy - claim.contact_work),
+       (2 * tolerance + 1e-12) * sum.energy);
   return verdict;
 }
 
-std::string objection(const Problem& problem, const Verdict& verdict) {
-  const double tolerance = problem.options.tolerance;
+std::string objection(const Verdict& verdict) {
   if (!verdict.periodic) return "not periodic";
   if (!(verdict.rounding <= 1e-6)) return "rounding swamps the forces";
-  // Slip that dies out slowly is extrapolated by the engine and marched to its end here: a few tolerances apart.
-  if (!(verdict.residual <= 5 * tolerance + verdict.rounding)) return "residual";
-  // The law on finer samples differs by O(1/N) of the forces at most: kinks inside an interval and slip that turns.
-  if (!(verdict.fine_residual <= 5 * tolerance + verdict.rounding + 10.0 / problem.options.samples))
-    return "residual on finer samples";
-  if (!(verdict.tension <= 1e-6)) return "pulls";
-  if (!(verdict.cone <= 1e-6)) return "leaves the cone of friction";
-  if (!(verdict.penetration <= 1e-6)) return "penetrates";
-  if (!(verdict.energy <= 2 * tolerance + 1e-12)) return "energy balance";
+  for (std::size_t i = 0; i < kChecks; ++i)
+    if (verdict.findings[i].rejects()) return name(static_cast<Check>(i));
   return {};
 }
 

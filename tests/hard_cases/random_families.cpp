@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cstdlib>
+#include <random>
 
 #include "tests/hard_cases/structure.hpp"
 
@@ -25,21 +27,26 @@ Recipe held_by_contact(Random& random) {
   return recipe;
 }
 
-Family family(const char* name, int count, void (*specialise)(Recipe&, Random&, int)) {
-  return {.name = name, .count = count, .make = [name, specialise](int index) {
-            Random random(name, index);
-            Recipe recipe = small(random);
-            specialise(recipe, random, index);
-            Problem problem = build(recipe, random);
-            // Both rules, whatever the default.
-            problem.options.slip_return = index % 2 == 0 ? "second_order" : "first_order";
-            return problem;
-          }};
-}
+// One of the families below, from random numbers of its own for every `stream`.
+struct Maker {
+  std::string stream;
+  int divisor = 1;
 
-}  // namespace
+  Family operator()(const char* name, int count, void (*specialise)(Recipe&, Random&, int)) const {
+    const auto make = [numbers = name + stream, specialise](int index) {
+      Random random(numbers, index);
+      Recipe recipe = small(random);
+      specialise(recipe, random, index);
+      Problem problem = build(recipe, random);
+      // Both rules, whatever the default.
+      problem.options.slip_return = index % 2 == 0 ? "second_order" : "first_order";
+      return problem;
+    };
+    return {.name = name, .count = count / divisor, .fresh = !stream.empty(), .make = make};
+  }
+};
 
-std::vector<Family> random_families() {
+std::vector<Family> made_by(const Maker& family) {
   return {
       family("slip_one_direction", 80, [](Recipe& r, Random&, int) { r.directions = 2; }),
       family("slip_two_directions", 80, [](Recipe& r, Random&, int) { r.directions = 3; }),
@@ -149,6 +156,26 @@ std::vector<Family> random_families() {
                r.reach = {1.1, 5};
              }),
   };
+}
+
+}  // namespace
+
+std::vector<Family> random_families() {
+  return made_by({});
+}
+
+std::vector<Family> fresh_families(std::uint64_t seed) {
+  std::vector<Family> families = made_by({.stream = "/" + std::to_string(seed), .divisor = 5});
+  for (Family& family : families) family.name = "fresh_" + family.name;
+  return families;
+}
+
+std::uint64_t seed_of_run() {
+  static const std::uint64_t seed = [] {
+    const char* const given = std::getenv("DOVETAIL_SEED");
+    return given != nullptr ? std::strtoull(given, nullptr, 10) : std::uint64_t{std::random_device{}()};
+  }();
+  return seed;
 }
 
 }  // namespace dovetail::hard_cases

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/status.hpp"
+#include "tests/hard_cases/mutations.hpp"
 #include "tests/hard_cases/oracle.hpp"
 
 namespace dovetail::hard_cases {
@@ -12,10 +13,12 @@ namespace dovetail::hard_cases {
 struct Outcome {
   std::string family;
   int index = 0;
+  bool fresh = false;
   Status status = Status::iteration_limit;
   std::string thrown = {};  ///< message of an exception; none is expected
   std::string wrong = {};   ///< converged, and the independent check objects: why
-  Verdict verdict = {};     ///< of converged states
+  Claim claim = {};         ///< of converged states
+  Verdict verdict = {};     ///< on it
   bool has_answer = true;   ///< false: proved by construction that there is none
   bool contact_mass = false;
   int nodes = 0, unknowns = 0, iterations = 0;
@@ -26,7 +29,13 @@ struct Outcome {
 };
 
 /// Solves and examines one problem.
-[[nodiscard]] Outcome attempt(const std::string& family, int index, const Problem& problem);
+[[nodiscard]] Outcome attempt(const Family& family, int index, const Problem& problem);
+
+/// One problem in a dozen of each family, by turns of either rule for slip.
+[[nodiscard]] bool chosen_for_spoiling(int index);
+/// Adds every kind of spoiled claim made of the outcome to `scores`, when it is a chosen one, small, massless,
+/// converged.
+void spoil(const Problem& problem, const Outcome& outcome, std::vector<Score>& scores);
 
 /// One line per family and their sums.
 [[nodiscard]] std::string table(const std::vector<Outcome>& outcomes);

@@ -10,6 +10,8 @@
 #include <random>
 #include <set>
 
+#include "geometry/exact_section.hpp"
+#include "geometry/measures.hpp"
 #include "tests/unit/geometry/random_design.hpp"
 
 namespace dovetail::geometry {
@@ -245,6 +247,21 @@ TEST(Feasibility, HasSmoothMargins) {
       EXPECT_NEAR(coarse, 4 * fine, 0.03 * std::abs(coarse) + 1e-11) << field.key << " " << middle[i].name;
     }
   }
+}
+
+TEST(Feasibility, SeesADiskInsideOut) {
+  // A bore beyond the slots turns the disk's outline round without a crossing: nothing for a set of polygons.
+  ProfileParameters p;
+  p.bore_radius = 0.26;
+  const Profile profile = build_profile(p);
+  ASSERT_TRUE(is_simple(profile.disk));
+  ASSERT_LT(area(profile.disk), 0);
+  const Feasibility result = check_feasibility(p);
+  EXPECT_FALSE(result.feasible);
+  EXPECT_LT(rule(result, "disk_simple").margin, 0);
+  EXPECT_EQ(rule(result, "disk_simple").sentence, "the outline of the disk is inside out");
+  EXPECT_LT(rule(result, "no_overlap").margin, 0);
+  EXPECT_EQ(result.overlap_area, 0);
 }
 
 TEST(Feasibility, MeasuresHowDeepBladeAndDiskOverlap) {

@@ -30,6 +30,13 @@ TEST(LocalStiffness, IsTheHighHarmonicLimitForMasslessContact) {
   expect_local_stiffness_is_the_limit(verification::single_node());
 }
 
+TEST(DynamicStiffness, HasTheInertiaOfHighHarmonics) {
+  // Mass 1 on the contact itself, stiffness 1: Z_h = 1 - h^2, where h^2 is no int.
+  const CondensedModel condensed(verification::den_hartog(0.4));
+  const Eigen::MatrixXd z = condensed.harmonic(1'000'000, 1.0).stiffness.real();
+  EXPECT_NEAR(z.minCoeff(), 1 - 1e12, 1e-3);  // rounding of 1e12
+}
+
 TEST(LocalStiffness, FollowsInternalDofsWithoutMass) {
   // A second spring of 5 in series with a massless dof on a foundation of 0.5 behind T1: 2 + 5 * 0.5 / 5.5.
   const reduction::ReducedModel node = verification::single_node();

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <span>
 
 #include "core/hdf5_file.hpp"
 #include "tests/unit/studies/report_sample.hpp"
@@ -136,8 +137,10 @@ void expect_same(const FieldRecord& a, const FieldRecord& b) {
   const auto& [a1, a2, a3, a4, a5] = mesh_a;
   const auto& [b1, b2, b3, b4, b5] = mesh_b;
   EXPECT_EQ(a1, b1);
+  // Without nodes the number of rows says nothing, and Eigen compares matrices of one size only.
   EXPECT_EQ(a2.cols(), b2.cols());
-  EXPECT_TRUE(a2 == b2);
+  EXPECT_TRUE(all_same(std::span(a2.data(), static_cast<std::size_t>(a2.size())),
+                       std::span(b2.data(), static_cast<std::size_t>(b2.size()))));
   EXPECT_EQ(a3, b3);
   EXPECT_EQ(a4, b4);
   EXPECT_TRUE(all_same(a5, b5));

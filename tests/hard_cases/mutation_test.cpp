@@ -1,0 +1,35 @@
+#include <gtest/gtest.h>
+
+#include <iostream>
+
+#include "tests/hard_cases/mutations.hpp"
+#include "tests/hard_cases/suite.hpp"
+
+namespace dovetail::hard_cases {
+namespace {
+
+// The checks of the hard cases have teeth: answers of the solver, tuned and fresh, spoiled by a hundredth of a node's
+// largest force, are rejected by each check that is there for what was spoiled.
+TEST(Oracle, RejectsSpoiledAnswersByEachCheckThatShould) {
+  std::vector<Family> all = families();
+  for (Family& family : fresh_families(seed_of_run())) all.push_back(std::move(family));
+  std::cout << "fresh problems: DOVETAIL_SEED=" << seed_of_run() << "\n";
+  std::vector<Score> scores(mutations().size());
+  for (const Family& family : all)
+    for (int index = 0; index < family.count; ++index) {
+      if (!chosen_for_spoiling(index)) continue;
+      const Problem problem = family.make(index);
+      if (problem.contact_mass || !problem.no_answer.empty()) continue;
+      spoil(problem, attempt(family, index, problem), scores);
+    }
+  std::cout << table(scores);
+  for (std::size_t m = 0; m < mutations().size(); ++m)
+    for (const Check check : mutations()[m].seen_by) {
+      const auto c = static_cast<std::size_t>(check);
+      EXPECT_GE(scores[m].shown[c], 30) << mutations()[m].name << " by " << name(check);
+      EXPECT_GE(scores[m].rejected[c], 0.99 * scores[m].shown[c]) << mutations()[m].name << " by " << name(check);
+    }
+}
+
+}  // namespace
+}  // namespace dovetail::hard_cases
