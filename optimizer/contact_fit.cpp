@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <cstdio>
-#include <cstdlib>
 
 #include "fem/flank_trace.hpp"
 #include "optimizer/evaluator.hpp"
@@ -200,9 +198,14 @@ class EdgeSearch {
 
 }  // namespace
 
-ContactFit fit_contact(const Scene& scene, const ContactFitOptions& options, CandidateModel& candidate) {
+ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateModel& candidate) {
+  const ContactFitOptions& options = how.contact;
   ContactFit fit;
-  const response::SteadyOptions steady = steady_options(scene.solver);
+  response::SteadyOptions steady = steady_options(scene.solver);
+  steady.budget = candidate.budget;
+  steady.penalty_scale = how.penalty_scale;
+  lay_contact(scene, contact_grid(candidate.mesh.sector, options), candidate);
+  if (!candidate.converged()) return fit;
   wear::AsymptoteOptions release;
   release.arbitration = "never";
   release.certify = release.certify_finer = false;
@@ -236,16 +239,6 @@ ContactFit fit_contact(const Scene& scene, const ContactFitOptions& options, Can
         fit.moved = std::max(fit.moved, laid[l].size() == found[l].size()
                                             ? std::abs(found[l][k] - laid[l][k]) / lengths[l].at(found[l][k])
                                             : 1.0);
-    }
-    if (std::getenv("FITLOG")) {
-      std::fprintf(stderr, "grid %d passes %d V %.5g moved %.3g", fit.grids, worn.passes, 1e9 * worn.worn_volume, fit.moved);
-      const auto lines = lines_of(candidate.cells);
-      for (const wear::ZoneEdge& e : wear::zone_edges(worn.trail, lines, candidate.cells.area)) if (e.line == 0) {
-        const auto& r = worn.trail.reserves[static_cast<std::size_t>(worn.trail.released_in[static_cast<std::size_t>(e.worn)])];
-        std::fprintf(stderr, " | worn %d bearing %d of %zu pass %d e %.3g m %.3g A %.3g %.3g", e.worn, e.bearing, lines[0].size(), worn.trail.released_in[static_cast<std::size_t>(e.worn)], -r[e.worn], r[e.bearing], candidate.cells.area[e.worn], candidate.cells.area[e.bearing]);
-      }
-      for (double x : found[0]) std::fprintf(stderr, "  at %.5f", x);
-      std::fprintf(stderr, "\n");
     }
     // A zone that the finer cells beside its edge make vanish is none.
     const bool vanished = fit.edges == 0 && fit.grids > 0;

@@ -8,6 +8,8 @@
 
 namespace dovetail::optimizer {
 
+struct Computation;
+
 struct ContactFitOptions {
   /// >= 0. Grids of contact nodes tried at most; 0 leaves the model as it was built.
   int grids = 6;
@@ -36,6 +38,6 @@ struct ContactFit {
 /// end: edges are found on one grid, a grid is laid with an end of a cell on each of them, and so on until they stay.
 /// Worn volume and profile are then those of whole nodes, and continuous in the design.
 /// Where there are no edges, or the wear cannot be found, the model stays as it is.
-ContactFit fit_contact(const Scene& scene, const ContactFitOptions& options, CandidateModel& candidate);
+ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateModel& candidate);
 
 }  // namespace dovetail::optimizer

@@ -18,7 +18,10 @@ struct Evaluation {
   std::map<std::string, double> parameters;       ///< KEY as for --set -> value in the file's unit
   std::map<std::string, double> responses;        ///< name with SI unit -> value
   std::map<std::string, double> constraints;      ///< name -> c, satisfied when c <= 0 (normalised, smooth)
-  std::map<std::string, double> error_estimates;  ///< response name -> error bar
+  std::map<std::string, double> error_estimates;  ///< response name -> error bar over all sources
+  std::map<std::string, std::map<std::string, double>> error_sources;  ///< response name -> source -> part of the bar
+  std::vector<std::string> unbounded;              ///< responses without a bar: they have no limit, or it is not known
+  std::vector<std::string> undecided_constraints;  ///< names of those whose value lies within its bar of the limit
   std::map<std::string, double> model;            ///< sizes chosen: dofs, contact nodes, modes, ...
   std::map<std::string, double> timings_s;
   std::vector<std::string> messages;  ///< broken rules, re-meshing, fall-backs: for people

@@ -44,6 +44,12 @@ json named(const std::map<std::string, double>& values) {
   return object;
 }
 
+json nested(const std::map<std::string, std::map<std::string, double>>& values) {
+  json object = json::object();
+  for (const auto& [name, parts] : values) object[name] = named(parts);
+  return object;
+}
+
 std::map<std::string, double> named(const json& object) {
   std::map<std::string, double> values;
   for (const auto& [name, value] : object.items()) values[name] = number(value);
@@ -64,6 +70,9 @@ std::string record_text(std::size_t index, const JournalRecord& record) {
                     {"responses", named(e.responses)},
                     {"constraints", named(e.constraints)},
                     {"error_estimates", named(e.error_estimates)},
+                    {"error_sources", nested(e.error_sources)},
+                    {"unbounded", e.unbounded},
+                    {"undecided_constraints", e.undecided_constraints},
                     {"model", named(e.model)},
                     {"timings_s", named(e.timings_s)},
                     {"messages", e.messages},
@@ -86,6 +95,9 @@ JournalRecord record_from_text(const std::string& text, std::size_t expected_ind
   e.responses = named(object.at("responses"));
   e.constraints = named(object.at("constraints"));
   e.error_estimates = named(object.at("error_estimates"));
+  for (const auto& [name, parts] : object.at("error_sources").items()) e.error_sources[name] = named(parts);
+  e.unbounded = object.at("unbounded").get<std::vector<std::string>>();
+  e.undecided_constraints = object.at("undecided_constraints").get<std::vector<std::string>>();
   e.model = named(object.at("model"));
   e.timings_s = named(object.at("timings_s"));
   e.messages = object.at("messages").get<std::vector<std::string>>();

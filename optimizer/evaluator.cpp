@@ -9,8 +9,8 @@
 #include "fem/stress_aggregate.hpp"
 #include "geometry/measures.hpp"
 #include "optimizer/contact_fit.hpp"
+#include "optimizer/error_bars.hpp"
 #include "optimizer/problem.hpp"
-#include "optimizer/refinement.hpp"
 #include "optimizer/stopwatch.hpp"
 #include "wear/archard.hpp"
 #include "wear/follow.hpp"
@@ -80,12 +80,13 @@ void note_penalties(CandidateResult& result) {
 }
 
 /// The physics after the model; returns the status of the evaluation.
-std::string dynamics(const Scene& scene, CandidateResult& result) {
+std::string dynamics(const Scene& scene, const Computation& how, CandidateResult& result) {
   Evaluation& evaluation = result.evaluation;
   std::map<std::string, double>& responses = evaluation.responses;
   const CandidateModel& model = result.model;
   response::SteadyOptions steady = steady_options(scene.solver);
   steady.budget = model.budget;
+  steady.penalty_scale = how.penalty_scale;
   Stopwatch watch;
 
   const double glued = model.reduction.glued_frequencies(scene.loading.mode - 1);
@@ -135,9 +136,7 @@ std::string dynamics(const Scene& scene, CandidateResult& result) {
   responses["resonance_drift"] = drift.drift;
   responses["worn_peak_amplitude_m"] = result.worn->amplitude;
 
-  if (!std::getenv("NOBARS")) evaluation.error_estimates = error_estimates(scene, result);
-  evaluation.timings_s["error_estimates"] = watch.lap();
-  return spent(model.budget) ? "error_estimates: " + std::string(to_string(Status::budget_spent)) : "converged";
+  return spent(model.budget) ? "worn_resonance: " + std::string(to_string(Status::budget_spent)) : "converged";
 }
 
 }  // namespace
@@ -158,11 +157,10 @@ wear::AsymptoteOptions asymptote_options() {
   return options;
 }
 
-CandidateResult SceneEvaluator::evaluate(const Scene& scene) const {
+CandidateResult computed(const Scene& scene, CandidateModel model, const Computation& how) {
   CandidateResult result;
+  result.model = std::move(model);
   Evaluation& evaluation = result.evaluation;
-  Stopwatch total;
-  result.model = builder_.build(scene);
   evaluation.parameters = parameters(scene);
   evaluation.model = result.model.sizes;
   evaluation.timings_s = result.model.timings_s;
@@ -171,20 +169,34 @@ CandidateResult SceneEvaluator::evaluate(const Scene& scene) const {
   for (const geometry::Rule& rule : result.model.feasibility.rules)
     evaluation.constraints[kRulePrefix + rule.name] = -rule.margin;
   evaluation.feasible = result.model.feasibility.feasible;
-  if (result.model.converged()) {
+  if (!result.model.converged()) return result;
+  Stopwatch watch;
+  const ContactFit fit = fit_contact(scene, how, result.model);
+  evaluation.timings_s["contact_fit"] = watch.lap();
+  evaluation.model["contact_grids"] = fit.grids;
+  evaluation.model["contact_edges"] = fit.edges;
+  evaluation.model["contact_edges_moved"] = fit.moved;
+  evaluation.model["contact_nodes"] = static_cast<double>(result.model.cells.count());
+  evaluation.status = result.model.status;
+  if (!result.model.converged()) return result;
+  static_responses(scene, result.model, evaluation);
+  evaluation.status = dynamics(scene, how, result);
+  note_penalties(result);
+  evaluation.model["jacobians_spent"] = result.model.budget->used() / result.model.jacobian_operations;
+  return result;
+}
+
+SceneEvaluator::SceneEvaluator(const Scene& reference) : builder_(reference), coarse_(coarsened(reference)) {}
+
+CandidateResult SceneEvaluator::evaluate(const Scene& scene, bool bars) const {
+  Stopwatch total;
+  CandidateResult result = computed(scene, builder_.build(scene));
+  if (bars && result.evaluation.converged()) {
     Stopwatch watch;
-    const ContactFit fit = fit_contact(scene, {.grids = std::getenv("NOFIT") ? 0 : 6}, result.model);
-    evaluation.timings_s["contact_fit"] = watch.lap();
-    evaluation.model["contact_grids"] = fit.grids;
-    evaluation.model["contact_edges"] = fit.edges;
-    evaluation.model["contact_edges_moved"] = fit.moved;
-    evaluation.model["contact_nodes"] = static_cast<double>(result.model.cells.count());
-    static_responses(scene, result.model, evaluation);
-    evaluation.status = dynamics(scene, result);
-    note_penalties(result);
-    evaluation.model["jacobians_spent"] = result.model.budget->used() / result.model.jacobian_operations;
+    add_error_bars(scene, coarse_, result);
+    result.evaluation.timings_s["error_estimates"] = watch.lap();
   }
-  evaluation.timings_s["total"] = total.lap();
+  result.evaluation.timings_s["total"] = total.lap();
   return result;
 }
 
@@ -192,7 +204,7 @@ Evaluator over_design_space(const SceneEvaluator& evaluator, const Scene& base, 
   return [&evaluator, base, keys = space.keys()](std::span<const double> x) {
     Scene scene = base;
     for (std::size_t i = 0; i < keys.size(); ++i) set_parameter(scene, keys[i], x[i]);
-    return evaluator.evaluate(scene).evaluation;
+    return evaluator.evaluate(scene, false).evaluation;
   };
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "optimizer/candidate_model.hpp"
+#include "optimizer/contact_fit.hpp"
 #include "optimizer/design_space.hpp"
 #include "optimizer/evaluation.hpp"
 #include "optimizer/fillet_stress.hpp"
@@ -32,18 +33,28 @@ struct CandidateResult {
 /// Results depend on the reference scene (mesh topology) and the candidate only. May be called from several threads.
 class SceneEvaluator {
  public:
-  explicit SceneEvaluator(const Scene& reference) : builder_(reference) {}
+  explicit SceneEvaluator(const Scene& reference);
 
-  /// All responses with their error bars. Never throws for what a candidate is like: an impossible geometry is
+  /// All responses, with their error bars unless those are left out, as in a search. Never throws for what a candidate is like: an impossible geometry is
   /// "infeasible" with its rules in `constraints`, a stage that did not converge is named in `status`. Throws
-  /// InputError for a scene that violates the ranges of its keys. Cost: 1 to 2 s at the default sizes.
-  [[nodiscard]] CandidateResult evaluate(const Scene& scene) const;
+  /// InputError for a scene that violates the ranges of its keys. Cost: about a second at the default sizes, and twice as
+  /// much for the bars.
+  [[nodiscard]] CandidateResult evaluate(const Scene& scene, bool bars = true) const;
 
   [[nodiscard]] const ModelBuilder& builder() const { return builder_; }
 
  private:
-  ModelBuilder builder_;
+  ModelBuilder builder_, coarse_;
 };
+
+/// How a design is computed on a model of it.
+struct Computation {
+  ContactFitOptions contact = {};
+  double penalty_scale = 1;  ///< of the pseudo-penalty
+};
+
+/// The physics on a model that converged: contact nodes fitted to the worn zones, then all responses, without bars.
+[[nodiscard]] CandidateResult computed(const Scene& scene, CandidateModel model, const Computation& how = {});
 
 /// Options of every steady state of a scene.
 [[nodiscard]] response::SteadyOptions steady_options(const SolverSettings& settings);

@@ -164,6 +164,13 @@ void annotate(const Problem& problem, double tolerance, Evaluation& evaluation) 
   for (std::size_t j = 0; j < names.size(); ++j)
     if (judgement.computed) evaluation.constraints[names[j]] = judgement.constraints[j];
   evaluation.feasible = judgement.feasible;
+  evaluation.undecided_constraints.clear();
+  const std::vector<Limit> all = limits(problem);
+  for (std::size_t j = 0; judgement.computed && j < all.size(); ++j) {
+    const auto bar = evaluation.error_estimates.find(all[j].of->response);
+    if (bar != evaluation.error_estimates.end() && std::abs(judgement.constraints[j]) < bar->second / all[j].scale)
+      evaluation.undecided_constraints.push_back(names[j]);
+  }
 }
 
 void require_responses(const Problem& problem, const Evaluation& evaluation) {

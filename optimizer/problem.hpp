@@ -62,7 +62,8 @@ struct Judgement {
 /// Judges with the exact constraints: feasible when every c <= tolerance. Pure; never throws.
 [[nodiscard]] Judgement judge(const Problem& problem, const Evaluation& evaluation, double tolerance);
 
-/// Writes what the problem makes of it into the evaluation: its constraints by name, `feasible`, and a failing status
+/// Writes what the problem makes of it into the evaluation: its constraints by name, `feasible` as the values say,
+/// which constraints their bars leave undecided, and a failing status
 /// ("response: NAME is not finite" / "is missing") when a response of the problem has no value. Idempotent.
 void annotate(const Problem& problem, double tolerance, Evaluation& evaluation);
 

@@ -90,9 +90,8 @@ bool near_slip(const response::CondensedModel& model, const response::SteadyStat
   return false;
 }
 
-/// The larger of the depths by whole nodes and between them: neither may be beyond the model.
 Bearing bearing_of(const response::CondensedModel& model, const Asymptote& result) {
-  return bearing(model, result.unworn, result.steady, result.depth.cwiseMax(result.interpolated_depth));
+  return bearing(model, result.unworn, result.steady, result.depth);
 }
 
 /// A state that hardly anything bears is an answer only when the history comes to it.

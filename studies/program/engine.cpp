@@ -34,7 +34,7 @@ RunEngine study_engine(const Study& study) {
   engine.evaluate = [evaluator, base = study.scene, keys = study.problem.space.keys()](std::span<const double> x) {
     Scene scene = base;
     for (std::size_t i = 0; i < keys.size(); ++i) optimizer::set_parameter(scene, keys[i], x[i]);
-    return evaluator->evaluate(scene).evaluation;
+    return evaluator->evaluate(scene, false).evaluation;
   };
   engine.describe = [evaluator](const Scene& scene) {
     return report::make_design_record(scene, evaluator->evaluate(scene));
@@ -85,11 +85,17 @@ namespace {
 
 LoadedModel from_study(const std::string& file, const std::vector<Override>& overrides) {
   const Study study = load_study(file, overrides);
-  const optimizer::CandidateModel candidate = scene_evaluator(study)->builder().build(study.scene);
+  optimizer::CandidateModel candidate = scene_evaluator(study)->builder().build(study.scene);
   if (candidate.status == "infeasible") throw infeasible(file, candidate.messages);
   LoadedModel loaded;
   loaded.steady = optimizer::steady_options(study.scene.solver);
   loaded.follow = study.scene.loading.follow;
+  if (!candidate.converged()) {
+    loaded.failure = candidate.status;
+    return loaded;
+  }
+  // The same contact nodes as an evaluation has, so that whatever is computed is of one model.
+  optimizer::fit_contact(study.scene, {}, candidate);
   if (!candidate.converged()) {
     loaded.failure = candidate.status;
     return loaded;

@@ -12,6 +12,10 @@ std::string evaluation_json(const optimizer::Evaluation& evaluation) {
   json["responses"] = numbers(evaluation.responses);
   json["constraints"] = numbers(evaluation.constraints);
   json["error_estimates"] = numbers(evaluation.error_estimates);
+  json["error_sources"] = Json::object();
+  for (const auto& [response, sources] : evaluation.error_sources) json["error_sources"][response] = numbers(sources);
+  json["unbounded"] = evaluation.unbounded;
+  json["undecided_constraints"] = evaluation.undecided_constraints;
   json["model"] = numbers(evaluation.model);
   json["timings_s"] = numbers(evaluation.timings_s);
   json["messages"] = evaluation.messages;

@@ -19,7 +19,7 @@ struct WearBand;
 /// Doubles are written with the shortest text that reads back to the same value. A number that does not exist is null:
 /// of an evaluation, a response that is not finite; of a wear computation, the number of cycles of an asymptote.
 
-/// {"status", "feasible", "parameters", "responses", "constraints", "error_estimates", "model", "timings_s",
+/// {"status", "feasible", "parameters", "responses", "constraints", "error_estimates", "error_sources", "unbounded", "undecided_constraints", "model", "timings_s",
 /// "messages"[, "derivatives"]}
 [[nodiscard]] std::string evaluation_json(const optimizer::Evaluation& evaluation);
 

@@ -1,0 +1,121 @@
+#include "optimizer/error_bars.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "response/resonance.hpp"
+
+namespace dovetail::optimizer {
+
+namespace {
+
+constexpr double kRatio = 1.5;
+
+/// A change of settings and what its effect on a response says about the error left.
+struct Source {
+  const char* name;
+  double factor;
+};
+
+class Bars {
+ public:
+  explicit Bars(CandidateResult& result) : evaluation_(result.evaluation) {}
+
+  /// The effect of `changed` against `reference`, for every response of the evaluation.
+  void add(const Source& source, const Evaluation& changed, const Evaluation& reference) {
+    const bool known = changed.converged() && reference.converged();
+    if (!known)
+      evaluation_.messages.push_back(std::string("No bar for the error by ") + source.name +
+                                     ": the design computed for it ended with \"" +
+                                     (changed.converged() ? reference.status : changed.status) + "\".");
+    for (const auto& [name, value] : evaluation_.responses) {
+      if (!known) {
+        open_.insert(name);
+        continue;
+      }
+      add(source.name, name, source.factor * std::abs(changed.responses.at(name) - reference.responses.at(name)));
+    }
+  }
+  void add(const char* source, const std::string& response, double bar) {
+    evaluation_.error_sources[response][source] += bar;
+  }
+  void leave_open(const std::string& response) { open_.insert(response); }
+
+  void total() {
+    for (const auto& [response, sources] : evaluation_.error_sources) {
+      if (open_.contains(response)) continue;
+      double sum = 0;
+      for (const auto& [source, bar] : sources) sum += bar;
+      evaluation_.error_estimates[response] = sum;
+    }
+    evaluation_.unbounded.assign(open_.begin(), open_.end());
+  }
+
+ private:
+  Evaluation& evaluation_;
+  std::set<std::string> open_;
+};
+
+bool sharp_ended(const Scene& scene) {
+  return scene.geometry.left.edge_radius == 0 || scene.geometry.right.edge_radius == 0;
+}
+
+}  // namespace
+
+Scene coarsened(Scene scene) {
+  const auto fewer = [](int count, int least) {
+    return std::max(least, static_cast<int>(std::lround(count / kRatio)));
+  };
+  scene.mesh.flank_elements = fewer(scene.mesh.flank_elements, 4);
+  scene.mesh.aerofoil_elements = fewer(scene.mesh.aerofoil_elements, 2);
+  scene.mesh.fillet_fraction = std::min(1.0, kRatio * scene.mesh.fillet_fraction);
+  scene.mesh.blend_fraction = std::min(2.0, kRatio * scene.mesh.blend_fraction);
+  scene.mesh.bulk_size = std::min(0.1, kRatio * scene.mesh.bulk_size);
+  scene.solid_mesh.slot_elements = fewer(scene.solid_mesh.slot_elements, 2);
+  if (scene.solid_mesh.contact_slot_elements > 0)
+    scene.solid_mesh.contact_slot_elements = fewer(scene.solid_mesh.contact_slot_elements, 2);
+  if (scene.solid_mesh.contact_flank_elements > 0)
+    scene.solid_mesh.contact_flank_elements = fewer(scene.solid_mesh.contact_flank_elements, 2);
+  return scene;
+}
+
+void add_error_bars(const Scene& scene, const ModelBuilder& builder, CandidateResult& result) {
+  Bars bars(result);
+  const Scene coarse = coarsened(scene);
+  const CandidateModel model = builder.build(coarse);
+  const CandidateResult reference = computed(coarse, model);
+  bars.add({"mesh", 2}, reference.evaluation, result.evaluation);
+  Computation longer;
+  longer.contact.finest *= kRatio;
+  longer.contact.coarsest *= kRatio;
+  bars.add({"contact_grid", 2}, computed(scene, result.model, longer).evaluation, result.evaluation);
+
+  Scene changed = coarse;
+  changed.solver.harmonics = 2 * coarse.solver.harmonics + 1;
+  while (changed.solver.samples < 4 * changed.solver.harmonics + 4) changed.solver.samples *= 2;
+  bars.add({"harmonics", 2}, computed(changed, model).evaluation, reference.evaluation);
+  changed = coarse;
+  changed.solver.samples *= 2;
+  bars.add({"samples", 2}, computed(changed, model).evaluation, reference.evaluation);
+  bars.add({"pseudo_penalty", 0.5}, computed(coarse, model, {.contact = {}, .penalty_scale = 0.5}).evaluation,
+           reference.evaluation);
+  changed = coarse;
+  changed.solver.modes *= 2;
+  bars.add({"modes", 1.5}, computed(changed, builder.build(changed)).evaluation, reference.evaluation);
+
+  const double tolerance = response::ResonanceOptions{}.frequency_tolerance;
+  for (const char* name : {"resonance_hz", "worn_resonance_hz"})
+    bars.add("search", name, tolerance * result.evaluation.responses.at(name));
+  bars.add("search", "resonance_drift", 2 * tolerance);
+  if (const auto moved = result.evaluation.model.find("contact_edges_moved");
+      moved != result.evaluation.model.end() && moved->second > ContactFitOptions{}.tolerance)
+    for (const char* name : {"asymptotic_wear_volume_m3", "asymptotic_wear_depth_max_m", "resonance_drift"})
+      bars.add("edge", name, std::min(1.0, moved->second) * std::abs(result.evaluation.responses.at(name)));
+  if (sharp_ended(scene)) bars.leave_open("contact_pressure_max_pa");
+  bars.total();
+}
+
+}  // namespace dovetail::optimizer
