@@ -186,7 +186,8 @@ CandidateResult computed(const Scene& scene, CandidateModel model, const Computa
   return result;
 }
 
-SceneEvaluator::SceneEvaluator(const Scene& reference) : builder_(reference), coarse_(coarsened(reference)) {}
+SceneEvaluator::SceneEvaluator(const Scene& reference)
+    : reference_(reference), builder_(reference), coarse_(coarsened(reference)) {}
 
 CandidateResult SceneEvaluator::evaluate(const Scene& scene, bool bars) const {
   Stopwatch total;

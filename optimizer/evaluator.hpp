@@ -42,8 +42,10 @@ class SceneEvaluator {
   [[nodiscard]] CandidateResult evaluate(const Scene& scene, bool bars = true) const;
 
   [[nodiscard]] const ModelBuilder& builder() const { return builder_; }
+  [[nodiscard]] const Scene& reference() const { return reference_; }
 
  private:
+  Scene reference_;
   ModelBuilder builder_, coarse_;
 };
 

@@ -1,11 +1,14 @@
 #include "optimizer/verification.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
 #include "optimizer/stopwatch.hpp"
-#include "wear/follow.hpp"
+#include "wear/archard.hpp"
 #include "wear/history.hpp"
 
 namespace dovetail::optimizer {
@@ -16,55 +19,95 @@ std::string failure(const std::string& stage, std::string_view why) {
   return stage + ": " + std::string(why);
 }
 
-std::string compare(const Scene& scene, const CandidateResult& result, const VerificationOptions& options,
-                    const wear::Control& control, Verification& verification) {
-  const std::shared_ptr<const response::CondensedModel>& model = result.model.condensed;
-  response::SteadyOptions finer = steady_options(scene.solver);
-  verification.harmonics = finer.harmonics = 2 * finer.harmonics + 1;
-  verification.samples = finer.samples = 2 * finer.samples;
-  const response::Resonance unworn = response::resonance(model, result.unworn->omega, {}, finer);
-  if (unworn.status != Status::converged) return failure("unworn_resonance", to_string(unworn.status));
-  verification.frequency_hz = unworn.omega / (2 * std::numbers::pi);
+/// Twice the edges along the flanks, 2H+1 harmonics, 2N samples.
+Scene refined(Scene scene) {
+  scene.mesh.flank_elements *= 2;
+  scene.solver.harmonics = 2 * scene.solver.harmonics + 1;
+  scene.solver.samples *= 2;
+  return scene;
+}
 
-  wear::Asymptote direct;
-  if (scene.loading.follow == "resonance") {
-    wear::FollowedAsymptote found =
-        wear::followed_asymptote(model, unworn.omega, {}, finer, asymptote_options(), {}, &unworn.state, control);
-    direct = std::move(found.asymptote);
-    direct.solves = found.solves;
-  } else {
-    direct = wear::asymptote(model, unworn.omega, {}, finer, asymptote_options(), &unworn.state, control);
+/// Depths of the cells of one grid at the middles of another's, strip by strip as they lie along the slot.
+Eigen::VectorXd on_grid(const Eigen::VectorXd& depth, const fem::ContactCells& from, const fem::ContactCells& to) {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(to.count());
+  for (Eigen::Index i = 0; i < to.count(); ++i) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (Eigen::Index k = 0; k < from.count(); ++k) {
+      if (from.flank(k) != to.flank(i)) continue;
+      const double distance = (from.position.col(k) - to.position.col(i)).norm() / std::sqrt(from.area(k));
+      if (distance < nearest) {
+        nearest = distance;
+        result(i) = depth(k);
+      }
+    }
   }
-  verification.direct_solves = direct.solves;
-  if (direct.verdict != wear::Verdict::asymptote)
-    return failure("asymptote", direct.verdict == wear::Verdict::not_converged ? to_string(direct.status)
-                                                                               : wear::to_string(direct.verdict));
-  verification.direct_volume = direct.worn_volume;
-  verification.direct_depth = direct.largest_depth;
-  verification.direct_profile = direct.depth;
-  if (!(direct.largest_depth > 0)) {
-    verification.history_profile = direct.depth;
-    return "converged";  // every node sticks: a history would not leave its first state
-  }
+  return result;
+}
 
-  wear::HistoryOptions settings;
-  settings.follow = scene.loading.follow;
-  settings.increment = direct.largest_depth / options.steps;
-  settings.steps = 3 * options.steps;
-  const wear::History history = wear::history(model, unworn.omega, {}, finer, settings, {}, control);
-  verification.history_solves = history.solves;
-  const Eigen::Index last = history.cycles.size() - 1;
-  if (last < 0) return failure("history", to_string(history.status));
-  verification.cycles = history.cycles(last);
-  verification.history_volume = history.final_volume;
-  verification.history_profile = history.final_depth;
+/// Two histories, the second with half the increment, and what they extrapolate to.
+std::string wear_down(const Scene& scene, const CandidateResult& fine, const VerificationOptions& options,
+                      const wear::Control& control, Verification& verification) {
+  const std::shared_ptr<const response::CondensedModel>& model = fine.model.condensed;
+  const response::SteadyOptions steady = steady_options(scene.solver);
+  double volume = 0;
+  Eigen::VectorXd depth;
+  for (const double part : {1.0, 0.5}) {
+    wear::HistoryOptions settings;
+    settings.follow = scene.loading.follow;
+    settings.increment = part * options.increment * wear::largest_penetration(*model, fine.unworn->state);
+    settings.steps = options.steps;
+    settings.finish = false;
+    const wear::History history = wear::history(model, fine.unworn->omega, {}, steady, settings, {}, control);
+    verification.history_solves += history.solves;
+    const Eigen::Index last = history.cycles.size() - 1;
+    if (last < 0) return failure("history", to_string(history.status));
+    verification.cycles = history.cycles(last);
+    const Eigen::VectorXd reached = history.depth.row(last).transpose();
+    if (part == 1.0) {
+      volume = history.worn_volume(last);
+      depth = reached;
+    } else {
+      verification.history_volume = 2 * history.worn_volume(last) - volume;
+      verification.history_bar = std::abs(history.worn_volume(last) - volume);
+      verification.history_profile = (2 * reached - depth).cwiseMax(0.0);
+    }
+    if (history.end != wear::HistoryEnd::worn_out)
+      return failure("history",
+                     history.end == wear::HistoryEnd::failed ? to_string(history.status) : wear::to_string(history.end));
+  }
   verification.history_depth = verification.history_profile.maxCoeff();
-  verification.profile_difference =
-      (verification.history_profile - direct.depth).cwiseAbs().maxCoeff() / direct.largest_depth;
-  if (history.end != wear::HistoryEnd::worn_out)
-    return failure("history",
-                   history.end == wear::HistoryEnd::failed ? to_string(history.status) : wear::to_string(history.end));
+  verification.profile_difference = (verification.history_profile - verification.direct_profile).cwiseAbs().maxCoeff() /
+                                    verification.direct_depth;
   return "converged";
+}
+
+/// Whether the three answers lie within their bars of each other.
+std::string judged(const Verification& v) {
+  const auto apart = [](double a, double b, double bars) { return !(std::abs(a - b) <= bars); };
+  const auto words = [](const char* what, double a, const char* other, double b, double bars) {
+    return fmt::format("disagrees: {} {:.4g} m^3, {} {:.4g} m^3, bars {:.2g} m^3", what, a, other, b, bars);
+  };
+  if (apart(v.direct_volume, v.search_volume, v.search_bar))
+    return words("search", v.search_volume, "finer mesh", v.direct_volume, v.search_bar);
+  if (apart(v.history_volume, v.search_volume, v.search_bar + v.history_bar))
+    return words("search", v.search_volume, "history", v.history_volume, v.search_bar + v.history_bar);
+  return "converged";
+}
+
+std::string compare(const Scene& scene, const CandidateResult& fine, const VerificationOptions& options,
+                    const wear::Control& control, Verification& verification) {
+  if (!fine.evaluation.converged()) return failure("finer mesh", fine.evaluation.status);
+  verification.frequency_hz = fine.unworn->omega / (2 * std::numbers::pi);
+  verification.direct_solves = fine.asymptote->solves;
+  verification.direct_volume = fine.asymptote->worn_volume;
+  verification.direct_depth = fine.asymptote->largest_depth;
+  verification.direct_profile = fine.asymptote->depth;
+  verification.history_profile = fine.asymptote->depth;
+  // Where every node sticks a history would not leave its first state.
+  if (verification.direct_depth > 0)
+    if (const std::string ended = wear_down(scene, fine, options, control, verification); ended != "converged")
+      return ended;
+  return judged(verification);
 }
 
 }  // namespace
@@ -74,19 +117,24 @@ Verification verify(const SceneEvaluator& evaluator, const Scene& scene, const V
   Stopwatch watch;
   Verification verification;
   verification.follow = scene.loading.follow;
-  CandidateResult result = evaluator.evaluate(scene);
-  if (!result.unworn || !result.asymptote || !result.evaluation.converged()) {
+  const CandidateResult result = evaluator.evaluate(scene);
+  const Scene finer = refined(scene);
+  verification.flank_elements = finer.mesh.flank_elements;
+  verification.harmonics = finer.solver.harmonics;
+  verification.samples = finer.solver.samples;
+  if (!result.evaluation.converged()) {
     verification.status = result.evaluation.status;
   } else {
     verification.search_volume = result.asymptote->worn_volume;
     verification.search_depth = result.asymptote->largest_depth;
-    verification.search_profile = result.asymptote->depth;
     const auto bar = result.evaluation.error_estimates.find("asymptotic_wear_volume_m3");
     verification.search_bar = bar == result.evaluation.error_estimates.end() ? std::nan("") : bar->second;
-    verification.status = compare(scene, result, options, control, verification);
+    CandidateResult fine = computed(finer, ModelBuilder(refined(evaluator.reference())).build(finer));
+    verification.status = compare(finer, fine, options, control, verification);
+    verification.search_profile = on_grid(result.asymptote->depth, result.model.cells, fine.model.cells);
+    verification.model = std::move(fine.model);
   }
   if (control.stopped()) verification.status = "interrupted";
-  verification.model = std::move(result.model);
   verification.seconds = watch.lap();
   return verification;
 }

@@ -12,34 +12,40 @@
 namespace dovetail::optimizer {
 
 struct VerificationOptions {
-  // >= 1. Steps of the history whose increments add up to the directly computed depth; it may take three times as many.
-  int steps = 60;
+  // > 0. Largest increment of depth of the first history, relative to the largest local penetration of the unworn
+  // contact (lambda_N over the node's own stiffness): the depth over which loads change. The second takes half of it.
+  double increment = 0.25;
+  // >= 1. Steps of either history at most.
+  int steps = 600;
 };
 
-/// A design's wear by the full history against the direct method, both with twice the harmonics plus one and twice the
-/// samples, so that settings and path are checked at once. Depths are nodal answers of both.
+/// A design's wear on a mesh with twice as many edges along the flanks, with twice the harmonics plus one and twice the
+/// samples: directly, and by two explicit histories that know nothing of the direct answer, extrapolated to no
+/// increment. Agreement is judged against the bars.
 struct Verification {
-  /// "converged": both ended where wear rests; otherwise what failed and why, or "interrupted".
+  /// "converged": history, finer direct method and search agree within their bars; "disagrees: ..." with the numbers;
+  /// otherwise what failed and why, or "interrupted".
   std::string status = "converged";
-  int harmonics = 0, samples = 0;
+  int flank_elements = 0, harmonics = 0, samples = 0;
   std::string follow;                            ///< fixed | resonance, as the design's loading says
-  double frequency_hz = 0;                       ///< of the unworn resonance at these settings
+  double frequency_hz = 0;                       ///< of the unworn resonance on the finer mesh
   double search_volume = 0, search_bar = 0;      ///< m^3, as the search saw it, and its error bar
   double search_depth = 0;                       ///< m
   double direct_volume = 0, direct_depth = 0;    ///< m^3, m
-  double history_volume = 0, history_depth = 0;  ///< m^3, m
+  double history_volume = 0, history_depth = 0;  ///< m^3, m, extrapolated
+  double history_bar = 0;                        ///< m^3, of the extrapolation: the change by the last halving
   double profile_difference = 0;                 ///< largest |direct - history| of a node over the largest direct depth
-  double cycles = 0;                             ///< of the history
+  double cycles = 0;                             ///< of the finer history
   int direct_solves = 0, history_solves = 0;
   Eigen::VectorXd search_profile, direct_profile, history_profile;  ///< [Nc] m
   double seconds = 0;
-  CandidateModel model;  ///< of the design
+  CandidateModel model;  ///< on the finer mesh; profiles are on its contact nodes
 
   [[nodiscard]] bool converged() const { return status == "converged"; }
 };
 
-/// Never throws for what a design is like; what could not be computed is in the status. Cost: an evaluation and about
-/// 100 steady states of twice the size.
+/// Never throws for what a design is like; what could not be computed is in the status. Cost: two evaluations and some
+/// 100 to 300 steady states of four times the size.
 [[nodiscard]] Verification verify(const SceneEvaluator& evaluator, const Scene& scene,
                                   const VerificationOptions& options = {}, const wear::Control& control = {});
 

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <ostream>
+#include <utility>
 
 #include "core/replace_file.hpp"
 #include "studies/program/best_file.hpp"
@@ -44,6 +45,10 @@ report::RunRecord record_of(const Study& study, const OptimizationResult& result
   if (!engine.describe) return record;
   if (result.best) record.best_design = engine.describe(scene_of(study, result.evaluations[*result.best]));
   if (record.baseline) record.baseline_design = engine.describe(scene_of(study, result.evaluations[*record.baseline]));
+  // A search computes no bars; those of the designs described are those of their evaluations.
+  for (const auto& [index, design] :
+       {std::pair{result.best, &record.best_design}, std::pair{record.baseline, &record.baseline_design}})
+    if (index && *design) record.evaluations[*index].error_estimates = (*design)->error_estimates;
   return record;
 }
 

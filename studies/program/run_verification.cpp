@@ -32,6 +32,7 @@ template <class Record, class Visitor>
 void visit(Record& r, Visitor&& v) {
   v("status", r.status);
   v("follow", r.follow);
+  v("flank_elements", r.flank_elements);
   v("harmonics", r.harmonics);
   v("samples", r.samples);
   v("direct_solves", r.direct_solves);
@@ -44,6 +45,7 @@ void visit(Record& r, Visitor&& v) {
   v("direct_depth_m", r.direct_depth_m);
   v("history_volume_m3", r.history_volume_m3);
   v("history_depth_m", r.history_depth_m);
+  v("history_bar_m3", r.history_bar_m3);
   v("profile_difference", r.profile_difference);
   v("cycles", r.cycles);
   v("seconds", r.seconds);

@@ -281,6 +281,7 @@ VerificationRecord make_verification_record(const optimizer::Verification& v, co
   VerificationRecord record;
   record.status = v.status;
   record.follow = v.follow;
+  record.flank_elements = v.flank_elements;
   record.harmonics = v.harmonics;
   record.samples = v.samples;
   record.direct_solves = v.direct_solves;
@@ -293,6 +294,7 @@ VerificationRecord make_verification_record(const optimizer::Verification& v, co
   record.direct_depth_m = v.direct_depth;
   record.history_volume_m3 = v.history_volume;
   record.history_depth_m = v.history_depth;
+  record.history_bar_m3 = v.history_bar;
   record.profile_difference = v.profile_difference;
   record.cycles = v.cycles;
   record.seconds = v.seconds;

@@ -103,12 +103,13 @@ std::string verification_section(const RunRecord& record) {
                                                                   : "The best designs were worn cycle by cycle") +
                      " until wear came to rest, at finer settings than the search";
   if (first.harmonics > 0)
-    text += " (" + std::to_string(first.harmonics) + " harmonics, " + std::to_string(first.samples) + " samples)";
+    text += " (" + std::to_string(first.flank_elements) + " edges per flank, " + std::to_string(first.harmonics) +
+            " harmonics, " + std::to_string(first.samples) + " samples)";
   text += ", and computed directly at the same settings. " +
           std::string(first.follow == "resonance" ? "The excitation follows the resonance of the joint as it wears."
                                                   : "The excitation stays at the unworn resonance.") +
-          " Both of these wear whole contact nodes; the search places the edges of worn zones between nodes, so its "
-          "volume is the one that converges with the mesh.</p>\n<p class=\"soft\">Columns: the number of the "
+          " The history's increments come from the stiffness of the contact, not from the direct answer, and are "
+          "extrapolated to none.</p>\n<p class=\"soft\">Columns: the number of the "
           "evaluation; worn volume as the search saw it, directly and by the history at the finer settings, and the "
           "change from direct to history; largest depth of both; largest difference of their profiles by the largest "
           "depth; steady states either took.</p>\n" +

@@ -96,6 +96,7 @@ void verification(Archive& archive, const std::string& group, Record& record) {
   archive.text(group, "status", record.status);
   archive.text(group, "follow", record.follow);
   archive.whole(group, "evaluation", record.evaluation);
+  archive.whole(group, "flank_elements", record.flank_elements);
   archive.whole(group, "harmonics", record.harmonics);
   archive.whole(group, "samples", record.samples);
   archive.whole(group, "direct_solves", record.direct_solves);
@@ -108,6 +109,7 @@ void verification(Archive& archive, const std::string& group, Record& record) {
   archive.number(group, "direct_depth_m", record.direct_depth_m);
   archive.number(group, "history_volume_m3", record.history_volume_m3);
   archive.number(group, "history_depth_m", record.history_depth_m);
+  archive.number(group, "history_bar_m3", record.history_bar_m3);
   archive.number(group, "profile_difference", record.profile_difference);
   archive.number(group, "cycles", record.cycles);
   archive.number(group, "seconds", record.seconds);

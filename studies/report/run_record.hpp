@@ -107,10 +107,10 @@ struct EvaluationRecord {
 struct VerificationRecord {
   std::int64_t evaluation = 0;  ///< index of the candidate
   std::string status, follow;
-  std::int64_t harmonics = 0, samples = 0, direct_solves = 0, history_solves = 0;
+  std::int64_t flank_elements = 0, harmonics = 0, samples = 0, direct_solves = 0, history_solves = 0;
   double frequency_hz = 0, search_volume_m3 = 0, search_bar_m3 = 0, search_depth_m = 0;
   double direct_volume_m3 = 0, direct_depth_m = 0, history_volume_m3 = 0, history_depth_m = 0;
-  double profile_difference = 0, cycles = 0, seconds = 0;
+  double history_bar_m3 = 0, profile_difference = 0, cycles = 0, seconds = 0;
   std::vector<std::string> flank_names;
   std::vector<std::int64_t> flank;                                ///< [Nc]
   Numbers along_m;                                                ///< [Nc]

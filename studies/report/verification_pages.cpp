@@ -27,7 +27,7 @@ Plot verification_plot(const VerificationRecord& record) {
       .title = fmt::format("Worn profile of evaluation {}", record.evaluation + 1),
       .description =
           "Depth along the more worn flank. Solid: the end of the history; dashed: the direct method at the "
-          "same settings; dotted: as the search saw it, with edges between nodes.",
+          "same settings; dotted: as the search saw it.",
       .x = {.label = "along the flank, from its neck side", .unit = "mm"},
       .y = {.label = "worn depth", .from_zero = true},
   };
@@ -75,12 +75,12 @@ std::string verification_table(const RunRecord& record) {
     text +=
         fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>",
                     v.evaluation + 1, with_error(v.search_volume_m3, v.search_bar_m3, volume),
-                    significant(v.direct_volume_m3 / volume.si, 4), significant(v.history_volume_m3 / volume.si, 4),
+                    significant(v.direct_volume_m3 / volume.si, 4), with_error(v.history_volume_m3, v.history_bar_m3, volume),
                     per_cent(v.history_volume_m3, v.direct_volume_m3), significant(v.direct_depth_m / depth.si, 4),
                     significant(v.history_depth_m / depth.si, 4));
     text += fmt::format("<td>{}\u00a0%</td><td>{}</td><td>{}</td><td class=\"text\">{}</td></tr>\n",
                         significant(100 * v.profile_difference, 2), v.direct_solves, v.history_solves,
-                        escape(v.status == "converged" ? "both at rest" : v.status));
+                        escape(v.status == "converged" ? "agree within their bars" : v.status));
   }
   return text + "</tbody></table></div>\n";
 }

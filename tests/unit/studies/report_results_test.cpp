@@ -101,12 +101,12 @@ bool same(const EvaluationRecord& a, const EvaluationRecord& b) {
 }
 
 void expect_same(const ContactRecord& a, const ContactRecord& b) {
-  const auto& [a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12] = a;
-  const auto& [b1, b2, b3, b4, b5, b6, b7, b8, b9, b10, b11, b12] = b;
+  const auto& [a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11] = a;
+  const auto& [b1, b2, b3, b4, b5, b6, b7, b8, b9, b10, b11] = b;
   EXPECT_EQ(a1, b1);
   EXPECT_EQ(a2, b2);
   EXPECT_TRUE(all_same(a3, b3) && all_same(a4, b4) && all_same(a5, b5) && all_same(a6, b6) && all_same(a7, b7));
-  EXPECT_TRUE(all_same(a8, b8) && all_same(a9, b9) && all_same(a10, b10) && all_same(a11, b11) && all_same(a12, b12));
+  EXPECT_TRUE(all_same(a8, b8) && all_same(a9, b9) && all_same(a10, b10) && all_same(a11, b11));
 }
 void expect_same(const ResponseCurve& a, const ResponseCurve& b) {
   const auto& [a1, a2, a3] = a;
@@ -173,16 +173,16 @@ void expect_same(const Provenance& a, const Provenance& b) {
 }
 void expect_same(const VerificationRecord& a, const VerificationRecord& b) {
   const auto& [a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15, a16, a17, a18, a19, a20, a21, a22, a23,
-               a24, a25] = a;
+               a24, a25, a26, a27] = a;
   const auto& [b1, b2, b3, b4, b5, b6, b7, b8, b9, b10, b11, b12, b13, b14, b15, b16, b17, b18, b19, b20, b21, b22, b23,
-               b24, b25] = b;
-  EXPECT_TRUE(a1 == b1 && a2 == b2 && a3 == b3 && a4 == b4 && a5 == b5 && a6 == b6 && a7 == b7);
-  EXPECT_TRUE(same(a8, b8) && same(a9, b9) && same(a10, b10) && same(a11, b11) && same(a12, b12) && same(a13, b13));
-  EXPECT_TRUE(same(a14, b14) && same(a15, b15) && same(a16, b16) && same(a17, b17) && same(a18, b18));
-  EXPECT_EQ(a19, b19);
-  EXPECT_EQ(a20, b20);
-  EXPECT_TRUE(all_same(a21, b21) && all_same(a22, b22) && all_same(a23, b23) && all_same(a24, b24));
-  EXPECT_TRUE(all_same(a25, b25));
+               b24, b25, b26, b27] = b;
+  EXPECT_TRUE(a1 == b1 && a2 == b2 && a3 == b3 && a4 == b4 && a5 == b5 && a6 == b6 && a7 == b7 && a8 == b8);
+  EXPECT_TRUE(same(a9, b9) && same(a10, b10) && same(a11, b11) && same(a12, b12) && same(a13, b13) && same(a14, b14));
+  EXPECT_TRUE(same(a15, b15) && same(a16, b16) && same(a17, b17) && same(a18, b18) && same(a19, b19) && same(a20, b20));
+  EXPECT_EQ(a21, b21);
+  EXPECT_EQ(a22, b22);
+  EXPECT_TRUE(all_same(a23, b23) && all_same(a24, b24) && all_same(a25, b25) && all_same(a26, b26));
+  EXPECT_TRUE(all_same(a27, b27));
 }
 void expect_same(const RunRecord& a, const RunRecord& b) {
   const auto& [a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14] = a;
