@@ -45,11 +45,11 @@ struct SectorMesh {
   std::vector<int> disk_fillet_nodes;            ///< nodes on the slot fillets of the disk
   Eigen::VectorXd blade_fillet_share;  ///< [blade_fillet_nodes] 0 ... 1: how much the stress there counts as the
                                        ///< fillet's; 0 at the end of the flank, where pressure and stress are singular
-  Eigen::VectorXd disk_fillet_share;  ///< [disk_fillet_nodes] the same
-  std::vector<int> neck_nodes;        ///< the four points where the neck fillets end, lower ones first; in
-                                      ///< space those of one cross-section
-  std::vector<int> axial_nodes;       ///< space: nodes with u_z = 0, the disk's axial support (blade nodes of
-                                      ///< a flank do not count: they follow their partners)
+  Eigen::VectorXd disk_fillet_share;   ///< [disk_fillet_nodes] the same
+  std::vector<int> neck_nodes;         ///< the four points where the neck fillets end, lower ones first; in
+                                       ///< space those of one cross-section
+  std::vector<int> axial_nodes;        ///< space: nodes with u_z = 0, the disk's axial support (blade nodes of
+                                       ///< a flank do not count: they follow their partners)
   int sectors = 1;
 };
 

@@ -145,7 +145,8 @@ Plot gap_plot(const Comparison& designs) {
       designs, &ContactRecord::gap_m, "m",
       {
           .title = "Form of the flanks",
-          .description = "Gap between blade and disk before loading: mismatch, crown and relief together.",
+          .description =
+              "Gap between blade and disk before loading: mismatch, crown, relief and rounded ends together.",
           .y = {.label = "gap"},
       });
 }

@@ -207,7 +207,12 @@ TEST_P(RoundedFlank, HasThePressureOfThePunchWithRoundedEdges) {
   RecordProperty("largest_difference", std::to_string(difference / exact.largest()));
   RecordProperty("half_width_um", std::to_string((width - kHalfFlat) * 1e6));
   RecordProperty("exact_half_width_um", std::to_string((exact.half_width() - kHalfFlat) * 1e6));
+  // Blocks of 40 half-widths bend the half-plane's pressures by (1/40)^2. The rest is the edges at the peak, a tenth (R
+  // = 1 mm) to a twentieth of the rounded strip that bears: 0.1 to 0.5 %; as many equal edges miss the peak of R = 1 mm
+  // by 37 %.
   EXPECT_NEAR(preload.pressure.maxCoeff(), exact.largest(), 0.02 * exact.largest());
+  // The last node that bears is within one edge of the end of the contact.
+  EXPECT_NEAR(width, exact.half_width(), rounded_length(radius) / 35);
 }
 
 INSTANTIATE_TEST_SUITE_P(Radii, RoundedFlank, testing::Values(1, 5, 20, 50),
