@@ -25,11 +25,16 @@ TEST_P(HardCases, AreSolvedOrClassified) {
   if (outcomes.front().has_answer) {
     const auto converged =
         std::count_if(outcomes.begin(), outcomes.end(), [](const Outcome& o) { return o.converged(); });
-    EXPECT_GE(converged, outcomes.front().contact_mass ? family.count * 9 / 10 : family.count * 98 / 100);
+    // Of a dozen fresh problems one in three hundred that fails is no news, of those with mass one in six.
+    const int least = outcomes.front().contact_mass ? (family.fresh ? 50 : 90) : (family.fresh ? 80 : 98);
+    EXPECT_GE(converged, family.count * least / 100);
   }
+  if (family.fresh) std::cout << "DOVETAIL_SEED=" << seed_of_run() << " repeats these problems.\n";
   std::cout << table(outcomes) << failures(outcomes);
 }
 
+INSTANTIATE_TEST_SUITE_P(Fresh, HardCases, testing::ValuesIn(fresh_families(seed_of_run())),
+                         [](const auto& param_info) { return param_info.param.name; });
 INSTANTIATE_TEST_SUITE_P(Family, HardCases, testing::ValuesIn(families()),
                          [](const auto& param_info) { return param_info.param.name; });
 
