@@ -19,7 +19,7 @@ struct FilletStress {
 };
 
 /// Von Mises stress (plane strain) at `nodes`, largest over one period of `state`: spin-up and vibration together.
-/// Cost: the field of the nodes' elements only.
+/// Cost: the field of each Fourier coefficient, a back-solve of the full model.
 [[nodiscard]] FilletStress fillet_stress(const Scene& scene, const CandidateModel& candidate,
                                          const response::SteadyState& state, std::span<const int> nodes,
                                          double poisson_ratio);
