@@ -20,7 +20,7 @@ struct FilletStress {
 
 /// Von Mises stress (plane strain) at `nodes`, largest over one period of `state`: spin-up and vibration together.
 /// `share` [nodes] is that of fem::SectorMesh.
-/// Cost: the field of the nodes' elements only.
+/// Cost: the field of each Fourier coefficient, a back-solve of the full model.
 [[nodiscard]] FilletStress fillet_stress(const Scene& scene, const CandidateModel& candidate,
                                          const response::SteadyState& state, std::span<const int> nodes,
                                          const Eigen::VectorXd& share, double poisson_ratio);

@@ -1,13 +1,12 @@
 #include "numerics/sparse_factor.hpp"
 
-#include <suitesparse/cholmod.h>
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
-#include <type_traits>
+
+#include "numerics/cholmod_view.hpp"
 
 namespace dovetail::numerics {
 
@@ -16,28 +15,6 @@ namespace {
 // Columns solved at once: enough for matrix-matrix BLAS, and a small workspace (at 16 000 unknowns times are flat
 // within 3 % from 16 to 200 columns).
 constexpr Eigen::Index kBlockColumns = 32;
-
-template <class Scalar>
-constexpr int kXtype = std::is_same_v<Scalar, double> ? CHOLMOD_REAL : CHOLMOD_COMPLEX;
-
-template <class Scalar>
-cholmod_sparse lower_view(const Eigen::SparseMatrix<Scalar>& a) {
-  cholmod_sparse view{};
-  view.nrow = static_cast<std::size_t>(a.rows());
-  view.ncol = static_cast<std::size_t>(a.cols());
-  view.nzmax = static_cast<std::size_t>(a.nonZeros());
-  // CHOLMOD reads these only; its interface has no const.
-  view.p = const_cast<int*>(a.outerIndexPtr());
-  view.i = const_cast<int*>(a.innerIndexPtr());
-  view.x = const_cast<Scalar*>(a.valuePtr());
-  view.stype = -1;
-  view.itype = CHOLMOD_INT;
-  view.xtype = kXtype<Scalar>;
-  view.dtype = CHOLMOD_DOUBLE;
-  view.sorted = 1;
-  view.packed = 1;
-  return view;
-}
 
 template <class Scalar>
 cholmod_dense dense_view(const Scalar* values, Eigen::Index rows, Eigen::Index columns) {
@@ -62,13 +39,7 @@ struct SparseCholesky<Scalar>::State {
   Eigen::Index entries = -1;
   bool factorised = false;
 
-  State() {
-    cholmod_start(&common);
-    common.supernodal = CHOLMOD_SUPERNODAL;
-    common.print = 0;
-    common.itype = CHOLMOD_INT;
-    common.error_handler = nullptr;
-  }
+  State() { start_cholmod(common); }
   ~State() {
     cholmod_free_dense(&x, &common);
     cholmod_free_dense(&y, &common);

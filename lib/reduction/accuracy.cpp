@@ -101,7 +101,7 @@ StiffnessError estimate(const Reduction& reduction, double angular_frequency) {
   Eigen::MatrixXd field(reduction.model.size(), contact);
   field.topRows(contact).setIdentity();
   field.bottomRows(field.rows() - contact) = condensed.response;
-  const Eigen::MatrixXd change = square / remaining * (field.transpose() * reduction.neglected_mass * field);
+  const Eigen::MatrixXd change = square / remaining * reduction.neglected_inertia(field);
   const Eigen::MatrixXd inverse = condensed.stiffness.partialPivLu().inverse();
   error.stiffness = relative(change, condensed.stiffness);
   error.flexibility = relative(inverse * change * inverse, inverse);

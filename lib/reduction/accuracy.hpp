@@ -31,7 +31,7 @@ struct StiffnessError {
 /// The same errors without the full model (within a few per cent where they are below 1e-2), from the inertia the
 /// reduction neglects:
 ///   dZ = -w^2 Q^T dM Q / (1 - w^2 / lambda_cut),  Q the reduced field to unit contact displacements.
-/// Exact to first order in w^2; infinite beyond the first neglected mode. Cost: dense, n_red^3.
+/// Exact to first order in w^2; infinite beyond the first neglected mode. Cost: nc back-solves.
 [[nodiscard]] StiffnessError estimate(const Reduction& reduction, double angular_frequency);
 
 }  // namespace dovetail::reduction

@@ -18,18 +18,7 @@ struct RitzBasis {
   Eigen::VectorXd eigenvalues;  ///< [m] ascending
   Eigen::MatrixXd vectors;      ///< [n, m] M-orthonormal, K-orthogonal
 };
-[[nodiscard]] RitzBasis rayleigh_ritz(const FullModel& full, const Eigen::MatrixXd& vectors);
-
-/// (K^-1 - Phi Lambda^-1 Phi^T) B^T [n, nc]: displacement to unit contact forces beyond what the basis
-/// represents. The `low` first pairs must be eigenpairs (rigid, negative and soft ones): they are constrained
-/// to zero instead of subtracted, so that K may be singular and nothing large cancels.
-struct ResidualFlexibility {
-  Status status = Status::converged;
-  Eigen::MatrixXd field;    ///< X [n, nc], m/N
-  Eigen::MatrixXd contact;  ///< G = B X [nc, nc], symmetric
-};
-[[nodiscard]] ResidualFlexibility residual_flexibility(const ContactSolver& solver,
-                                                       const Eigen::SparseMatrix<double>& mass, const RitzBasis& basis,
-                                                       Eigen::Index low);
+[[nodiscard]] RitzBasis rayleigh_ritz(const Eigen::SparseMatrix<double>& stiffness,
+                                      const Eigen::SparseMatrix<double>& mass, const Eigen::MatrixXd& vectors);
 
 }  // namespace dovetail::reduction

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "numerics/dense_product.hpp"
+#include "numerics/dense_symmetric.hpp"
 #include "numerics/nearest_modes.hpp"
 
 namespace dovetail::reduction {
@@ -20,46 +21,47 @@ constexpr double kRigidThreshold = 1e-11;
 constexpr Eigen::Index kSearchRange = 4, kSearchAlways = 100;  // but not below so many modes
 }  // namespace
 
-FloatingInverse::FloatingInverse(const ContactSolver& solver, const Eigen::SparseMatrix<double>& mass)
-    : solver_(solver), mass_(mass) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(solver.schur());
-  const Eigen::VectorXd& values = eigen.eigenvalues();
-  const Eigen::MatrixXd& vectors = eigen.eigenvectors();
-  const double threshold = kRigidThreshold * values.cwiseAbs().maxCoeff();
-  Eigen::VectorXd inverse = Eigen::VectorXd::Zero(values.size());
-  std::vector<Eigen::Index> null;
-  for (Eigen::Index k = 0; k < values.size(); ++k) {
-    if (std::abs(values(k)) <= threshold) {
-      null.push_back(k);
-    } else {
-      inverse(k) = 1 / values(k);
-      if (values(k) < 0) ++negative_;
-    }
-  }
-  schur_inverse_ = vectors * inverse.asDiagonal() * vectors.transpose();
+FloatingInverse::FloatingInverse(const numerics::PartialCholesky& stiffness, const Eigen::SparseMatrix<double>& mass)
+    : stiffness_(stiffness), mass_(mass) {
+  schur_inverse_ = stiffness.schur();
+  const Eigen::Index contact = schur_inverse_.rows(), n = stiffness.size();
+  // The largest row sum, a bound of the eigenvalues near the largest of them.
+  const double largest = contact == 0 ? 0 : schur_inverse_.cwiseAbs().colwise().sum().maxCoeff();
+  const double threshold = kRigidThreshold * largest;
+  const numerics::SymmetricPairs low = numerics::pairs_up_to(schur_inverse_, threshold);
+  status_ = low.status;
+  if (status_ != Status::converged) return;
+  negative_ = static_cast<int>((low.values.array() < -threshold).count());
 
-  const Eigen::MatrixXd field = solver.expand(vectors(Eigen::all, null));
-  const Eigen::MatrixXd inertia = field.transpose() * (mass * field);
-  rigid_ = field;
-  if (!null.empty()) {
-    const Eigen::LLT<Eigen::MatrixXd> factor(inertia);
-    rigid_ = factor.matrixU().solve<Eigen::OnTheRight>(field);
+  // Negative and null directions are lifted out of the way for the inversion and put back with their own inverses.
+  Eigen::VectorXd inverse = low.values.cwiseInverse();
+  inverse.tail(low.values.size() - negative_).setZero();
+  const auto along = [&](const Eigen::VectorXd& values) -> Eigen::MatrixXd {
+    return low.vectors * values.asDiagonal() * low.vectors.transpose();
+  };
+  schur_inverse_ += along(largest - low.values.array());
+  status_ = numerics::invert_positive_definite(schur_inverse_);
+  if (status_ != Status::converged) return;
+  if (low.values.size() > 0) schur_inverse_ += along(inverse.array() - 1 / largest);
+
+  Eigen::MatrixXd field = Eigen::MatrixXd::Zero(n, low.values.size() - negative_);
+  field.bottomRows(contact) = low.vectors.rightCols(field.cols());
+  rigid_ = stiffness.substitute(field);
+  if (rigid_.cols() > 0) {
+    const Eigen::LLT<Eigen::MatrixXd> factor(rigid_.transpose() * (mass * rigid_));
+    rigid_ = factor.matrixU().solve<Eigen::OnTheRight>(rigid_).eval();
   }
   mass_rigid_ = mass * rigid_;
 }
 
 Eigen::MatrixXd FloatingInverse::apply(const Eigen::Ref<const Eigen::MatrixXd>& b) const {
-  const Eigen::Index internal = solver_.internal_size();
   Eigen::MatrixXd load = b;
   if (rigid_.cols() > 0) load -= mass_rigid_ * (rigid_.transpose() * b).eval();
-  Eigen::MatrixXd x(load.rows(), load.cols());
-  const Eigen::MatrixXd held = solver_.solve_internal(load.topRows(internal));
-  // The load on the contact dofs through the sparse coupling: cheaper than through T once `held` is known.
-  const Eigen::MatrixXd contact =
-      schur_inverse_ * (load.bottomRows(solver_.contact_size()) - solver_.coupling().transpose() * held);
-  x.topRows(internal) = held;
-  numerics::add_product(solver_.response(), contact, x.topRows(internal));
-  x.bottomRows(contact.rows()) = contact;
+  Eigen::MatrixXd x = stiffness_.eliminate(load);
+  const Eigen::MatrixXd condensed = x.bottomRows(stiffness_.border());
+  x.bottomRows(condensed.rows()).setZero();
+  numerics::add_product(schur_inverse_, condensed, x.bottomRows(condensed.rows()));
+  x = stiffness_.substitute(x);
   if (rigid_.cols() > 0) x -= rigid_ * (mass_rigid_.transpose() * x).eval();
   return x;
 }

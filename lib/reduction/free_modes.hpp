@@ -5,27 +5,29 @@
 #include <cmath>
 
 #include "core/status.hpp"
-#include "reduction/contact_solver.hpp"
+#include "numerics/partial_cholesky.hpp"
 
 namespace dovetail::reduction {
 
-/// Inverse of the stiffness of a body that may float. When K is singular to rounding, its null vectors
-/// Phi_0 = [T; I] null(S) are taken out exactly and the inverse is that on their M-complement.
+/// Inverse of the stiffness of a body that may float, from its elimination down to the contact dofs. When K is singular
+/// to rounding, its null vectors Phi_0 = [T; I] null(S) are taken out exactly and the inverse is that on their
+/// M-complement.
 class FloatingInverse {
  public:
-  FloatingInverse(const ContactSolver& solver, const Eigen::SparseMatrix<double>& mass);
+  FloatingInverse(const numerics::PartialCholesky& stiffness, const Eigen::SparseMatrix<double>& mass);
 
+  [[nodiscard]] Status status() const { return status_; }  ///< `singular`: S is so for other reasons than floating
   [[nodiscard]] const Eigen::MatrixXd& rigid_modes() const { return rigid_; }  ///< Phi_0 [n, k0], M-orthonormal
   [[nodiscard]] int negative() const { return negative_; }                     ///< negative eigenvalues of K
-  [[nodiscard]] const ContactSolver& solver() const { return solver_; }
   [[nodiscard]] const Eigen::SparseMatrix<double>& mass() const { return mass_; }
 
   /// x = K^-1 b, b [n, k], in one block.
   [[nodiscard]] Eigen::MatrixXd apply(const Eigen::Ref<const Eigen::MatrixXd>& b) const;
 
  private:
-  const ContactSolver& solver_;
+  const numerics::PartialCholesky& stiffness_;
   const Eigen::SparseMatrix<double>& mass_;
+  Status status_ = Status::converged;
   Eigen::MatrixXd schur_inverse_;  // pseudo-inverse of S
   Eigen::MatrixXd rigid_, mass_rigid_;
   int negative_ = 0;

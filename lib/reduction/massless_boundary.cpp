@@ -8,11 +8,9 @@
 #include <optional>
 #include <utility>
 
-#include "numerics/dense_product.hpp"
 #include "reduction/accuracy.hpp"
 #include "reduction/boundary_basis.hpp"
 #include "reduction/contact_order.hpp"
-#include "reduction/contact_solver.hpp"
 #include "reduction/free_modes.hpp"
 #include "reduction/validation.hpp"
 
@@ -52,15 +50,27 @@ double seconds_since(Clock::time_point start) {
 // Everything that does not depend on the number of modes.
 struct Prepared {
   const FullModel& full;
-  ContactSolver solver;
+  std::shared_ptr<const Eigen::SparseMatrix<double>> mass;  // a copy for later, without the zeros it may store
+  std::shared_ptr<const numerics::PartialCholesky> stiffness;
   std::optional<FloatingInverse> inverse;
   Status status = Status::converged;
-  double seconds = 0;
+  std::string message;
+  double seconds_factorisation = 0, seconds = 0;
 
   explicit Prepared(const FullModel& model) : full(model) {
     const Clock::time_point start = Clock::now();
-    status = solver.factorise(full.stiffness, full.contact_size());
-    if (status == Status::converged) inverse.emplace(solver, full.mass);
+    mass = std::make_shared<Eigen::SparseMatrix<double>>(full.mass.pruned());
+    auto factor = std::make_shared<numerics::PartialCholesky>();
+    status = factor->factorise(full.stiffness, full.contact_size());
+    stiffness = factor;
+    seconds_factorisation = seconds_since(start);
+    if (status == Status::converged) {
+      inverse.emplace(*stiffness, *mass);
+      status = inverse->status();
+      message = "the stiffness could not be inverted on the contact";
+    } else {
+      message = "the stiffness with the contact held is not positive definite";
+    }
     seconds = seconds_since(start);
   }
 };
@@ -72,31 +82,14 @@ void check(const FullModel& full, const ReductionOptions& options) {
   if (!found.empty()) throw InputError(found);
 }
 
-// X^T M X and X^T M Phi, some columns at once: M X is never there as a whole.
-void add_inertia(const FullModel& full, TraceModel& trace) {
-  const Eigen::Index contact = trace.field.cols();
-  trace.cross_inertia.resize(contact, trace.basis.cols());
-  trace.field_inertia.resize(contact, contact);
-  constexpr Eigen::Index kColumns = 64;
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  for (Eigen::Index first = 0; first < contact; first += kColumns) {
-    const Eigen::Index columns = std::min(kColumns, contact - first);
-    // Row by row of the symmetric M: it is read once for all columns.
-    const Rows some = trace.field.middleCols(first, columns);
-    const Eigen::MatrixXd inertia = full.mass.transpose() * some;
-    trace.field_inertia.middleCols(first, columns) = numerics::transposed_product(trace.field, inertia);
-    trace.cross_inertia.middleRows(first, columns) = numerics::transposed_product(inertia, trace.basis);
-  }
-}
-
 TraceModel trace_with(const Prepared& prepared, const ReductionOptions& options) {
   const FullModel& full = prepared.full;
   TraceModel result;
   result.status = prepared.status;
-  result.seconds_factorisation = prepared.solver.seconds_factorisation();
+  result.seconds_factorisation = prepared.seconds_factorisation;
   result.seconds_contact_solves = prepared.seconds - result.seconds_factorisation;
   if (prepared.status != Status::converged) {
-    result.message = "the stiffness with the contact held is not positive definite";
+    result.message = prepared.message;
     return result;
   }
   const FloatingInverse& inverse = *prepared.inverse;
@@ -115,26 +108,24 @@ TraceModel trace_with(const Prepared& prepared, const ReductionOptions& options)
   const Eigen::MatrixXd responses = static_responses(full, inverse, modes, limit - modes.vectors.cols());
   Eigen::MatrixXd vectors(full.size(), modes.vectors.cols() + responses.cols());
   vectors << modes.vectors, responses;
-  RitzBasis basis = rayleigh_ritz(full, vectors);
+  RitzBasis basis = rayleigh_ritz(full.stiffness, *prepared.mass, vectors);
   result.seconds_modes = seconds_since(start);
   result.first_neglected_eigenvalue = modes.first_neglected;
 
   start = Clock::now();
-  ResidualFlexibility residual = residual_flexibility(prepared.solver, full.mass, basis, modes.soft());
-  if (residual.status != Status::converged) {
-    result.status = residual.status;
+  result.structure =
+      std::make_shared<ResidualFlexibility>(prepared.stiffness, *prepared.mass, std::move(basis), modes.soft());
+  result.mass = prepared.mass;
+  if (result.structure->status() != Status::converged) {
+    result.status = result.structure->status();
     result.message = "the stiffness is not positive definite on the complement of the kept modes";
     return result;
   }
-  result.basis = std::move(basis.vectors);
-  result.eigenvalues = std::move(basis.eigenvalues);
-  result.field = std::move(residual.field);
-  result.flexibility = std::move(residual.contact);
-  add_inertia(full, result);
-  result.static_force = result.basis.transpose() * full.static_force;
-  result.cosine_force = result.basis.transpose() * full.cosine_force;
-  result.sine_force = result.basis.transpose() * full.sine_force;
-  result.outputs = result.basis.transpose() * full.outputs;
+  const Eigen::MatrixXd& phi = result.structure->basis().vectors;
+  result.static_force = phi.transpose() * full.static_force;
+  result.cosine_force = phi.transpose() * full.cosine_force;
+  result.sine_force = phi.transpose() * full.sine_force;
+  result.outputs = phi.transpose() * full.outputs;
   result.output_names = full.output_names;
   result.contact = full.contact;
   result.seconds_contact_solves += seconds_since(start);
@@ -177,7 +168,6 @@ Reduction reduce(const TraceModel& trace, const Eigen::SparseMatrix<double>& ave
   Reduction result;
   result.status = trace.status;
   result.message = trace.message;
-  result.free_eigenvalues = trace.eigenvalues;
   result.first_neglected_eigenvalue = trace.first_neglected_eigenvalue;
   result.rigid_modes = trace.rigid_modes;
   result.negative_modes = trace.negative_modes;
@@ -187,9 +177,12 @@ Reduction reduce(const TraceModel& trace, const Eigen::SparseMatrix<double>& ave
   result.seconds_total = trace.seconds_total;
   if (trace.status != Status::converged) return result;
 
+  const RitzBasis& basis = trace.structure->basis();
+  result.free_eigenvalues = basis.eigenvalues;
+  result.full_mass = trace.mass;
   const Eigen::SparseMatrix<double> a = for_directions(average, contact.directions());
-  const Eigen::Index nodal = a.rows(), m = trace.basis.cols();
-  const Eigen::MatrixXd flexibility = a * trace.flexibility * a.transpose();
+  const Eigen::Index nodal = a.rows(), m = basis.vectors.cols();
+  const Eigen::MatrixXd flexibility = a * trace.structure->on_contact() * a.transpose();
   const Eigen::LLT<Eigen::MatrixXd> g(0.5 * (flexibility + flexibility.transpose()));
   if (g.info() != Eigen::Success || !(g.rcond() > 1e-14)) {
     result.status = Status::singular;
@@ -197,10 +190,10 @@ Reduction reduce(const TraceModel& trace, const Eigen::SparseMatrix<double>& ave
     return result;
   }
   const Eigen::MatrixXd inverse = g.solve(Eigen::MatrixXd::Identity(nodal, nodal));
-  const Eigen::MatrixXd free_on_contact = a * trace.basis.bottomRows(a.cols());
+  const Eigen::MatrixXd free_on_contact = a * basis.vectors.bottomRows(a.cols());
   Eigen::MatrixXd glued = free_on_contact.transpose() * g.solve(free_on_contact);
   glued = (0.5 * (glued + glued.transpose())).eval();
-  glued.diagonal() += trace.eigenvalues;
+  glued.diagonal() += basis.eigenvalues;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(glued);
   if (m > 0 && !(eigen.eigenvalues()(0) > 0)) {
     result.status = Status::singular;
@@ -210,9 +203,11 @@ Reduction reduce(const TraceModel& trace, const Eigen::SparseMatrix<double>& ave
   // Coordinates [u; q], q rotated to the glued modes.
   const Eigen::MatrixXd& rotation = eigen.eigenvectors();
   result.glued_frequencies = eigen.eigenvalues().cwiseSqrt();
-  result.recovery.basis = trace.basis * rotation;
-  result.recovery.first = nodal;
-  result.recovery.contact_response = -trace.field * a.transpose();
+  using Columns = Recovery::Columns;
+  result.recovery.linear = [structure = trace.structure, rotation, a](const Columns& q, const Columns& lambda) {
+    const Eigen::MatrixXd force = lambda.size() > 0 ? Eigen::MatrixXd(-a.transpose() * lambda) : Eigen::MatrixXd();
+    return structure->field(rotation * q.bottomRows(rotation.rows()), force);
+  };
 
   ReducedModel& model = result.model;
   const Eigen::Index n = nodal + m;
@@ -239,15 +234,24 @@ Reduction reduce(const TraceModel& trace, const Eigen::SparseMatrix<double>& ave
   model.output_vectors = rows_of(trace.outputs);
   model.output_names = trace.output_names;
 
-  // u = Phi q + Psi lambda, Psi = -X A^T, lambda = -K_red[u rows] (u, q): inertia of that field beyond diag(0, I).
-  const Eigen::MatrixXd force = model.stiffness.topRows(nodal);  // -lambda of unit coordinates [nc, n]
-  const Eigen::MatrixXd field_inertia = a * trace.field_inertia * a.transpose();
-  Eigen::MatrixXd neglected = 0.5 * force.transpose() * field_inertia * force;
-  neglected.rightCols(m) += force.transpose() * (a * trace.cross_inertia * rotation);
-  result.neglected_mass = neglected + neglected.transpose();
-  result.frequency_error = 0.5 * result.neglected_mass.diagonal().tail(m);
   result.seconds_total += seconds_since(start);
   return result;
+}
+
+Eigen::MatrixXd Reduction::neglected_inertia(const Eigen::Ref<const Eigen::MatrixXd>& coordinates) const {
+  // lambda = -K_red[u rows] (u, q): its field comes on top of Phi q, whose inertia the model has.
+  const Eigen::Index contact = model.size() - glued_frequencies.size();
+  const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(coordinates.rows(), coordinates.cols());
+  const Eigen::MatrixXd beyond = recovery.apply(none, -model.stiffness.topRows(contact) * coordinates);
+  const Eigen::MatrixXd represented = recovery.apply(coordinates, Eigen::MatrixXd());
+  const Eigen::MatrixXd inertia = *full_mass * beyond;
+  const Eigen::MatrixXd half = inertia.transpose() * (represented + 0.5 * beyond);
+  return half + half.transpose();
+}
+
+double Reduction::frequency_error(Eigen::Index mode) const {
+  const Eigen::Index contact = model.size() - glued_frequencies.size();
+  return 0.5 * neglected_inertia(Eigen::VectorXd::Unit(model.size(), contact + mode))(0, 0);
 }
 
 Reduction reduce(const FullModel& full, const ReductionOptions& options) {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,6 +12,7 @@
 #include "reduction/full_model.hpp"
 #include "reduction/recovery.hpp"
 #include "reduction/reduced_model.hpp"
+#include "reduction/residual_flexibility.hpp"
 
 namespace dovetail::reduction {
 
@@ -29,34 +32,33 @@ struct Reduction {
   Status status = Status::converged;
   std::string message;  ///< why, when not converged
 
-  ReducedModel model;                     ///< coordinates [contact r (node by node: N, T1[, T2]); glued modes q]
-  Recovery recovery;                      ///< u = Phi q + Psi lambda, all n rows
+  ReducedModel model;  ///< coordinates [contact r (node by node: N, T1[, T2]); glued modes q]
+  Recovery recovery;   ///< u = Phi q + Psi lambda
+  std::shared_ptr<const Eigen::SparseMatrix<double>> full_mass;  ///< [n, n] kg
   Eigen::VectorXd free_eigenvalues;       ///< [m] Lambda of the basis, (rad/s)^2, ascending; may be negative
   Eigen::VectorXd glued_frequencies;      ///< [m] angular frequencies of the glued modes, rad/s, ascending
   double first_neglected_eigenvalue = 0;  ///< (rad/s)^2, infinite when no mode is neglected
-  /// [n_red, n_red] first-order inertia of what the reduction left massless: U^T M U - diag(0, I), with U
-  /// the field to unit reduced coordinates. Source of all error estimates; never part of the model.
-  Eigen::MatrixXd neglected_mass;
-  /// [m] estimated relative error of the glued frequencies (reduced / full - 1).
-  Eigen::VectorXd frequency_error;
-
-  int rigid_modes = 0;     ///< eigenvalues that are zero to rounding
-  int negative_modes = 0;  ///< negative eigenvalues of the full stiffness (spin softening)
+  int rigid_modes = 0;                    ///< eigenvalues that are zero to rounding
+  int negative_modes = 0;                 ///< negative eigenvalues of the full stiffness (spin softening)
   double seconds_factorisation = 0, seconds_contact_solves = 0, seconds_modes = 0, seconds_total = 0;
+
+  /// P^T (U^T M U - diag(0, I)) P with P `coordinates` [n_red, k] and U the field to unit reduced coordinates:
+  /// first-order inertia of what the reduction left massless. Source of all error estimates; never part of the model.
+  /// Cost: k back-solves.
+  [[nodiscard]] Eigen::MatrixXd neglected_inertia(const Eigen::Ref<const Eigen::MatrixXd>& coordinates) const;
+  /// Estimated relative error (reduced / full - 1) of a glued frequency, 0 <= mode < m. Cost: a back-solve.
+  [[nodiscard]] double frequency_error(Eigen::Index mode) const;
 };
 
 /// What a structure is at the trace of its contact, before contact nodes are laid on it: free-interface modes and the
-/// flexibility they leave. The modes, and everything that costs back-solves, are in here; to lay other contact nodes
-/// on the same trace takes dense algebra of their number only.
+/// flexibility they leave. To lay other contact nodes on the same trace takes dense algebra of their number only.
+/// Holds the factors of the stiffness, for fields to come.
 struct TraceModel {
   Status status = Status::converged;
   std::string message;  ///< why, when not converged
 
-  Eigen::MatrixXd basis;        ///< Phi [n, m], M-orthonormal, K-orthogonal
-  Eigen::VectorXd eigenvalues;  ///< Lambda [m] (rad/s)^2
-  Eigen::MatrixXd field;        ///< X [n, nt], m/N: displacement to unit trace forces beyond what Phi represents
-  Eigen::MatrixXd flexibility;  ///< G [nt, nt] = B X
-  Eigen::MatrixXd field_inertia, cross_inertia;             ///< X^T M X [nt, nt], X^T M Phi [nt, m]
+  std::shared_ptr<const ResidualFlexibility> structure;     ///< Phi [n, m], Lambda [m] and X [n, nt], n the full size
+  std::shared_ptr<const Eigen::SparseMatrix<double>> mass;  ///< [n, n]
   Eigen::MatrixXd static_force, cosine_force, sine_force;   ///< Phi^T f [m, 1], [m, H_f], [m, H_f]
   Eigen::MatrixXd outputs;                                  ///< Phi^T c [m, n_out]
   std::vector<std::string> output_names;
@@ -86,7 +88,7 @@ struct TraceModel {
 /// Throws InputError for inconsistent sizes and options out of range. Statuses: `singular` (the glued
 /// structure is not positive definite, or G is not: too many modes for the model), `iteration_limit`
 /// (modes), `not_finite`.
-/// Cost: one sparse factorisation and about nc + 5 modes back-solves.
+/// Cost: one sparse factorisation and about 5 modes back-solves.
 [[nodiscard]] Reduction reduce(const FullModel& full, const ReductionOptions& options = {});
 
 /// The same with `modes` raised from its given value until, by estimate, the relative errors of Z^-1 at all

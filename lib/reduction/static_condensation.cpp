@@ -2,41 +2,58 @@
 
 #include <Eigen/Dense>
 #include <chrono>
+#include <memory>
+#include <utility>
 
+#include "numerics/partial_cholesky.hpp"
 #include "reduction/contact_order.hpp"
-#include "reduction/contact_solver.hpp"
 #include "reduction/validation.hpp"
 
 namespace dovetail::reduction {
 
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+}  // namespace
+
 StaticCondensation condense_statically(const FullModel& full) {
-  const auto start = std::chrono::steady_clock::now();
+  const Clock::time_point start = Clock::now();
   if (const std::vector<Violation> found = violations(full); !found.empty()) throw InputError(found);
   StaticCondensation result;
-  ContactSolver solver;
+  const auto factor = std::make_shared<numerics::PartialCholesky>();
   const Eigen::Index contact = full.contact_size();
-  result.status = solver.factorise(full.stiffness, contact);
-  result.seconds_factorisation = solver.seconds_factorisation();
+  result.status = factor->factorise(full.stiffness, contact);
+  result.seconds_factorisation = seconds_since(start);
   if (result.status != Status::converged) return result;
 
+  Eigen::MatrixXd loads(full.size(), 1 + full.cosine_force.cols() + full.sine_force.cols() + full.outputs.cols());
+  loads << full.static_force, full.cosine_force, full.sine_force, full.outputs;
+  loads = factor->eliminate(loads);
+  const Eigen::MatrixXd condensed = loads.bottomRows(contact).transpose();
   ReducedModel& model = result.model;
-  model.stiffness = solver.schur();
+  model.stiffness = factor->schur();
   model.mass = Eigen::MatrixXd::Zero(contact, contact);
   model.damping = model.mass;
   model.contact = contact_first(full.contact);
-  model.static_force = solver.condense(full.static_force);
-  model.cosine_force = solver.condense(full.cosine_force).transpose();
-  model.sine_force = solver.condense(full.sine_force).transpose();
-  model.output_vectors = solver.condense(full.outputs).transpose();
+  model.static_force = condensed.row(0);
+  model.cosine_force = condensed.middleRows(1, full.cosine_force.cols());
+  model.sine_force = condensed.middleRows(1 + full.cosine_force.cols(), full.sine_force.cols());
+  model.output_vectors = condensed.bottomRows(full.outputs.cols());
   model.output_names = full.output_names;
 
-  const Eigen::Index internal = full.internal_size();
-  result.recovery.basis.resize(full.size(), contact);
-  result.recovery.basis.topRows(internal) = solver.response();
-  result.recovery.basis.bottomRows(contact).setIdentity();
-  result.recovery.offset = Eigen::VectorXd::Zero(full.size());
-  result.recovery.offset.head(internal) = solver.solve_internal(full.static_force.head(internal));
-  result.seconds_total = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  loads.col(0).tail(contact).setZero();
+  result.recovery.offset = factor->substitute(loads.col(0));
+  using Columns = Recovery::Columns;
+  result.recovery.linear = [factor](const Columns& r, const Columns&) {
+    Eigen::MatrixXd field = Eigen::MatrixXd::Zero(factor->size(), r.cols());
+    field.bottomRows(r.rows()) = r;
+    return factor->substitute(field);
+  };
+  result.seconds_total = seconds_since(start);
   return result;
 }
 
@@ -69,8 +86,11 @@ StaticCondensation on_contact(const StaticCondensation& trace, const Eigen::Spar
   model.sine_force = trace.model.sine_force * shape;
   model.output_vectors = trace.model.output_vectors * shape;
   const Eigen::VectorXd free = factor.solve(trace.model.static_force);
-  result.recovery.offset += trace.recovery.basis * (free - shape * (a * free));
-  result.recovery.basis = trace.recovery.basis * shape;
+  result.recovery.offset += trace.recovery.linear(free - shape * (a * free), Eigen::MatrixXd());
+  using Columns = Recovery::Columns;
+  result.recovery.linear = [of_trace = trace.recovery.linear, shape](const Columns& u, const Columns& lambda) {
+    return of_trace(shape * u, lambda);
+  };
   return result;
 }
 

@@ -1,0 +1,244 @@
+#include "numerics/partial_cholesky.hpp"
+
+#include <cblas.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <new>
+#include <numeric>
+#include <vector>
+
+#include "numerics/cholmod_view.hpp"
+
+namespace dovetail::numerics {
+
+namespace {
+
+// Columns carried through the factor at once: enough for matrix-matrix BLAS, little enough for the cache.
+constexpr Eigen::Index kBlockColumns = 32;
+
+using Sparse = Eigen::SparseMatrix<double>;
+// Row by row: what a supernode gathers and scatters is contiguous.
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Its first `columns` columns of a supernode: a dense block, the triangle on top of the rest.
+struct Panel {
+  const double* values;
+  const int* rows;  // [height] of the factor; the first `columns` are consecutive
+  int first, columns, height;
+
+  [[nodiscard]] int below() const { return height - columns; }
+  [[nodiscard]] const double* rectangle() const { return values + columns; }
+};
+
+}  // namespace
+
+struct PartialCholesky::Factor {
+  cholmod_common common{};
+  cholmod_factor* factor = nullptr;
+  Eigen::Index interior = 0;
+
+  Factor() { start_cholmod(common); }
+  ~Factor() {
+    cholmod_free_factor(&factor, &common);
+    cholmod_finish(&common);
+  }
+  Factor(const Factor&) = delete;
+  Factor& operator=(const Factor&) = delete;
+
+  void analyse(const Sparse& lower);
+  Status factorise(Sparse& lower, double& shift);
+
+  [[nodiscard]] int supernodes() const { return static_cast<int>(factor->nsuper); }
+  /// The part of a supernode that lies in the interior, or the whole of it.
+  [[nodiscard]] Panel panel(int supernode, bool whole) const {
+    const auto at = [supernode](const void* list, int k = 0) { return static_cast<const int*>(list)[supernode + k]; };
+    const int first = at(factor->super), last = at(factor->super, 1), rows = at(factor->pi);
+    const int end = whole ? last : std::min(last, static_cast<int>(interior));
+    return {.values = static_cast<const double*>(factor->x) + at(factor->px),
+            .rows = static_cast<const int*>(factor->s) + rows,
+            .first = first,
+            .columns = std::max(0, end - first),
+            .height = at(factor->pi, 1) - rows};
+  }
+  [[nodiscard]] const int* order() const { return static_cast<const int*>(factor->Perm); }
+
+  [[nodiscard]] Eigen::MatrixXd border_factor() const;
+  void eliminate(Rows& x) const;
+  void substitute(Rows& x) const;
+};
+
+// The order that CHOLMOD finds best for the interior, with the border last and as it is.
+void PartialCholesky::Factor::analyse(const Sparse& lower) {
+  Sparse inner = lower.topLeftCorner(interior, interior);
+  inner.makeCompressed();
+  cholmod_sparse view = lower_view(inner);
+  common.supernodal = CHOLMOD_SIMPLICIAL;  // only its order is needed
+  cholmod_factor* found = cholmod_analyze(&view, &common);
+  if (found == nullptr) throw std::bad_alloc();
+  std::vector<int> order(static_cast<std::size_t>(lower.rows()));
+  std::iota(order.begin(), order.end(), 0);
+  std::copy_n(static_cast<const int*>(found->Perm), interior, order.begin());
+  cholmod_free_factor(&found, &common);
+
+  common.supernodal = CHOLMOD_SUPERNODAL;
+  common.nmethods = 1;
+  common.method[0].ordering = CHOLMOD_GIVEN;
+  common.postorder = 0;  // it would mix the border with the interior
+  view = lower_view(lower);
+  factor = cholmod_analyze_p(&view, order.data(), nullptr, 0, &common);
+  if (factor == nullptr) throw std::bad_alloc();
+  assert(std::equal(order.begin(), order.end(), this->order()));
+}
+
+// The whole of A has no Cholesky factor, so its border gets a shift that makes S + shift I positive definite. It is
+// large beside the negative part that S has in a body that floats, and no larger than the rest of S.
+Status PartialCholesky::Factor::factorise(Sparse& lower, double& shift) {
+  constexpr int kAttempts = 6;
+  constexpr double kGrowth = 100;
+  const Eigen::Index border = lower.rows() - interior;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    const double added = attempt == 0 ? shift : (kGrowth - 1) * shift;
+    for (Eigen::Index k = interior; k < lower.rows(); ++k) lower.coeffRef(k, k) += added;
+    if (attempt > 0) shift *= kGrowth;
+    cholmod_sparse view = lower_view(lower);
+    cholmod_factorize(&view, factor, &common);
+    if (common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
+    if (common.status == CHOLMOD_OK && factor->minor >= factor->n) return Status::converged;
+    // The column that failed.
+    if (border == 0 || static_cast<Eigen::Index>(factor->minor) < interior) break;
+  }
+  return Status::singular;
+}
+
+// The Cholesky factor of S + shift I.
+Eigen::MatrixXd PartialCholesky::Factor::border_factor() const {
+  const auto border = static_cast<Eigen::Index>(factor->n) - interior;
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(border, border);
+  for (int s = 0; s < supernodes(); ++s) {
+    const Panel all = panel(s, true);
+    for (int column = panel(s, false).columns; column < all.columns; ++column)
+      for (int row = column; row < all.height; ++row)
+        result(all.rows[row] - interior, all.first + column - interior) = all.values[column * all.height + row];
+  }
+  return result;
+}
+
+void PartialCholesky::Factor::eliminate(Rows& x) const {
+  const auto k = static_cast<int>(x.cols());
+  Rows update;
+  for (int s = 0; s < supernodes(); ++s) {
+    const Panel p = panel(s, false);
+    if (p.columns == 0) break;
+    double* top = x.row(p.first).data();
+    update.resize(p.below(), k);
+    if (k == 1) {
+      cblas_dtrsv(CblasColMajor, CblasLower, CblasNoTrans, CblasNonUnit, p.columns, p.values, p.height, top, 1);
+      if (p.below() == 0) continue;
+      cblas_dgemv(CblasColMajor, CblasNoTrans, p.below(), p.columns, 1.0, p.rectangle(), p.height, top, 1, 0.0,
+                  update.data(), 1);
+    } else {
+      cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, k, p.columns, 1.0, p.values,
+                  p.height, top, k);
+      if (p.below() == 0) continue;
+      cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, k, p.below(), p.columns, 1.0, top, k, p.rectangle(),
+                  p.height, 0.0, update.data(), k);
+    }
+    for (int row = 0; row < p.below(); ++row) x.row(p.rows[p.columns + row]) -= update.row(row);
+  }
+}
+
+void PartialCholesky::Factor::substitute(Rows& x) const {
+  const auto k = static_cast<int>(x.cols());
+  Rows known;
+  for (int s = supernodes() - 1; s >= 0; --s) {
+    const Panel p = panel(s, false);
+    if (p.columns == 0) continue;
+    double* top = x.row(p.first).data();
+    known.resize(p.below(), k);
+    for (int row = 0; row < p.below(); ++row) known.row(row) = x.row(p.rows[p.columns + row]);
+    if (k == 1) {
+      if (p.below() > 0)
+        cblas_dgemv(CblasColMajor, CblasTrans, p.below(), p.columns, -1.0, p.rectangle(), p.height, known.data(), 1,
+                    1.0, top, 1);
+      cblas_dtrsv(CblasColMajor, CblasLower, CblasTrans, CblasNonUnit, p.columns, p.values, p.height, top, 1);
+    } else {
+      if (p.below() > 0)
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, k, p.columns, p.below(), -1.0, known.data(), k,
+                    p.rectangle(), p.height, 1.0, top, k);
+      cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasNoTrans, CblasNonUnit, k, p.columns, 1.0, p.values,
+                  p.height, top, k);
+    }
+  }
+}
+
+PartialCholesky::PartialCholesky() = default;
+PartialCholesky::~PartialCholesky() = default;
+PartialCholesky::PartialCholesky(PartialCholesky&&) noexcept = default;
+PartialCholesky& PartialCholesky::operator=(PartialCholesky&&) noexcept = default;
+
+Eigen::Index PartialCholesky::size() const {
+  return factor_ ? static_cast<Eigen::Index>(factor_->factor->n) : 0;
+}
+
+Status PartialCholesky::factorise(const Sparse& a, Eigen::Index border) {
+  assert(a.rows() == a.cols() && border >= 0 && border <= a.rows());
+  const Eigen::Index interior = a.rows() - border;
+  factor_.reset();
+  // Entries of the border's diagonal must be there for the shift.
+  Sparse diagonal(a.rows(), a.cols());
+  diagonal.reserve(Eigen::VectorXi::Ones(a.cols()));
+  for (Eigen::Index k = interior; k < a.rows(); ++k) diagonal.insert(k, k) = 0;
+  Sparse lower = Sparse(a.triangularView<Eigen::Lower>()) + diagonal;
+  const Eigen::Map<const Eigen::VectorXd> values(lower.valuePtr(), lower.nonZeros());
+  // BLAS kernels let a NaN through as a pivot, so look at the input.
+  if (!std::isfinite(values.cwiseAbs().sum())) return Status::not_finite;
+  const double size = border > 0 ? lower.diagonal().tail(border).cwiseAbs().mean() : 0;
+  double shift = size > 0 ? size : 1;
+
+  auto factor = std::make_unique<Factor>();
+  factor->interior = interior;
+  factor->analyse(lower);
+  const Status status = factor->factorise(lower, shift);
+  if (status != Status::converged) return status;
+  const Eigen::MatrixXd of_border = factor->border_factor();
+  schur_ = Eigen::MatrixXd::Zero(border, border);
+  if (border > 0)
+    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, static_cast<int>(border), static_cast<int>(border), 1.0,
+                of_border.data(), static_cast<int>(border), 0.0, schur_.data(), static_cast<int>(border));
+  schur_.diagonal().array() -= shift;
+  schur_ = schur_.selfadjointView<Eigen::Lower>();
+  factor_ = std::move(factor);
+  return schur_.allFinite() ? Status::converged : Status::not_finite;
+}
+
+Eigen::MatrixXd PartialCholesky::eliminate(const Eigen::Ref<const Eigen::MatrixXd>& b) const {
+  assert(factor_ && b.rows() == size());
+  const Eigen::Map<const Eigen::VectorXi> order(factor_->order(), size());
+  Eigen::MatrixXd y(b.rows(), b.cols());
+  Rows block;
+  for (Eigen::Index first = 0; first < b.cols(); first += kBlockColumns) {
+    const Eigen::Index columns = std::min(kBlockColumns, b.cols() - first);
+    block = b.middleCols(first, columns)(order, Eigen::all);
+    factor_->eliminate(block);
+    y.middleCols(first, columns) = block;
+  }
+  return y;
+}
+
+Eigen::MatrixXd PartialCholesky::substitute(const Eigen::Ref<const Eigen::MatrixXd>& y) const {
+  assert(factor_ && y.rows() == size());
+  const Eigen::Map<const Eigen::VectorXi> order(factor_->order(), size());
+  Eigen::MatrixXd x(y.rows(), y.cols());
+  Rows block;
+  for (Eigen::Index first = 0; first < y.cols(); first += kBlockColumns) {
+    const Eigen::Index columns = std::min(kBlockColumns, y.cols() - first);
+    block = y.middleCols(first, columns);
+    factor_->substitute(block);
+    for (Eigen::Index row = 0; row < size(); ++row) x.row(order(row)).segment(first, columns) = block.row(row);
+  }
+  return x;
+}
+
+}  // namespace dovetail::numerics

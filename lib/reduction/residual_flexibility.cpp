@@ -1,0 +1,57 @@
+#include "reduction/residual_flexibility.hpp"
+
+#include <Eigen/Dense>
+#include <utility>
+
+#include "numerics/dense_product.hpp"
+#include "numerics/dense_symmetric.hpp"
+
+namespace dovetail::reduction {
+
+ResidualFlexibility::ResidualFlexibility(std::shared_ptr<const numerics::PartialCholesky> stiffness,
+                                         const Eigen::SparseMatrix<double>& mass, RitzBasis basis, Eigen::Index low)
+    : stiffness_(std::move(stiffness)), basis_(std::move(basis)) {
+  // K x + M Phi_0 mu = B^T with Phi_0^T M x = 0, internal dofs eliminated (K_ii = L L^T, E = L^-1 (M Phi_0)_i):
+  //   x_r = (S + N d^-1 N^T)^-1, mu = d^-1 N^T x_r, x_i = T x_r - L^-T E mu,
+  //   N = (M Phi_0)_r + T^T (M Phi_0)_i, d = E^T E.
+  const Eigen::Index contact = stiffness_->border(), internal = stiffness_->size() - contact;
+  const Eigen::Index m = basis_.vectors.cols();
+  constrained_ = stiffness_->schur();
+  inertia_.resize(internal, low);
+  multiplier_.resize(low, contact);
+  if (low > 0) {
+    const Eigen::MatrixXd eliminated = stiffness_->eliminate(mass * basis_.vectors.leftCols(low));
+    inertia_ = eliminated.topRows(internal);
+    const Eigen::MatrixXd border = eliminated.bottomRows(contact);
+    const Eigen::LLT<Eigen::MatrixXd> d(inertia_.transpose() * inertia_);
+    if (d.info() != Eigen::Success) {
+      status_ = Status::singular;
+      return;
+    }
+    multiplier_ = d.solve(border.transpose());
+    constrained_ += border * multiplier_;
+  }
+  status_ = numerics::invert_positive_definite(constrained_);
+  if (status_ != Status::converged) return;
+
+  const Eigen::MatrixXd at_contact = basis_.vectors.bottomRows(contact);
+  Eigen::VectorXd softness = Eigen::VectorXd::Zero(m);
+  softness.tail(m - low) = basis_.eigenvalues.tail(m - low).cwiseInverse();
+  represented_ = softness.asDiagonal() * at_contact.transpose();
+  flexibility_ = constrained_ - at_contact * represented_;
+  flexibility_ = (0.5 * (flexibility_ + flexibility_.transpose())).eval();
+  if (!flexibility_.allFinite()) status_ = Status::not_finite;
+}
+
+Eigen::MatrixXd ResidualFlexibility::field(const Eigen::Ref<const Eigen::MatrixXd>& q,
+                                           const Eigen::Ref<const Eigen::MatrixXd>& f) const {
+  if (f.size() == 0) return basis_.vectors * q;
+  const Eigen::MatrixXd at_contact = constrained_ * f;
+  Eigen::MatrixXd x(stiffness_->size(), f.cols());
+  x << -inertia_ * (multiplier_ * at_contact).eval(), at_contact;
+  x = stiffness_->substitute(x);
+  numerics::add_product(basis_.vectors, q - represented_ * f, x);
+  return x;
+}
+
+}  // namespace dovetail::reduction
