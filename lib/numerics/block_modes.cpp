@@ -13,8 +13,6 @@ namespace dovetail::numerics {
 
 namespace {
 
-constexpr Eigen::Index kBlock = 16;
-
 template <class Scalar>
 using Dense = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 
@@ -112,8 +110,9 @@ class Krylov {
         weight_(mass),
         count_(std::min<Eigen::Index>(options.count, inverse.rows)),
         tolerance_(options.tolerance),
+        block_size_(std::min<Eigen::Index>(options.block > 0 ? options.block : kLargeBlock, inverse.rows)),
         limit_(3 * Eigen::Index{options.vector_limit} * options.count + 400),
-        most_(std::min<Eigen::Index>(inverse.rows, 3 * count_ + 5 * kBlock)) {}
+        most_(std::min<Eigen::Index>(inverse.rows, 3 * count_ + 5 * block_size_)) {}
 
   Modes<Scalar> run() {
     Modes<Scalar> modes;
@@ -144,7 +143,7 @@ class Krylov {
   bool start() {
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> uniform(-1, 1);
-    Dense<Scalar> x(inverse_.rows, std::min(kBlock, inverse_.rows));
+    Dense<Scalar> x(inverse_.rows, block_size_);
     for (Scalar& entry : x.reshaped()) {
       entry = uniform(random);
       if constexpr (!std::is_same_v<Scalar, double>) entry += Scalar(0, uniform(random));
@@ -203,7 +202,7 @@ class Krylov {
 
   /// Keeps the best Ritz vectors; what couples them to the next block is known.
   void restart() {
-    const Eigen::Index kept = std::min<Eigen::Index>(count_ + kBlock, values_.size() - 1);
+    const Eigen::Index kept = std::min<Eigen::Index>(count_ + block_size_, values_.size() - 1);
     basis_ = times(basis_, Dense<Scalar>(rotation_.leftCols(kept)));
     projected_ = values_.head(kept).template cast<Scalar>().asDiagonal();
   }
@@ -224,7 +223,7 @@ class Krylov {
   Weight<Scalar> weight_;
   Eigen::Index count_;
   double tolerance_;
-  Eigen::Index limit_, most_, solves_ = 0, last_ = 0;
+  Eigen::Index block_size_, limit_, most_, solves_ = 0, last_ = 0;
   Dense<Scalar> basis_, projected_;  // V and V^H M (K - sigma M)^{-1} M V
   Orthonormal<Scalar> block_;        // the next one
   Eigen::VectorXd values_;

@@ -180,15 +180,18 @@ Modes<Scalar> nearest_modes(const ShiftInverse<Scalar>& inverse, const Eigen::Sp
                             const ModesOptions& options) {
   assert(options.count >= 1 && options.count <= inverse.rows && mass.rows() == inverse.rows);
   constexpr Eigen::Index kDenseSize = 200;
-  // Single vectors are cheap below: plane models stay with them.
-  constexpr Eigen::Index kBlockSize = 30000;
-  if (inverse.rows >= kBlockSize && inverse.perform_block) return block_modes(inverse, mass, options);
+  // Factors of larger bodies are read from memory for every solve.
+  constexpr Eigen::Index kLarge = 30000;
+  ModesOptions in_blocks = options;
+  if (inverse.rows >= kLarge) in_blocks.block = std::max(options.block, kLargeBlock);
+  const bool dense = inverse.rows <= kDenseSize || 3 * Eigen::Index{options.count} > inverse.rows;
+  if (!dense && in_blocks.block > 0 && inverse.perform_block) return block_modes(inverse, mass, in_blocks);
   Modes<Scalar> modes;
   modes.shift = options.shift;
   Found<Scalar> found;
   found.vectors.resize(inverse.rows, 0);
   found.weighted.resize(inverse.rows, 0);
-  if (inverse.rows <= kDenseSize || 3 * Eigen::Index{options.count} > inverse.rows) {
+  if (dense) {
     found = dense_modes(inverse, mass);
     modes.status = found.vectors.allFinite() ? Status::converged : Status::not_finite;
   } else {

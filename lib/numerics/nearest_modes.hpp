@@ -16,6 +16,9 @@ struct ModesOptions {
   /// rounding brings up the second vectors of pairs, which costs further runs and gains little.
   double tolerance = 1e-9;
   int vector_limit = 10;  ///< solves allowed per mode wanted (40 more are always), >= 3
+  /// >= 0. Vectors that block_modes solves for at once: about twice as fast as single ones (0), but an eigenvalue of a
+  /// multiplicity above it may be missed. From 30 000 unknowns on there are 16 at least.
+  int block = 0;
 };
 
 template <class Scalar>
@@ -49,7 +52,7 @@ struct ShiftInverse {
 /// probability that the start is nearly orthogonal to a mode. In the real form of a Hermitian problem v and i v
 /// are two modes: the second is recognised and dropped, complex deflation removes both.
 ///
-/// From 30 000 unknowns on, when the solver takes blocks, block_modes does it.
+/// With a `block`, when the solver takes blocks, block_modes does it.
 ///
 /// Start vectors are fixed: results are reproducible. Cost: some 3 to 6 solves per mode, 20 or more for the check, and
 /// about five M products per solve. Up to 200 unknowns, or when more than a third of the modes are wanted: a dense

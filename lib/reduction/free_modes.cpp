@@ -17,6 +17,8 @@ namespace {
 // S carries the rounding of the elimination, some 1e-13 of its largest entry; the rigid stiffness that
 // spin softening leaves at speed is above 1e-9 of it.
 constexpr double kRigidThreshold = 1e-11;
+// Vectors at once. Rigid motions softened alike by the spin share an eigenvalue: three of them.
+constexpr int kBlock = 5;
 // The search for negative modes ends at this multiple of the modes first asked for.
 constexpr Eigen::Index kSearchRange = 4, kSearchAlways = 100;  // but not below so many modes
 }  // namespace
@@ -84,8 +86,9 @@ FreeModes free_modes(const FloatingInverse& inverse, int count, Eigen::Index lim
   std::vector<Eigen::Index> order;  // of the modes by distance from zero
   for (Eigen::Index asked = wanted + 1;; asked *= 2) {
     asked = std::min(asked, n);
-    modes = numerics::nearest_modes(operation, mass,
-                                    {.count = static_cast<int>(asked), .tolerance = tolerance, .vector_limit = 20});
+    modes = numerics::nearest_modes(
+        operation, mass,
+        {.count = static_cast<int>(asked), .tolerance = tolerance, .vector_limit = 20, .block = kBlock});
     result.status = modes.status;
     if (modes.status != Status::converged) return result;
     order.resize(static_cast<std::size_t>(modes.eigenvalues.size()));
