@@ -72,6 +72,12 @@ std::vector<double> fitted_ends(const EdgeLengths& lengths, const std::vector<do
   return ends;
 }
 
+std::vector<std::vector<double>> ends_of(const fem::ContactCells& cells) {
+  std::vector<std::vector<double>> ends;
+  for (const fem::FlankCells& flank : cells.flanks) ends.insert(ends.end(), flank.across.begin(), flank.across.end());
+  return ends;
+}
+
 std::vector<std::vector<int>> lines_of(const fem::ContactCells& cells) {
   std::vector<std::vector<int>> lines;
   for (int i = 0; i < cells.count(); ++i) {
@@ -91,10 +97,8 @@ struct Edge {
 /// Edges of every strip, rising.
 std::vector<std::vector<Edge>> edge_places(const fem::ContactCells& cells, const wear::ReleaseTrail& trail) {
   const std::vector<std::vector<int>> lines = lines_of(cells);
-  std::vector<std::vector<double>> ends;
+  const std::vector<std::vector<double>> ends = ends_of(cells);
   std::vector<std::vector<Edge>> places(lines.size());
-  for (const fem::FlankCells& flank : cells.flanks)
-    for (const std::vector<double>& across : flank.across) ends.push_back(across);
   for (const wear::ZoneEdge& edge : wear::zone_edges(trail, lines, cells.area)) {
     const auto line = static_cast<std::size_t>(edge.line);
     const auto middle = [&](int node) {
@@ -196,6 +200,34 @@ class EdgeSearch {
   std::vector<std::vector<std::optional<double>>> held_;
 };
 
+/// Displacements U [nc, 2H+1] of one grid carried over to another with the same strips, linear between the middles of
+/// cells: a start for the state there.
+Eigen::MatrixXd carried_over(const Eigen::MatrixXd& from, const std::vector<std::vector<double>>& before,
+                             const std::vector<std::vector<double>>& after, Eigen::Index directions) {
+  std::size_t cells = 0;
+  for (const std::vector<double>& ends : after) cells += ends.size() - 1;
+  Eigen::MatrixXd to(static_cast<Eigen::Index>(cells) * directions, from.cols());
+  Eigen::Index first = 0, row = 0;
+  for (std::size_t strip = 0; strip < after.size(); ++strip) {
+    const std::vector<double>& old = before[strip];
+    const auto middle = [&old](std::size_t k) { return (old[k] + old[k + 1]) / 2; };
+    const std::size_t count = old.size() - 1;
+    for (std::size_t cell = 0; cell + 1 < after[strip].size(); ++cell) {
+      const double at = (after[strip][cell] + after[strip][cell + 1]) / 2;
+      std::size_t k = 0;
+      while (k + 2 < count && middle(k + 1) < at) ++k;
+      const double t = count == 1 ? 0 : std::clamp((at - middle(k)) / (middle(k + 1) - middle(k)), 0.0, 1.0);
+      const Eigen::Index low = (first + static_cast<Eigen::Index>(k)) * directions;
+      const Eigen::Index high = count == 1 ? low : low + directions;
+      to.middleRows(row, directions) =
+          (1 - t) * from.middleRows(low, directions) + t * from.middleRows(high, directions);
+      row += directions;
+    }
+    first += static_cast<Eigen::Index>(count);
+  }
+  return to;
+}
+
 }  // namespace
 
 ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateModel& candidate) {
@@ -221,12 +253,13 @@ ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateMode
     int grid = 0;
     std::vector<fem::FlankCells> flanks;
   } best;
-  double omega = candidate.reduction.glued_frequencies(scene.loading.mode - 1);
+  const response::Resonance peak =
+      response::resonance(candidate.condensed, candidate.reduction.glued_frequencies(scene.loading.mode - 1), {}, steady);
+  if (peak.status != Status::converged) return fit;
+  // At the resonance of the first grid on all of them: it hardly moves, and edges move less.
+  response::SteadyState unworn = peak.state;
   for (;; ++fit.grids) {
-    const response::Resonance unworn = response::resonance(candidate.condensed, omega, {}, steady);
-    if (unworn.status != Status::converged) return fit;
-    omega = unworn.omega;
-    const wear::Asymptote worn = wear::asymptote(candidate.condensed, omega, {}, steady, release, &unworn.state);
+    const wear::Asymptote worn = wear::asymptote(candidate.condensed, peak.omega, {}, steady, release, &unworn);
     if (worn.verdict != wear::Verdict::asymptote) return fit;
     std::vector<std::vector<double>> found =
         search.hold(edge_places(candidate.cells, worn.trail), lengths);
@@ -262,8 +295,13 @@ ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateMode
         ends = fitted_ends(lengths[strip], edges, options, counts[strip]);
         ++strip;
       }
+    const std::vector<std::vector<double>> before = ends_of(candidate.cells);
     lay_contact(scene, flanks, candidate);
     if (!candidate.converged()) return fit;
+    const Eigen::MatrixXd guess =
+        carried_over(unworn.displacement, before, ends_of(candidate.cells), candidate.condensed->directions());
+    unworn = response::steady_state(candidate.condensed, peak.omega, {}, steady, guess);
+    if (unworn.status != Status::converged) return fit;
   }
 }
 

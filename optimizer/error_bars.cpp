@@ -71,9 +71,11 @@ Scene coarsened(Scene scene) {
   };
   scene.mesh.flank_elements = fewer(scene.mesh.flank_elements, 4);
   scene.mesh.aerofoil_elements = fewer(scene.mesh.aerofoil_elements, 2);
-  scene.mesh.fillet_fraction = std::min(1.0, kRatio * scene.mesh.fillet_fraction);
-  scene.mesh.blend_fraction = std::min(2.0, kRatio * scene.mesh.blend_fraction);
-  scene.mesh.bulk_size = std::min(0.1, kRatio * scene.mesh.bulk_size);
+  if (!scene.in_space()) {
+    scene.mesh.fillet_fraction = std::min(1.0, kRatio * scene.mesh.fillet_fraction);
+    scene.mesh.blend_fraction = std::min(2.0, kRatio * scene.mesh.blend_fraction);
+    scene.mesh.bulk_size = std::min(0.1, kRatio * scene.mesh.bulk_size);
+  }
   scene.solid_mesh.slot_elements = fewer(scene.solid_mesh.slot_elements, 2);
   if (scene.solid_mesh.contact_slot_elements > 0)
     scene.solid_mesh.contact_slot_elements = fewer(scene.solid_mesh.contact_slot_elements, 2);

@@ -4,7 +4,8 @@
 
 namespace dovetail::optimizer {
 
-/// The design's scene on a coarser mesh: all sizes 1.5 times as large.
+/// The design's scene on a coarser mesh: all sizes 1.5 times as large. In space those of the flanks, the layers and the
+/// aerofoil: the rest is as coarse as elements of the sweep allow.
 [[nodiscard]] Scene coarsened(Scene scene);
 
 /// Fills error_sources, error_estimates and unbounded of a converged evaluation. How far a response may be from that of
