@@ -27,8 +27,8 @@ struct Score {
 };
 
 /// One spoiled claim of every kind that applies is added to `scores` [mutations()]; `verdict` is on the claim as it
-/// was. The hundredth has to be a thousand times what the tolerance of the solve leaves open; and the finer march is shown
-/// those claims only where large steps cost less than a fifth of it.
+/// was. The hundredth has to be a thousand times what the tolerance of the solve leaves open; and the finer march is
+/// shown those claims only where large steps cost less than a fifth of it.
 void spoil(const Problem& problem, const Claim& claim, const Verdict& verdict, Random& random,
            std::vector<Score>& scores);
 
