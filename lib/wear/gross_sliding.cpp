@@ -11,18 +11,16 @@ namespace dovetail::wear {
 
 namespace {
 
-double largest_force(const response::SteadyState& state) {
-  double force = 0.0;
-  for (const response::NodeSummary& node : state.nodes) force = std::max(force, node.max_normal_force);
-  return force;
-}
-
-/// Of the nodes that carry more than `least`: worn ones that just touch bear nothing.
-double loaded_area(const response::CondensedModel& model, const response::SteadyState& state, double least) {
-  double area = 0.0;
-  for (Eigen::Index i = 0; i < model.nodes(); ++i)
-    if (state.nodes[static_cast<std::size_t>(i)].max_normal_force > least) area += model.contact().area[i];
-  return area;
+/// The area over which the load is spread, (sum lambda_N)^2 / sum (lambda_N^2 / A): all of it where pressures are
+/// alike, hardly more than one node's where one carries it. Worn nodes that just touch do not count.
+double bearing_area(const response::CondensedModel& model, const response::SteadyState& state) {
+  double load = 0.0, squares = 0.0;
+  for (Eigen::Index i = 0; i < model.nodes(); ++i) {
+    const double force = state.nodes[static_cast<std::size_t>(i)].max_normal_force;
+    load += force;
+    squares += force * force / model.contact().area[i];
+  }
+  return squares > 0.0 ? load * load / squares : 0.0;
 }
 
 bool held_without_contact(const response::CondensedModel& model, double omega) {
@@ -61,10 +59,7 @@ Bearing bearing(const response::CondensedModel& model, const response::SteadySta
   Bearing left;
   if (depth.size() == 0) return left;
   left.needed = !held_without_contact(model, unworn.omega);
-  constexpr double kTouches = 1e-3;
-  const double least = kTouches * largest_force(unworn);
-  if (const double before = loaded_area(model, unworn, least); before > 0.0)
-    left.share = loaded_area(model, worn, least) / before;
+  if (const double before = bearing_area(model, unworn); before > 0.0) left.share = bearing_area(model, worn) / before;
   if (const double compression = flank_compression(model, unworn); compression > 0.0)
     left.closing = depth.maxCoeff() / compression;
   return left;
