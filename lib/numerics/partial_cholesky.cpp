@@ -71,22 +71,24 @@ struct PartialCholesky::Factor {
 
 // The order that CHOLMOD finds best for the interior, with the border last and as it is.
 void PartialCholesky::Factor::analyse(const Sparse& lower) {
-  Sparse inner = lower.topLeftCorner(interior, interior);
-  inner.makeCompressed();
-  cholmod_sparse view = lower_view(inner);
-  common.supernodal = CHOLMOD_SIMPLICIAL;  // only its order is needed
-  cholmod_factor* found = cholmod_analyze(&view, &common);
-  if (found == nullptr) throw std::bad_alloc();
   std::vector<int> order(static_cast<std::size_t>(lower.rows()));
   std::iota(order.begin(), order.end(), 0);
-  std::copy_n(static_cast<const int*>(found->Perm), interior, order.begin());
-  cholmod_free_factor(&found, &common);
+  if (interior > 0) {
+    Sparse inner = lower.topLeftCorner(interior, interior);
+    inner.makeCompressed();
+    cholmod_sparse view = lower_view(inner);
+    common.supernodal = CHOLMOD_SIMPLICIAL;  // only its order is needed
+    cholmod_factor* found = cholmod_analyze(&view, &common);
+    if (found == nullptr) throw std::bad_alloc();
+    std::copy_n(static_cast<const int*>(found->Perm), interior, order.begin());
+    cholmod_free_factor(&found, &common);
+  }
 
   common.supernodal = CHOLMOD_SUPERNODAL;
   common.nmethods = 1;
   common.method[0].ordering = CHOLMOD_GIVEN;
   common.postorder = 0;  // it would mix the border with the interior
-  view = lower_view(lower);
+  cholmod_sparse view = lower_view(lower);
   factor = cholmod_analyze_p(&view, order.data(), nullptr, 0, &common);
   if (factor == nullptr) throw std::bad_alloc();
   assert(std::equal(order.begin(), order.end(), this->order()));
