@@ -1,6 +1,7 @@
 #include "numerics/partial_cholesky.hpp"
 
 #include <cblas.h>
+#include <lapacke.h>
 
 #include <algorithm>
 #include <cassert>
@@ -204,13 +205,12 @@ Status PartialCholesky::factorise(const Sparse& a, Eigen::Index border) {
   factor->analyse(lower);
   const Status status = factor->factorise(lower, shift);
   if (status != Status::converged) return status;
-  const Eigen::MatrixXd of_border = factor->border_factor();
-  schur_ = Eigen::MatrixXd::Zero(border, border);
-  if (border > 0)
-    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, static_cast<int>(border), static_cast<int>(border), 1.0,
-                of_border.data(), static_cast<int>(border), 0.0, schur_.data(), static_cast<int>(border));
+  // L L^T by LAPACK, which has U U^T: U is L in reverse order.
+  Eigen::MatrixXd upper = factor->border_factor().reverse();
+  const auto n = static_cast<lapack_int>(border);
+  if (n > 0) LAPACKE_dlauum_work(LAPACK_COL_MAJOR, 'U', n, upper.data(), n);
+  schur_ = Eigen::MatrixXd(upper.selfadjointView<Eigen::Upper>()).reverse();
   schur_.diagonal().array() -= shift;
-  schur_ = schur_.selfadjointView<Eigen::Lower>();
   factor_ = std::move(factor);
   return schur_.allFinite() ? Status::converged : Status::not_finite;
 }
