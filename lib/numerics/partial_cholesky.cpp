@@ -1,6 +1,7 @@
 #include "numerics/partial_cholesky.hpp"
 
 #include <cblas.h>
+#include <lapacke.h>
 
 #include <algorithm>
 #include <cassert>
@@ -71,22 +72,24 @@ struct PartialCholesky::Factor {
 
 // The order that CHOLMOD finds best for the interior, with the border last and as it is.
 void PartialCholesky::Factor::analyse(const Sparse& lower) {
-  Sparse inner = lower.topLeftCorner(interior, interior);
-  inner.makeCompressed();
-  cholmod_sparse view = lower_view(inner);
-  common.supernodal = CHOLMOD_SIMPLICIAL;  // only its order is needed
-  cholmod_factor* found = cholmod_analyze(&view, &common);
-  if (found == nullptr) throw std::bad_alloc();
   std::vector<int> order(static_cast<std::size_t>(lower.rows()));
   std::iota(order.begin(), order.end(), 0);
-  std::copy_n(static_cast<const int*>(found->Perm), interior, order.begin());
-  cholmod_free_factor(&found, &common);
+  if (interior > 0) {
+    Sparse inner = lower.topLeftCorner(interior, interior);
+    inner.makeCompressed();
+    cholmod_sparse view = lower_view(inner);
+    common.supernodal = CHOLMOD_SIMPLICIAL;  // only its order is needed
+    cholmod_factor* found = cholmod_analyze(&view, &common);
+    if (found == nullptr) throw std::bad_alloc();
+    std::copy_n(static_cast<const int*>(found->Perm), interior, order.begin());
+    cholmod_free_factor(&found, &common);
+  }
 
   common.supernodal = CHOLMOD_SUPERNODAL;
   common.nmethods = 1;
   common.method[0].ordering = CHOLMOD_GIVEN;
   common.postorder = 0;  // it would mix the border with the interior
-  view = lower_view(lower);
+  cholmod_sparse view = lower_view(lower);
   factor = cholmod_analyze_p(&view, order.data(), nullptr, 0, &common);
   if (factor == nullptr) throw std::bad_alloc();
   assert(std::equal(order.begin(), order.end(), this->order()));
@@ -202,13 +205,12 @@ Status PartialCholesky::factorise(const Sparse& a, Eigen::Index border) {
   factor->analyse(lower);
   const Status status = factor->factorise(lower, shift);
   if (status != Status::converged) return status;
-  const Eigen::MatrixXd of_border = factor->border_factor();
-  schur_ = Eigen::MatrixXd::Zero(border, border);
-  if (border > 0)
-    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, static_cast<int>(border), static_cast<int>(border), 1.0,
-                of_border.data(), static_cast<int>(border), 0.0, schur_.data(), static_cast<int>(border));
+  // L L^T by LAPACK, which has U U^T: U is L in reverse order.
+  Eigen::MatrixXd upper = factor->border_factor().reverse();
+  const auto n = static_cast<lapack_int>(border);
+  if (n > 0) LAPACKE_dlauum_work(LAPACK_COL_MAJOR, 'U', n, upper.data(), n);
+  schur_ = Eigen::MatrixXd(upper.selfadjointView<Eigen::Upper>()).reverse();
   schur_.diagonal().array() -= shift;
-  schur_ = schur_.selfadjointView<Eigen::Lower>();
   factor_ = std::move(factor);
   return schur_.allFinite() ? Status::converged : Status::not_finite;
 }
