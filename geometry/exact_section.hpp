@@ -20,7 +20,8 @@ inline constexpr double kOverlapNoise = 2e-12;
 [[nodiscard]] bool is_simple(const Chain& chain);
 
 /// Area common to the insides of two closed, simple, counter-clockwise chains, m2. Common boundary (the flanks)
-/// has no area. Neither chain may cross itself or run clockwise: callers check (CGAL does not in Release). Cost: some milliseconds.
+/// has no area. Neither chain may cross itself or run clockwise: callers check (CGAL does not in Release). Cost: some
+/// milliseconds.
 [[nodiscard]] double overlap_area(const Chain& first, const Chain& second);
 
 }  // namespace dovetail::geometry

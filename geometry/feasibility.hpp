@@ -18,7 +18,8 @@ struct Rule {
 struct Feasibility {
   bool feasible = false;    ///< every margin >= 0
   std::vector<Rule> rules;  ///< all of them, kept or not
-  double overlap_area = 0;  ///< of blade and disk, m2; 0 when a chain crosses itself or is inside out (not defined then)
+  double overlap_area =
+      0;  ///< of blade and disk, m2; 0 when a chain crosses itself or is inside out (not defined then)
 };
 
 /// Shortest straight part, and least step between the lobe's and the neck fillet's radius, that counts as one, m.

@@ -106,16 +106,15 @@ std::vector<fem::Material> materials(const Scene& scene) {
 
 void lay_contact(const Scene& scene, const std::vector<fem::FlankCells>& flanks, CandidateModel& candidate) {
   candidate.cells = fem::contact_cells(candidate.mesh.sector, flanks);
-  candidate.reduction = reduction::reduce(candidate.trace, candidate.cells.average,
-                                          contact_nodes(candidate.cells, 0, scene.contact),
-                                          scene.loading.damping_ratio);
+  candidate.reduction =
+      reduction::reduce(candidate.trace, candidate.cells.average, contact_nodes(candidate.cells, 0, scene.contact),
+                        scene.loading.damping_ratio);
   if (candidate.reduction.status != Status::converged) {
     candidate.status = failed("reduction", candidate.reduction.status) + " " + candidate.reduction.message;
     return;
   }
-  candidate.preload =
-      response::quasi_static(std::make_shared<const response::CondensedModel>(candidate.reduction.model),
-                             {.budget = candidate.budget});
+  candidate.preload = response::quasi_static(
+      std::make_shared<const response::CondensedModel>(candidate.reduction.model), {.budget = candidate.budget});
   if (candidate.preload.status != Status::converged) {
     candidate.status = failed("preload", candidate.preload.status);
     return;

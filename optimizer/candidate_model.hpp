@@ -58,9 +58,8 @@ class ModelBuilder {
   explicit ModelBuilder(const Scene& reference);
 
   /// Stages in order: feasibility, mesh motion, assembly, preload without geometric stiffness (for the stresses it
-  /// comes from), stiffness at speed, reduction to the trace, contact nodes by the sizes of the scene. The scene's type and mesh sizes must be the
-  /// reference's.
-  /// Throws InputError for a scene that violates its ranges.
+  /// comes from), stiffness at speed, reduction to the trace, contact nodes by the sizes of the scene. The scene's type
+  /// and mesh sizes must be the reference's. Throws InputError for a scene that violates its ranges.
   [[nodiscard]] CandidateModel build(const Scene& scene) const;
 
  private:

@@ -30,9 +30,9 @@ class EdgeLengths {
   std::vector<double> corners_;
 };
 
-/// Ends of cells over a flank with an end on each of `edges` (rising, inside 0 to 1). `counts`: of the cells between two
-/// of them; those of the last grid stay while they differ by one from what the lengths ask for: where an edge is found
-/// depends a little on the number of cells, and must not go to and fro between two of them.
+/// Ends of cells over a flank with an end on each of `edges` (rising, inside 0 to 1). `counts`: of the cells between
+/// two of them; those of the last grid stay while they differ by one from what the lengths ask for: where an edge is
+/// found depends a little on the number of cells, and must not go to and fro between two of them.
 std::vector<double> fitted_ends(const EdgeLengths& lengths, const std::vector<double>& edges,
                                 const ContactFitOptions& options, std::vector<int>& counts) {
   const auto wanted = [&](double s) {
@@ -64,7 +64,8 @@ std::vector<double> fitted_ends(const EdgeLengths& lengths, const std::vector<do
     for (int c = 1; c < count; ++c) {
       const double at = cells.back() * c / count;
       const auto above = std::upper_bound(cells.begin(), cells.end() - 1, at);
-      const double step = static_cast<double>(above - cells.begin()) - 1 + (at - *(above - 1)) / (*above - *(above - 1));
+      const double step =
+          static_cast<double>(above - cells.begin()) - 1 + (at - *(above - 1)) / (*above - *(above - 1));
       ends.push_back(from + piece * step / kSteps);
     }
     ends.push_back(fixed[p + 1]);
@@ -122,9 +123,7 @@ std::vector<std::vector<Edge>> edge_places(const fem::ContactCells& cells, const
 /// Zones narrower than the trace resolves: those at the ends of the flank stay as wide as it resolves, others are none.
 void widen_narrow(const EdgeLengths& lengths, const ContactFitOptions& options, std::vector<double>& edges) {
   constexpr double kNarrowest = 0.3;  // of the finest cell
-  const auto narrowest = [&](double at) {
-    return kNarrowest * options.finest * lengths.at(std::clamp(at, 0.0, 1.0));
-  };
+  const auto narrowest = [&](double at) { return kNarrowest * options.finest * lengths.at(std::clamp(at, 0.0, 1.0)); };
   for (double& edge : edges) edge = std::clamp(edge, narrowest(0), 1 - narrowest(1));
   for (std::size_t k = 0; k + 1 < edges.size();)
     if (edges[k + 1] - edges[k] < narrowest(edges[k]))
@@ -178,7 +177,8 @@ class EdgeSearch {
                                         const std::vector<std::vector<double>>& laid) {
     std::vector<std::vector<double>> places = found;
     for (std::size_t l = 0; l < found.size(); ++l) {
-      if (laid_.size() != laid.size() || laid_[l].size() != laid[l].size() || found[l].size() != laid[l].size()) continue;
+      if (laid_.size() != laid.size() || laid_[l].size() != laid[l].size() || found[l].size() != laid[l].size())
+        continue;
       for (std::size_t k = 0; k < found[l].size(); ++k) {
         const double step = laid[l][k] - laid_[l][k];
         const double slope = step == 0 ? 0 : (miss(found, laid, l, k) - miss(found_, laid_, l, k)) / step;
@@ -253,16 +253,15 @@ ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateMode
     int grid = 0;
     std::vector<fem::FlankCells> flanks;
   } best;
-  const response::Resonance peak =
-      response::resonance(candidate.condensed, candidate.reduction.glued_frequencies(scene.loading.mode - 1), {}, steady);
+  const response::Resonance peak = response::resonance(
+      candidate.condensed, candidate.reduction.glued_frequencies(scene.loading.mode - 1), {}, steady);
   if (peak.status != Status::converged) return fit;
   // At the resonance of the first grid on all of them: it hardly moves, and edges move less.
   response::SteadyState unworn = peak.state;
   for (;; ++fit.grids) {
     const wear::Asymptote worn = wear::asymptote(candidate.condensed, peak.omega, {}, steady, release, &unworn);
     if (worn.verdict != wear::Verdict::asymptote) return fit;
-    std::vector<std::vector<double>> found =
-        search.hold(edge_places(candidate.cells, worn.trail), lengths);
+    std::vector<std::vector<double>> found = search.hold(edge_places(candidate.cells, worn.trail), lengths);
     fit.moved = 0;
     fit.edges = 0;
     for (std::size_t l = 0; l < found.size(); ++l) {
@@ -276,7 +275,8 @@ ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateMode
     // A zone that the finer cells beside its edge make vanish is none.
     const bool vanished = fit.edges == 0 && fit.grids > 0;
     fit.settled = vanished || fit.moved <= options.tolerance;
-    if (fit.moved <= best.moved || vanished) best = {.moved = fit.moved, .grid = fit.grids, .flanks = candidate.cells.flanks};
+    if (fit.moved <= best.moved || vanished)
+      best = {.moved = fit.moved, .grid = fit.grids, .flanks = candidate.cells.flanks};
     if (fit.settled) return fit;
     if (fit.grids == options.grids) {
       // Edges that go to and fro: the grid that they would have left least.

@@ -21,8 +21,8 @@ namespace dovetail::optimizer {
 /// - edge: ends of worn zones that went to and fro between two grids, in proportion to how far.
 /// - search: what the tolerance of the resonance search leaves.
 ///
-/// The last four kinds are asked of the coarse companion, which costs a fraction. The bar is the sum. A response without
-/// a limit is `unbounded`: the pressure peak at sharp ends of the flanks, and whatever a companion that did not
+/// The last four kinds are asked of the coarse companion, which costs a fraction. The bar is the sum. A response
+/// without a limit is `unbounded`: the pressure peak at sharp ends of the flanks, and whatever a companion that did not
 /// converge leaves open (with a message).
 /// @param coarse  makes the models of coarsened(scene). Cost: four to five evaluations of the coarse scene.
 void add_error_bars(const Scene& scene, const ModelBuilder& coarse, CandidateResult& result);

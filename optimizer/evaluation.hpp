@@ -22,7 +22,7 @@ struct Evaluation {
   std::map<std::string, std::map<std::string, double>> error_sources;  ///< response name -> source -> part of the bar
   std::vector<std::string> unbounded;              ///< responses without a bar: they have no limit, or it is not known
   std::vector<std::string> undecided_constraints;  ///< names of those whose value lies within its bar of the limit
-  std::map<std::string, double> model;            ///< sizes chosen: dofs, contact nodes, modes, ...
+  std::map<std::string, double> model;             ///< sizes chosen: dofs, contact nodes, modes, ...
   std::map<std::string, double> timings_s;
   std::vector<std::string> messages;  ///< broken rules, re-meshing, fall-backs: for people
   /// Optional derivatives: name of a response or constraint -> gradient by design variable, in the

@@ -49,7 +49,7 @@ void static_responses(const Scene& scene, const CandidateModel& model, Evaluatio
     mean = std::max(mean, force / area);
   }
   responses["contact_pressure_mean_pa"] = mean;
-  responses["glued_frequency_hz"] = hertz(model.reduction.glued_frequencies(scene.loading.mode - 1));
+  responses["glued_frequency_hz"] = hertz(reduction::glued_frequencies(model.trace)(scene.loading.mode - 1));
 }
 
 void fillet_responses(const Scene& scene, CandidateResult& result) {
@@ -127,8 +127,7 @@ std::string dynamics(const Scene& scene, const Computation& how, CandidateResult
   responses["asymptotic_wear_volume_m3"] = asymptote.worn_volume;
   responses["asymptotic_wear_depth_max_m"] = asymptote.largest_depth;
 
-  const wear::Drift drift =
-      wear::resonance_drift(model.condensed, *result.unworn, {}, asymptote.depth, steady, {});
+  const wear::Drift drift = wear::resonance_drift(model.condensed, *result.unworn, {}, asymptote.depth, steady, {});
   result.worn = drift.worn;
   evaluation.timings_s["worn_resonance"] = watch.lap();
   if (result.worn->status != Status::converged) return "worn_resonance: " + std::string(to_string(result.worn->status));

@@ -35,10 +35,10 @@ class SceneEvaluator {
  public:
   explicit SceneEvaluator(const Scene& reference);
 
-  /// All responses, with their error bars unless those are left out, as in a search. Never throws for what a candidate is like: an impossible geometry is
-  /// "infeasible" with its rules in `constraints`, a stage that did not converge is named in `status`. Throws
-  /// InputError for a scene that violates the ranges of its keys. Cost: about a second at the default sizes, and twice as
-  /// much for the bars.
+  /// All responses, with their error bars unless those are left out, as in a search. Never throws for what a candidate
+  /// is like: an impossible geometry is "infeasible" with its rules in `constraints`, a stage that did not converge is
+  /// named in `status`. Throws InputError for a scene that violates the ranges of its keys. Cost: about a second at the
+  /// default sizes, and twice as much for the bars.
   [[nodiscard]] CandidateResult evaluate(const Scene& scene, bool bars = true) const;
 
   [[nodiscard]] const ModelBuilder& builder() const { return builder_; }

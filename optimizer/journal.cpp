@@ -81,7 +81,9 @@ JournalContents read_journal(const std::filesystem::path& file) {
     if (!record) {
       // A crash can tear only the line being written; a torn header still begins like one.
       const bool torn_header = line_number == 1 && line_of(header_text("")).starts_with(line.substr(0, kBefore.size()));
-      if (!last || (line_number == 1 && !torn_header))
+      // Nor can it join two lines: then the newline between them was damaged.
+      const bool joined = line.find(kBefore, 1) != std::string_view::npos;
+      if (!last || joined || (line_number == 1 && !torn_header))
         refuse(
             file, line_number, line_number == 1 ? "no journal header" : "damaged record",
             line_number == 1 ? "must be a dovetail journal" : "must match its checksum; restore the file or remove it");

@@ -72,12 +72,12 @@ std::string wear_down(const Scene& scene, const CandidateResult& fine, const Ver
       verification.history_profile = (2 * reached - depth).cwiseMax(0.0);
     }
     if (history.end != wear::HistoryEnd::worn_out)
-      return failure("history",
-                     history.end == wear::HistoryEnd::failed ? to_string(history.status) : wear::to_string(history.end));
+      return failure("history", history.end == wear::HistoryEnd::failed ? to_string(history.status)
+                                                                        : wear::to_string(history.end));
   }
   verification.history_depth = verification.history_profile.maxCoeff();
-  verification.profile_difference = (verification.history_profile - verification.direct_profile).cwiseAbs().maxCoeff() /
-                                    verification.direct_depth;
+  verification.profile_difference =
+      (verification.history_profile - verification.direct_profile).cwiseAbs().maxCoeff() / verification.direct_depth;
   return "converged";
 }
 

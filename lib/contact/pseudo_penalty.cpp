@@ -9,13 +9,18 @@ PseudoPenalty pseudo_penalty(const Eigen::VectorXd& local_stiffness, Eigen::Inde
   assert(directions >= 2 && local_stiffness.size() % directions == 0);
   const Eigen::Index nodes = local_stiffness.size() / directions;
   const double largest = nodes > 0 ? local_stiffness.maxCoeff() : 0;
-  const double floor = largest > 0 ? 1e-3 * largest : 1.0;
+  const auto automatic = [&](double stiffness) {
+    if (stiffness > 1e-12 * largest && stiffness > 0) return stiffness;
+    // Contact that has mass resists the faster it is moved, without limit: a stiff value in proportion to that.
+    if (stiffness < 0) return -1e-3 * stiffness;
+    return largest > 0 ? 1e-3 * largest : 1.0;
+  };
   PseudoPenalty result{.normal = Eigen::VectorXd(nodes), .tangential = Eigen::VectorXd(nodes)};
   for (Eigen::Index i = 0; i < nodes; ++i) {
     const double along = local_stiffness(i * directions);
     const double across = local_stiffness.segment(i * directions + 1, directions - 1).mean();
-    result.normal(i) = normal > 0 ? normal : (along > 1e-12 * largest ? along : floor);
-    result.tangential(i) = tangential > 0 ? tangential : (across > 1e-12 * largest ? across : floor);
+    result.normal(i) = normal > 0 ? normal : automatic(along);
+    result.tangential(i) = tangential > 0 ? tangential : automatic(across);
   }
   return result;
 }

@@ -19,8 +19,9 @@ struct PseudoPenalty {
 
 /// eps from the local contact stiffness, the high-harmonic limit of diag(Z_h) when contact carries no mass:
 /// `local_stiffness` [Nc d], node by node (N, T1[, T2]), d directions. The mean over tangential directions is
-/// used; entries that are not positive are replaced by a thousandth of the largest one.
-/// `normal`, `tangential` > 0 override the values of all nodes (N/m), 0 keeps the automatic ones.
+/// used; zero entries are replaced by a thousandth of the largest one, negative ones (contact with mass) by a
+/// thousandth of their size. `normal`, `tangential` > 0 override the values of all nodes (N/m), 0 keeps the automatic
+/// ones.
 [[nodiscard]] PseudoPenalty pseudo_penalty(const Eigen::VectorXd& local_stiffness, Eigen::Index directions,
                                            double normal = 0, double tangential = 0);
 

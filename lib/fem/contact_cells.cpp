@@ -43,7 +43,8 @@ Weights mean_over(const std::vector<double>& nodes, std::size_t order, double fr
 }
 
 void check(const std::vector<double>& ends, const std::string& key) {
-  const bool rises = ends.size() >= 2 && std::adjacent_find(ends.begin(), ends.end(), std::greater_equal<>()) == ends.end();
+  const bool rises =
+      ends.size() >= 2 && std::adjacent_find(ends.begin(), ends.end(), std::greater_equal<>()) == ends.end();
   if (!rises || ends.front() != 0.0 || ends.back() != 1.0)
     throw InputError(
         {.file = {}, .key = key, .value = std::to_string(ends.size()) + " ends", .allowed = "must rise from 0 to 1"});

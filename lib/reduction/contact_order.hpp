@@ -20,7 +20,8 @@ namespace dovetail::reduction {
 }
 
 /// A for every direction: the dofs of a node stand side by side.
-[[nodiscard]] inline Eigen::SparseMatrix<double> for_directions(const Eigen::SparseMatrix<double>& average, Eigen::Index directions) {
+[[nodiscard]] inline Eigen::SparseMatrix<double> for_directions(const Eigen::SparseMatrix<double>& average,
+                                                                Eigen::Index directions) {
   std::vector<Eigen::Triplet<double>> entries;
   for (Eigen::Index column = 0; column < average.outerSize(); ++column)
     for (Eigen::SparseMatrix<double>::InnerIterator entry(average, column); entry; ++entry)

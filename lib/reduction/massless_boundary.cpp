@@ -157,6 +157,29 @@ double worst_error(const Reduction& reduction, std::span<const double> angular_f
 
 }  // namespace
 
+namespace {
+
+/// Lambda + Phi_r^T G^-1 Phi_r [m, m].
+Eigen::MatrixXd glued_stiffness(const RitzBasis& basis, const Eigen::LLT<Eigen::MatrixXd>& flexibility,
+                                const Eigen::MatrixXd& on_contact) {
+  Eigen::MatrixXd glued = on_contact.transpose() * flexibility.solve(on_contact);
+  glued = (0.5 * (glued + glued.transpose())).eval();
+  glued.diagonal() += basis.eigenvalues;
+  return glued;
+}
+
+}  // namespace
+
+Eigen::VectorXd glued_frequencies(const TraceModel& trace) {
+  const RitzBasis& basis = trace.structure->basis();
+  const Eigen::MatrixXd& flexibility = trace.structure->on_contact();
+  const Eigen::LLT<Eigen::MatrixXd> g(flexibility);
+  const Eigen::MatrixXd on_contact = basis.vectors.bottomRows(flexibility.rows());
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(glued_stiffness(basis, g, on_contact),
+                                                             Eigen::EigenvaluesOnly);
+  return eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+}
+
 TraceModel trace_model(const FullModel& full, const ReductionOptions& options) {
   check(full, options);
   return trace_with(Prepared(full), options);
@@ -191,10 +214,7 @@ Reduction reduce(const TraceModel& trace, const Eigen::SparseMatrix<double>& ave
   }
   const Eigen::MatrixXd inverse = g.solve(Eigen::MatrixXd::Identity(nodal, nodal));
   const Eigen::MatrixXd free_on_contact = a * basis.vectors.bottomRows(a.cols());
-  Eigen::MatrixXd glued = free_on_contact.transpose() * g.solve(free_on_contact);
-  glued = (0.5 * (glued + glued.transpose())).eval();
-  glued.diagonal() += basis.eigenvalues;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(glued);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(glued_stiffness(basis, g, free_on_contact));
   if (m > 0 && !(eigen.eigenvalues()(0) > 0)) {
     result.status = Status::singular;
     result.message = "the glued structure is not positive definite";

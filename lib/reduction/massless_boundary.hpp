@@ -79,6 +79,9 @@ struct TraceModel {
 [[nodiscard]] Reduction reduce(const TraceModel& trace, const Eigen::SparseMatrix<double>& average,
                                ContactNodes contact, double damping_ratio);
 
+/// Angular frequencies of the structure glued at every trace node, rad/s, ascending.
+[[nodiscard]] Eigen::VectorXd glued_frequencies(const TraceModel& trace);
+
 /// Reduces `full` to its contact dofs without mass and m coordinates with unit mass:
 ///   K_red = [[G^-1, -G^-1 Phi_r], [-Phi_r^T G^-1, Lambda + Phi_r^T G^-1 Phi_r]],  M_red = diag(0, I),
 /// with Phi the lowest free-interface modes and the static responses to all loads and outputs, and

@@ -72,8 +72,8 @@ struct Asymptote {
   ReleaseTrail trail;                 ///< of the passes of release
   double worn_volume = 0.0;           ///< m^3
   double largest_depth = 0.0;         ///< m
-  Eigen::VectorXd unworn_rate;  ///< [Nc] dW of the unworn state, m per cycle
-  Eigen::VectorXd rate;         ///< [Nc] dW of the worn state, m per cycle (no asymptote: the steady one)
+  Eigen::VectorXd unworn_rate;        ///< [Nc] dW of the unworn state, m per cycle
+  Eigen::VectorXd rate;               ///< [Nc] dW of the worn state, m per cycle (no asymptote: the steady one)
   /// Largest rate with gap g + W and contact everywhere over the largest unworn rate; NaN when not computed.
   double certificate = 0.0;
   /// The same at 2H+1 harmonics and 2N samples, of the depth that is the answer; `harmonics` 0 when not asked for.
@@ -86,8 +86,8 @@ struct Asymptote {
   /// gross_sliding (hardly anything bears, see Bearing),
   /// certificate (above its limit), lift_off (a worn node touched at times only), reload (a node worn off on the way
   /// did not need to), worst_first (releasing the fastest nodes first does not end there, or reloads), near_slip (a
-  /// node that sticks has less than 5 % of its friction to spare), finer_settings (the certificate is above its limit at
-  /// finer settings) or always (asked for).
+  /// node that sticks has less than 5 % of its friction to spare), finer_settings (the certificate is above its limit
+  /// at finer settings) or always (asked for).
   std::string doubt;
   std::string decided_by = "release";    ///< release | history: what `depth` and `verdict` are from
   bool confirmed_by_history = false;     ///< the history was run to an end and has decided

@@ -31,7 +31,8 @@ constexpr double kExcess = 0.7;
 
 }  // namespace
 
-std::vector<ZoneEdge> zone_edges(const ReleaseTrail& trail, std::span<const std::vector<int>> lines, const Eigen::VectorXd& size) {
+std::vector<ZoneEdge> zone_edges(const ReleaseTrail& trail, std::span<const std::vector<int>> lines,
+                                 const Eigen::VectorXd& size) {
   std::vector<ZoneEdge> edges;
   for (std::size_t l = 0; l < lines.size(); ++l)
     for (std::size_t k = 0; k + 1 < lines[l].size(); ++k) {

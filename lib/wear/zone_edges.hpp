@@ -32,7 +32,8 @@ struct ZoneEdge {
 
 /// Ends of the worn zones along lines of neighbouring nodes. In the continuum a zone ends where the reserve of friction
 /// vanishes; between the worn node and the bearing one the reserve of the pass that released the first is interpolated
-/// linearly. `size` [Nc]: lengths or areas of the nodes. An end beside a node without load is no edge: there the flanks are apart.
+/// linearly. `size` [Nc]: lengths or areas of the nodes. An end beside a node without load is no edge: there the flanks
+/// are apart.
 [[nodiscard]] std::vector<ZoneEdge> zone_edges(const ReleaseTrail& trail, std::span<const std::vector<int>> lines,
                                                const Eigen::VectorXd& size);
 

@@ -35,6 +35,7 @@ class Study {
     say("model and preload");
     const optimizer::ModelBuilder builder(results_.scene);
     candidate_.model = builder.build(results_.scene);
+    if (candidate_.model.converged()) optimizer::fit_contact(results_.scene, {}, candidate_.model);
     if (!candidate_.model.converged()) {
       fail("The model could not be computed: " + candidate_.model.status + ".");
       return std::move(results_);
@@ -139,8 +140,8 @@ class Study {
         states.push_back({.cycles = history.cycles[at], .depth_m = history.depth_m[at]});
     }
     if (candidate_.asymptote->verdict == wear::Verdict::asymptote)
-      states.push_back({.cycles = std::numeric_limits<double>::infinity(),
-                        .depth_m = list(candidate_.asymptote->depth)});
+      states.push_back(
+          {.cycles = std::numeric_limits<double>::infinity(), .depth_m = list(candidate_.asymptote->depth)});
     return states;
   }
 
@@ -190,7 +191,8 @@ class Study {
     optimizer::Scene scene = results_.scene;
     optimizer::set_parameter(scene, "geometry.left.flank_angle_deg",
                              optimizer::parameter(scene, "geometry.left.flank_angle_deg") + kDegrees);
-    const optimizer::CandidateModel model = optimizer::ModelBuilder(scene).build(scene);
+    optimizer::CandidateModel model = optimizer::ModelBuilder(scene).build(scene);
+    if (model.converged()) optimizer::fit_contact(scene, {}, model);
     if (!model.converged()) return;
     const double glued = model.reduction.glued_frequencies(scene.loading.mode - 1);
     const response::Resonance unworn = response::resonance(model.condensed, glued, {}, steady_);
@@ -200,7 +202,7 @@ class Study {
     if (found.verdict != wear::Verdict::asymptote) return;
     results_.unequal_flanks_degrees = kDegrees;
     results_.unequal_flanks_volume_m3.assign(2, 0.0);
-    const fem::ContactSurface& surface = model.system.contact;
+    const fem::ContactCells& surface = model.cells;
     for (Eigen::Index i = 0; i < surface.count(); ++i)
       results_.unequal_flanks_volume_m3[surface.flank(i) == 0 ? 0 : 1] += surface.area(i) * found.depth(i);
   }

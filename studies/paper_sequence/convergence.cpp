@@ -115,10 +115,11 @@ class Convergence {
     rows_.push_back(std::move(row));
   }
 
-  static std::string measure(ConvergenceRow& row, const optimizer::CandidateModel& model,
-                             const optimizer::Scene& scene) {
+  static std::string measure(ConvergenceRow& row, optimizer::CandidateModel model, const optimizer::Scene& scene) {
+    optimizer::fit_contact(scene, {}, model);
+    if (!model.converged()) return model.status;
     const Eigen::VectorXd& pressure = model.preload.pressure;
-    const Eigen::VectorXd& area = model.system.contact.area;
+    const Eigen::VectorXd& area = model.cells.area;
     row.pressure_mean_pa = pressure.dot(area) / area.sum();
     row.pressure_max_pa = pressure.maxCoeff();
     const response::SteadyOptions steady = optimizer::steady_options(scene.solver);

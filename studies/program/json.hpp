@@ -19,8 +19,8 @@ struct WearBand;
 /// Doubles are written with the shortest text that reads back to the same value. A number that does not exist is null:
 /// of an evaluation, a response that is not finite; of a wear computation, the number of cycles of an asymptote.
 
-/// {"status", "feasible", "parameters", "responses", "constraints", "error_estimates", "error_sources", "unbounded", "undecided_constraints", "model", "timings_s",
-/// "messages"[, "derivatives"]}
+/// {"status", "feasible", "parameters", "responses", "constraints", "error_estimates", "error_sources", "unbounded",
+/// "undecided_constraints", "model", "timings_s", "messages"[, "derivatives"]}
 [[nodiscard]] std::string evaluation_json(const optimizer::Evaluation& evaluation);
 
 /// How far harmonics, samples and pseudo-penalty may have moved a worn state; infinite: unknown.

@@ -144,8 +144,7 @@ Json other_states(const wear::Asymptote& asymptote) {
 /// What an attempt without a verdict knows of the worn state: nothing.
 void add_unknown_asymptote(const wear::Asymptote& asymptote, Json& json) {
   for (const char* key : {"cycles", "worn_volume_m3"}) json[key] = unknown(1);
-  for (const char* key : {"depth_m", "final_wear_rate_m_per_cycle"})
-    json[key] = unknown(asymptote.depth.size());
+  for (const char* key : {"depth_m", "final_wear_rate_m_per_cycle"}) json[key] = unknown(asymptote.depth.size());
   for (const char* key : {"certificate", "decided_by"}) json[key] = nullptr;
 }
 

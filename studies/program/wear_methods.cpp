@@ -127,12 +127,9 @@ WearBand wear_band(const WearOptions& options, const LoadedModel& loaded, const 
     band.largest_depth.push_back(answer.worn_out() ? answer.depth.maxCoeff() : kUnknown);
     if (answer.status == "not_converged") ++band.failed;
     if (answer.worn_out())
-      band.envelope = band.envelope.size() > 0 ? band.envelope.cwiseMax(answer.depth).eval()
-                                               : answer.depth;
+      band.envelope = band.envelope.size() > 0 ? band.envelope.cwiseMax(answer.depth).eval() : answer.depth;
     // Endless wear is worse than any volume; a failed one is only shown when there is nothing else.
-    const double badness = answer.worn_out()                 ? answer.volume
-                           : answer.status == "no_asymptote" ? kInfinity
-                                                             : -0.5;
+    const double badness = answer.worn_out() ? answer.volume : answer.status == "no_asymptote" ? kInfinity : -0.5;
     if (badness > worst) {
       worst = badness;
       band.worst = band.status.size() - 1;

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -130,9 +130,8 @@ void add_curves(const Scene& scene, const CandidateResult& result, const DesignR
   record.glued = glued_curve(model, frequencies(range, glued, options.curve_points));
   record.unworn = frictional_curve(scene, model, frequencies(range, result.unworn->omega, options.curve_points), {});
   if (result.worn && result.worn->status == Status::converged && result.asymptote)
-    record.worn =
-        frictional_curve(scene, model, frequencies(range, result.worn->omega, options.curve_points),
-                         {.wear_depth = result.asymptote->depth, .released = {}, .slip_origin = {}});
+    record.worn = frictional_curve(scene, model, frequencies(range, result.worn->omega, options.curve_points),
+                                   {.wear_depth = result.asymptote->depth, .released = {}, .slip_origin = {}});
   for (const auto& [name, curve] : {std::pair{"new", &record.unworn}, std::pair{"worn", &record.worn}}) {
     const auto failed = std::count_if(curve->status.begin(), curve->status.end(),
                                       [](const std::string& s) { return s != "converged"; });

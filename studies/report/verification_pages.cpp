@@ -72,12 +72,12 @@ std::string verification_table(const RunRecord& record) {
     text += "<th scope=\"col\">" + escape(column) + "</th>";
   text += "<th scope=\"col\" class=\"text\">status</th></tr></thead><tbody>\n";
   for (const VerificationRecord& v : record.verifications) {
-    text +=
-        fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>",
-                    v.evaluation + 1, with_error(v.search_volume_m3, v.search_bar_m3, volume),
-                    significant(v.direct_volume_m3 / volume.si, 4), with_error(v.history_volume_m3, v.history_bar_m3, volume),
-                    per_cent(v.history_volume_m3, v.direct_volume_m3), significant(v.direct_depth_m / depth.si, 4),
-                    significant(v.history_depth_m / depth.si, 4));
+    text += fmt::format(
+        "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>",
+        v.evaluation + 1, with_error(v.search_volume_m3, v.search_bar_m3, volume),
+        significant(v.direct_volume_m3 / volume.si, 4), with_error(v.history_volume_m3, v.history_bar_m3, volume),
+        per_cent(v.history_volume_m3, v.direct_volume_m3), significant(v.direct_depth_m / depth.si, 4),
+        significant(v.history_depth_m / depth.si, 4));
     text += fmt::format("<td>{}\u00a0%</td><td>{}</td><td>{}</td><td class=\"text\">{}</td></tr>\n",
                         significant(100 * v.profile_difference, 2), v.direct_solves, v.history_solves,
                         escape(v.status == "converged" ? "agree within their bars" : v.status));

@@ -18,24 +18,21 @@ optimizer::Scene skewed(optimizer::Scene scene, double degrees) {
   return scene;
 }
 
-/// The node does not lie on the border of its flank's grid.
-bool inside(const fem::Flank& flank, int node) {
-  const int i = node % flank.grid[0], j = node / flank.grid[0];
-  return i > 0 && j > 0 && i + 1 < flank.grid[0] && j + 1 < flank.grid[1];
-}
-
 void summarise(const optimizer::CandidateModel& model, Joint& joint) {
   double force = 0, area = 0;
   std::size_t k = 0;
-  for (const fem::Flank& flank : model.mesh.sector.flanks)
-    for (int node = 0; node < flank.contact_count(); ++node, ++k) {
-      const double pressure = joint.contact.preload_pressure_pa[k];
-      force += pressure * joint.contact.area_m2[k];
-      area += joint.contact.area_m2[k];
-      joint.pressure_max_pa = std::max(joint.pressure_max_pa, pressure);
-      if (inside(flank, node)) joint.interior_pressure_max_pa = std::max(joint.interior_pressure_max_pa, pressure);
-      joint.slip_max_m = std::max(joint.slip_max_m, joint.slip_m[k]);
-    }
+  for (const fem::FlankCells& flank : model.cells.flanks)
+    for (std::size_t strip = 0; strip < flank.across.size(); ++strip)
+      for (std::size_t cell = 0; cell + 1 < flank.across[strip].size(); ++cell, ++k) {
+        const bool inside = strip > 0 && strip + 1 < flank.across.size() && cell > 0 &&
+                            cell + 2 < flank.across[strip].size();  // not on the border of the flank
+        const double pressure = joint.contact.preload_pressure_pa[k];
+        force += pressure * joint.contact.area_m2[k];
+        area += joint.contact.area_m2[k];
+        joint.pressure_max_pa = std::max(joint.pressure_max_pa, pressure);
+        if (inside) joint.interior_pressure_max_pa = std::max(joint.interior_pressure_max_pa, pressure);
+        joint.slip_max_m = std::max(joint.slip_max_m, joint.slip_m[k]);
+      }
   joint.pressure_mean_pa = force / area;
 }
 

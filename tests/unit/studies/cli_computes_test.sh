@@ -66,8 +66,8 @@ assert rest["history"]["increment_m"] == part["history"]["increment_m"]
 assert len(rest["depths_m"]) == len(rest["cycles"]) == len(rest["wear_rates_m_per_cycle"])
 assert [len(c["amplitude_m"]) for c in rest["response_curves"]] == [4, 4]
 assert implicit["history"]["integrator"] == "implicit" and implicit["history"]["tolerance"] == 1e-3
-for other in (rest, implicit):  # finished by release, to the residuals of steady states
-    assert abs(other["final_worn_volume_m3"] / whole["final_worn_volume_m3"] - 1) < 1e-6
+for other, tolerance in (rest, 1e-6), (implicit, 1e-3):  # residuals of steady states; local errors of the integrator
+    assert abs(other["final_worn_volume_m3"] / whole["final_worn_volume_m3"] - 1) < tolerance
 END
 fi
 expect 2 wear m.h5 --method history --resume s.toml --json -

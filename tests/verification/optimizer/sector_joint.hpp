@@ -69,7 +69,22 @@ inline std::vector<FlankLoad> flank_loads(const fem::SectorMesh& sector, const f
 }
 
 inline std::vector<FlankLoad> flank_loads(const CandidateModel& model) {
-  return flank_loads(model.mesh.sector, model.system, model.preload);
+  std::vector<FlankLoad> loads;
+  const Eigen::Index d = model.cells.position.rows();
+  Eigen::Index first = 0;
+  for (const fem::FlankCells& flank : model.cells.flanks) {
+    const auto across = std::ssize(flank.across.front()) - 1, along = std::ssize(flank.across), count = across * along;
+    FlankLoad load;
+    load.pressure = model.preload.pressure.segment(first, count).reshaped(across, along);
+    load.area = model.cells.area.segment(first, count).reshaped(across, along);
+    const Eigen::MatrixXd force = model.preload.force.segment(d * first, d * count).reshaped(d, count);
+    load.normal = force.row(0).sum();
+    load.tangential = force.row(1).sum();
+    if (d == 3) load.axial = force.row(2).sum();
+    loads.push_back(load);
+    first += count;
+  }
+  return loads;
 }
 
 }  // namespace dovetail::optimizer::testing

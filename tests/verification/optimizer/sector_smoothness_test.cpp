@@ -25,7 +25,7 @@ class SectorSmoothness : public ::testing::TestWithParam<Line> {};
 Scene everything() {
   Scene scene = testing::joint("sector");
   scene.mesh.flank_elements = 4;
-  scene.solid_mesh.slot_elements = 2;
+  scene.solid_mesh.slot_elements = 3;  // a crown along the slot has the same mean over each half
   scene.solver.modes = 8;
   for (const auto& [key, value] : std::vector<std::pair<std::string, double>>{{"geometry.skew_angle_deg", 8},
                                                                               {"geometry.stagger_deg", 12},

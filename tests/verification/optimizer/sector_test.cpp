@@ -83,11 +83,14 @@ TEST(SectorAgainstSection, PreloadAgreesAndMoreSoInALongerSlot) {
       EXPECT_GT(deep[f].pressure.col(0).mean(), 1.1 * deep[f].middle().mean());
       EXPECT_NEAR(deep[f].pressure.col(0).mean(), deep[f].pressure.col(last).mean(), 1e-6 * flat[f].mean());
     }
-    middle.push_back(difference(deep[0].middle(), flat[0].middle()) / flat[0].mean());
+    // But for the cells at the ends, where the pressure is singular.
+    const Eigen::Index inner = deep[0].pressure.rows() - 2;
+    middle.push_back(difference(deep[0].middle().segment(1, inner), flat[0].middle().segment(1, inner)) /
+                     flat[0].mean());
     frequency.push_back(std::abs(sector.reduction.glued_frequencies(0) / section.reduction.glued_frequencies(0) - 1));
   }
   // What the ends take does not grow with the slot, so the middle lacks half as much in one twice as long (measured
-  // 0.15 and 0.07, at the node next to the neck; 0.04 elsewhere). The aerofoil, as wide as the slot is long, comes
+  // 0.15 and 0.07, next to the neck; 0.04 elsewhere). The aerofoil, as wide as the slot is long, comes
   // nearer to the section's plane strain (0.017 and 0.012), but stays far from it while its chord is not many times its
   // span.
   EXPECT_LT(middle[0], 0.17);

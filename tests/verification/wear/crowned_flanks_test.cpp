@@ -23,11 +23,11 @@ struct Worn {
   Asymptote direct;
 };
 
-Worn wear_off(const optimizer::ModelBuilder& builder, optimizer::Scene scene, double crown_um, bool fitted = true) {
+Worn wear_off(const optimizer::ModelBuilder& builder, optimizer::Scene scene, double crown_um) {
   optimizer::set_parameter(scene, "geometry.flank_crown_um", crown_um);
   Worn worn;
   worn.model = builder.build(scene);
-  if (fitted) optimizer::fit_contact(scene, {}, worn.model);
+  optimizer::fit_contact(scene, {}, worn.model);
   worn.steady = optimizer::steady_options(scene.solver);
   const response::Resonance peak = response::resonance(
       worn.model.condensed, worn.model.reduction.glued_frequencies(scene.loading.mode - 1), {}, worn.steady);
@@ -69,26 +69,21 @@ TEST(CrownedFlanks, WearAsHistoriesDo) {
   }
 }
 
-// A node more or less in the worn zone changes the volume by a third, unless nodes end where the zone does.
+// Nodes end where the worn zone does: none joins or leaves it as a whole.
 TEST(CrownedFlanks, VolumeHasNoJumps) {
   const optimizer::ModelBuilder builder(scene());
-  std::vector<double> whole, fitted;
+  std::vector<double> fitted;
   for (int i = 0; i < 13; ++i) {
     const Worn worn = wear_off(builder, scene(), 2.0 + 0.25 * i);
     ASSERT_EQ(worn.direct.verdict, Verdict::asymptote);
     fitted.push_back(worn.direct.worn_volume);
-    const Worn fixed = wear_off(builder, scene(), 2.0 + 0.25 * i, false);
-    ASSERT_EQ(fixed.direct.verdict, Verdict::asymptote);
-    whole.push_back(fixed.direct.worn_volume);
   }
   const auto largest_step = [](const std::vector<double>& values) {
     double largest = 0.0;
     for (std::size_t i = 1; i < values.size(); ++i) largest = std::max(largest, std::abs(values[i] - values[i - 1]));
     return largest / *std::max_element(values.begin(), values.end());
   };
-  RecordProperty("whole", std::to_string(largest_step(whole)));
   RecordProperty("fitted", std::to_string(largest_step(fitted)));
-  EXPECT_GT(largest_step(whole), 0.1);
   EXPECT_LT(largest_step(fitted), 0.02);
 }
 
