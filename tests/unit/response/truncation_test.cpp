@@ -67,12 +67,14 @@ TEST(LocalStiffness, IsStaticWhereContactHasMass) {
 
 TEST(PseudoPenalty, HasOneTangentialValuePerNode) {
   Eigen::VectorXd local(6);
-  local << 5, 2, 4, 7, 0, -1;
+  local << 5, 2, 4, 7, 0, 0;
   const contact::PseudoPenalty automatic = contact::pseudo_penalty(local, 3);
   EXPECT_EQ(automatic.normal(0), 5);
   EXPECT_EQ(automatic.tangential(0), 3);
   EXPECT_EQ(automatic.normal(1), 7);
   EXPECT_DOUBLE_EQ(automatic.tangential(1), 7e-3);  // nothing positive: a thousandth of the largest
+  local.tail(2) << -3e6, -5e6;
+  EXPECT_DOUBLE_EQ(contact::pseudo_penalty(local, 3).tangential(1), 4e3);  // mass: a thousandth of its resistance
   const contact::PseudoPenalty given = contact::pseudo_penalty(local, 3, 10, 20);
   EXPECT_EQ(given.normal(1), 10);
   EXPECT_EQ(given.tangential(0), 20);

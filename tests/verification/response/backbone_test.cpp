@@ -110,7 +110,8 @@ void expect_maxima(const Backbone& backbone, const BackboneFamily& family, const
       const SteadyState near =
           steady_state(problem.model, point.omega * beside, problem.condition, steady, point.state.displacement);
       ASSERT_EQ(near.status, Status::converged);
-      EXPECT_LE(near.amplitudes(0), point.amplitude * (1 + 1e-10)) << point.parameter;
+      // The slope of ln A over ln w jumps by up to some 1 / (2 zeta N) = 0.2 between neighbouring maxima.
+      EXPECT_LE(near.amplitudes(0), point.amplitude * (1 + 0.2e-6)) << point.parameter << " beside " << beside;
     }
     const Resonance again = resonance(problem.model, point.omega * 1.003, problem.condition, steady, kTight.resonance);
     ASSERT_EQ(again.status, Status::converged);
