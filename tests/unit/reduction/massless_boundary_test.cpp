@@ -213,5 +213,37 @@ TEST(MasslessBoundary, RefusesContactDofsThatAreNotLast) {
   EXPECT_THROW((void)reduce(full), InputError);
 }
 
+// Two contact nodes on a trace of four, each the mean of two: the static flexibility they see is A K^-1 A^T.
+TEST_P(Spinning, OtherNodesOnTheTraceSeeItsFlexibility) {
+  const FullModel full = truss_model({.speed = GetParam()});
+  const TraceModel trace = trace_model(full, {.modes = 6});
+  ASSERT_EQ(trace.status, Status::converged) << trace.message;
+  Eigen::SparseMatrix<double> average(2, 4);
+  average.insert(0, 0) = average.insert(0, 1) = 0.5;
+  average.insert(1, 2) = 0.25;
+  average.insert(1, 3) = 0.75;
+  ContactNodes nodes = full.contact;
+  for (Eigen::VectorXd* values : {&nodes.area, &nodes.gap, &nodes.friction, &nodes.wear_coefficient})
+    values->conservativeResize(2);
+  nodes.normal.conservativeResize(2);
+  nodes.tangential.conservativeResize(2, 1);
+  nodes.position.resize(0, 3);
+  nodes.group.resize(0);
+  nodes.slip_origin.resize(0, 0);
+  const Reduction reduced = reduce(trace, average, nodes, 1e-3);
+  ASSERT_EQ(reduced.status, Status::converged) << reduced.message;
+
+  const Eigen::Index contact = full.contact_size();
+  const Eigen::MatrixXd inverse = Eigen::MatrixXd(full.stiffness).inverse().bottomRightCorner(contact, contact);
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(4, 8);
+  for (Eigen::Index row = 0; row < 2; ++row)
+    for (Eigen::Index column = 0; column < 4; ++column)
+      a.block<2, 2>(2 * row, 2 * column) = average.coeff(row, column) * Eigen::Matrix2d::Identity();
+  const Eigen::MatrixXd expected = a * inverse * a.transpose();
+  const Eigen::MatrixXd found = Eigen::MatrixXd(reduced.model.stiffness.inverse()).topLeftCorner(4, 4);
+  // Condition numbers near 1e4 times a few hundred operations.
+  EXPECT_LT((found - expected).norm(), 1e-9 * expected.norm());
+}
+
 }  // namespace
 }  // namespace dovetail::reduction
