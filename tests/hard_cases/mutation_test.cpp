@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <cstdlib>
 #include <iostream>
 
 #include "tests/hard_cases/mutations.hpp"
@@ -12,9 +14,12 @@ namespace {
 // The checks of the hard cases have teeth: answers of the solver, tuned and fresh, spoiled by a hundredth of a node's
 // largest force, are rejected by each check that is there for what was spoiled.
 TEST(Oracle, RejectsSpoiledAnswersByEachCheckThatShould) {
+  // Rates of one miss in fifty scatter from seed to seed: the same fresh problems in every run, unless asked for
+  // others.
+  const std::uint64_t seed = std::getenv("DOVETAIL_SEED") != nullptr ? seed_of_run() : 1;
   std::vector<Family> all = families();
-  for (Family& family : fresh_families(seed_of_run())) all.push_back(std::move(family));
-  std::cout << "fresh problems: DOVETAIL_SEED=" << seed_of_run() << "\n";
+  for (Family& family : fresh_families(seed)) all.push_back(std::move(family));
+  std::cout << "fresh problems: DOVETAIL_SEED=" << seed << "\n";
   std::vector<Score> scores(mutations().size());
   for (const Family& family : all)
     for (int index = 0; index < family.count; ++index) {
