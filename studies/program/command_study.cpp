@@ -1,6 +1,7 @@
 // Commands that read or write study files and compute nothing, or one candidate.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <ostream>
 
@@ -66,8 +67,11 @@ std::string evaluation_table(const optimizer::Evaluation& evaluation) {
   if (!evaluation.constraints.empty()) text += "\nconstraints, satisfied when <= 0\n";
   for (const auto& [name, value] : evaluation.constraints)
     if (!name.starts_with(optimizer::kRulePrefix) || value > 0)
-      text += fmt::format("  {:<44} {:>12.5g}\n", name, value);
-  return text;
+      text +=
+          fmt::format("  {:<44} {:>12.5g}{}\n", name, value,
+                      std::ranges::count(evaluation.undecided_constraints, name) > 0 ? "  within its error bar" : "");
+  for (const std::string& name : evaluation.unbounded) text += fmt::format("\n{} has no error bar", name);
+  return evaluation.unbounded.empty() ? text : text + "\n";
 }
 
 }  // namespace

@@ -91,6 +91,22 @@ TEST(Problem, AnnotatesConstraintsAndMissingValues) {
   EXPECT_EQ(without.status, "response: peak_amplitude_m is missing");
 }
 
+// Values decide what is feasible; what lies within its bar of the limit, on either side, is not decided.
+TEST(Problem, NamesConstraintsWithinTheirBars) {
+  Evaluation e = typical();
+  e.responses["peak_amplitude_m"] = 7.9e-3;
+  e.error_estimates = {{"peak_amplitude_m", 0.2e-3}, {"resonance_drift", 1e-4}};
+  annotate(two_terms(), 0, e);
+  EXPECT_TRUE(e.feasible);
+  EXPECT_THAT(e.undecided_constraints, ::testing::ElementsAre("peak_amplitude_m:upper"));
+  e.error_estimates["peak_amplitude_m"] = 0.05e-3;
+  annotate(two_terms(), 0, e);
+  EXPECT_TRUE(e.undecided_constraints.empty());
+  e.error_estimates["resonance_drift"] = 6e-4;
+  annotate(two_terms(), 0, e);
+  EXPECT_THAT(e.undecided_constraints, ::testing::ElementsAre("resonance_drift:upper"));
+}
+
 TEST(Problem, SuggestsTheNearestResponse) {
   Problem problem = two_terms();
   problem.objective[0].response = "asymptotic_wear_volume";

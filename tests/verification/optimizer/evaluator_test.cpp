@@ -41,7 +41,16 @@ TEST(SectionEvaluation, ConvergesWithEveryResponseAndAFiniteErrorBar) {
   ASSERT_TRUE(evaluation.converged()) << evaluation.status;
   for (const auto& [name, value] : evaluation.responses) EXPECT_TRUE(std::isfinite(value)) << name;
   EXPECT_GE(evaluation.responses.size(), 17U);
-  for (const auto& [name, bar] : evaluation.error_estimates) EXPECT_TRUE(std::isfinite(bar) && bar >= 0) << name;
+  // Every response has a bar, the sum of its sources, or is named as one without a limit.
+  EXPECT_EQ(evaluation.error_estimates.size() + evaluation.unbounded.size(), evaluation.responses.size());
+  EXPECT_EQ(evaluation.unbounded, (std::vector<std::string>{"contact_pressure_max_pa"}));
+  for (const auto& [name, bar] : evaluation.error_estimates) {
+    EXPECT_TRUE(std::isfinite(bar) && bar >= 0) << name;
+    double sum = 0;
+    for (const auto& [source, part] : evaluation.error_sources.at(name)) sum += part;
+    EXPECT_DOUBLE_EQ(sum, bar) << name;
+  }
+  EXPECT_GT(evaluation.error_sources.at("resonance_hz").at("mesh"), 0);
 }
 
 // The status names the stage that spent the budget, responses of those before it stay.
