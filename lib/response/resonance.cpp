@@ -52,13 +52,9 @@ class PeakSearch {
   bool go(double omega) {
     for (int halving = 0; halving < 8 && result_.solves < peak_.max_solves; ++halving) {
       Eigen::MatrixXd guess = guess_;
-      SteadyOptions options = options_;
-      // Next to a state that is known, half the way is a better start than any rescue, which may end on another branch.
-      if (now_.state.linearisation) {
-        options.max_rescue_iterations = 0;
+      if (now_.state.linearisation)
         guess = now_.state.displacement + (omega - now_.omega) * now_.state.linearisation->response_to_frequency();
-      }
-      SteadyState state = steady_state(model_, omega, condition_, options, guess, now_.state.linearisation);
+      SteadyState state = steady_state(model_, omega, condition_, options_, guess, now_.state.linearisation);
       ++result_.solves;
       result_.jacobians += state.iterations;
       last_status_ = state.status;

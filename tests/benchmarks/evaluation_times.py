@@ -59,6 +59,8 @@ def evaluate(program, settings, extra, limit):
     try:
         done = subprocess.run(command, capture_output=True, timeout=limit, text=True, check=False,
                               env=os.environ | {"OPENBLAS_NUM_THREADS": "1"})
+        if not done.stdout:
+            sys.exit(f"{' '.join(command)}: exit status {done.returncode}\n{done.stderr}")
         answer = json.loads(done.stdout)
     except subprocess.TimeoutExpired:
         answer = {"status": "not ended", "model": {}, "responses": {}, "error_estimates": {}}
