@@ -6,7 +6,7 @@
 #include "fem/flank_trace.hpp"
 #include "fem/stress.hpp"
 #include "geometry/solid_rules.hpp"
-#include "optimizer/contact_fit.hpp"
+#include "optimizer/cell_grid.hpp"
 #include "optimizer/stopwatch.hpp"
 #include "reduction/static_condensation.hpp"
 #include "response/work.hpp"
@@ -172,7 +172,7 @@ CandidateModel ModelBuilder::build(const Scene& scene) const {
   }
 
   candidate.mesh.sector = fem::with_trace(candidate.mesh.sector);
-  const std::vector<fem::FlankCells> cells = contact_grid(candidate.mesh.sector);
+  const std::vector<fem::FlankCells> cells = cell_grid(scene, candidate.mesh.sector, cell_lengths(scene));
   candidate.cells = fem::contact_cells(candidate.mesh.sector, cells);
   const std::vector<fem::Material> bodies = materials(scene);
   const fem::Mesh& mesh = candidate.mesh.sector.mesh;

@@ -5,7 +5,6 @@
 #include <limits>
 #include <optional>
 
-#include "fem/flank_trace.hpp"
 #include "optimizer/evaluator.hpp"
 #include "response/resonance.hpp"
 #include "wear/asymptote.hpp"
@@ -13,65 +12,6 @@
 namespace dovetail::optimizer {
 
 namespace {
-
-/// Length of the mesh's edge at a place on a flank, as fractions of the flank.
-class EdgeLengths {
- public:
-  explicit EdgeLengths(const fem::TraceLines& lines) {
-    for (std::size_t i = 0; i < lines.across.size(); i += 2) corners_.push_back(lines.across[i]);
-  }
-  [[nodiscard]] double at(double s) const {
-    const auto above = std::upper_bound(corners_.begin() + 1, corners_.end() - 1, s);
-    return *above - *(above - 1);
-  }
-  [[nodiscard]] const std::vector<double>& corners() const { return corners_; }
-
- private:
-  std::vector<double> corners_;
-};
-
-/// Ends of cells over a flank with an end on each of `edges` (rising, inside 0 to 1). `counts`: of the cells between
-/// two of them; those of the last grid stay while they differ by one from what the lengths ask for: where an edge is
-/// found depends a little on the number of cells, and must not go to and fro between two of them.
-std::vector<double> fitted_ends(const EdgeLengths& lengths, const std::vector<double>& edges,
-                                const ContactFitOptions& options, std::vector<int>& counts) {
-  const auto wanted = [&](double s) {
-    double length = options.coarsest * lengths.at(s);
-    const auto grow_from = [&](double place) {
-      length = std::min(length, options.finest * lengths.at(place) + options.growth * std::abs(s - place));
-    };
-    grow_from(0);
-    grow_from(1);
-    for (const double edge : edges) grow_from(edge);
-    return length;
-  };
-  std::vector<double> fixed{0};
-  for (const double edge : edges) fixed.push_back(edge);
-  fixed.push_back(1);
-  const bool again = counts.size() + 1 == fixed.size();
-  counts.resize(fixed.size() - 1);
-  std::vector<double> ends{0};
-  constexpr int kSteps = 400;  // of the integral of 1 / length over a piece
-  for (std::size_t p = 0; p + 1 < fixed.size(); ++p) {
-    const double from = fixed[p], piece = fixed[p + 1] - from;
-    std::vector<double> cells(kSteps + 1, 0.0);
-    for (int k = 0; k < kSteps; ++k)
-      cells[static_cast<std::size_t>(k) + 1] =
-          cells[static_cast<std::size_t>(k)] + piece / kSteps / wanted(from + piece * (k + 0.5) / kSteps);
-    int& count = counts[p];
-    const int asked = std::max(1, static_cast<int>(std::ceil(cells.back() - 0.1)));
-    if (!again || std::abs(count - asked) > 1) count = asked;
-    for (int c = 1; c < count; ++c) {
-      const double at = cells.back() * c / count;
-      const auto above = std::upper_bound(cells.begin(), cells.end() - 1, at);
-      const double step =
-          static_cast<double>(above - cells.begin()) - 1 + (at - *(above - 1)) / (*above - *(above - 1));
-      ends.push_back(from + piece * step / kSteps);
-    }
-    ends.push_back(fixed[p + 1]);
-  }
-  return ends;
-}
 
 std::vector<std::vector<double>> ends_of(const fem::ContactCells& cells) {
   std::vector<std::vector<double>> ends;
@@ -121,9 +61,11 @@ std::vector<std::vector<Edge>> edge_places(const fem::ContactCells& cells, const
 }
 
 /// Zones narrower than the trace resolves: those at the ends of the flank stay as wide as it resolves, others are none.
-void widen_narrow(const EdgeLengths& lengths, const ContactFitOptions& options, std::vector<double>& edges) {
+void widen_narrow(const EdgeLengths& edge_lengths, const CellLengths& lengths, std::vector<double>& edges) {
   constexpr double kNarrowest = 0.3;  // of the finest cell
-  const auto narrowest = [&](double at) { return kNarrowest * options.finest * lengths.at(std::clamp(at, 0.0, 1.0)); };
+  const auto narrowest = [&](double at) {
+    return kNarrowest * lengths.finest * edge_lengths.at(std::clamp(at, 0.0, 1.0));
+  };
   for (double& edge : edges) edge = std::clamp(edge, narrowest(0), 1 - narrowest(1));
   for (std::size_t k = 0; k + 1 < edges.size();)
     if (edges[k + 1] - edges[k] < narrowest(edges[k]))
@@ -131,22 +73,6 @@ void widen_narrow(const EdgeLengths& lengths, const ContactFitOptions& options, 
     else
       ++k;
 }
-
-}  // namespace
-
-std::vector<fem::FlankCells> contact_grid(const fem::SectorMesh& trace, const ContactFitOptions& options) {
-  std::vector<fem::FlankCells> cells;
-  for (const fem::Flank& flank : trace.flanks) {
-    const fem::TraceLines lines = fem::trace_lines(flank);
-    std::vector<int> counts;
-    fem::FlankCells of_flank{.along = lines.along.size() > 1 ? lines.along : std::vector<double>{0, 1}, .across = {}};
-    of_flank.across.assign(of_flank.along.size() - 1, fitted_ends(EdgeLengths(lines), {}, options, counts));
-    cells.push_back(std::move(of_flank));
-  }
-  return cells;
-}
-
-namespace {
 
 /// Where the ends of cells are put so that edges found on the grid (`found`) coincide with them: at the zero of found -
 /// laid, by the secant through the last two grids, edge by edge. Beside a narrow zone edges move against the cells, and
@@ -232,11 +158,12 @@ Eigen::MatrixXd carried_over(const Eigen::MatrixXd& from, const std::vector<std:
 
 ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateModel& candidate) {
   const ContactFitOptions& options = how.contact;
+  const CellLengths cells = cell_lengths(scene, options.lengths);
   ContactFit fit;
   response::SteadyOptions steady = steady_options(scene.solver);
   steady.budget = candidate.budget;
   steady.penalty_scale = how.penalty_scale;
-  lay_contact(scene, contact_grid(candidate.mesh.sector, options), candidate);
+  lay_contact(scene, cell_grid(scene, candidate.mesh.sector, cells), candidate);
   if (!candidate.converged()) return fit;
   wear::AsymptoteOptions release;
   release.arbitration = "never";
@@ -256,16 +183,22 @@ ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateMode
   const response::Resonance peak = response::resonance(
       candidate.condensed, candidate.reduction.glued_frequencies(scene.loading.mode - 1), {}, steady);
   if (peak.status != Status::converged) return fit;
+  // What the last grid says of the edges is not known: they may be anywhere near.
+  const auto unsettled = [&fit] {
+    fit.settled = false;
+    fit.moved = 1;
+    return fit;
+  };
   // At the resonance of the first grid on all of them: it hardly moves, and edges move less.
   response::SteadyState unworn = peak.state;
   for (;; ++fit.grids) {
     const wear::Asymptote worn = wear::asymptote(candidate.condensed, peak.omega, {}, steady, release, &unworn);
-    if (worn.verdict != wear::Verdict::asymptote) return fit;
+    if (worn.verdict != wear::Verdict::asymptote) return unsettled();
     std::vector<std::vector<double>> found = search.hold(edge_places(candidate.cells, worn.trail), lengths);
     fit.moved = 0;
     fit.edges = 0;
     for (std::size_t l = 0; l < found.size(); ++l) {
-      widen_narrow(lengths[l], options, found[l]);
+      widen_narrow(lengths[l], cells, found[l]);
       fit.edges += static_cast<int>(found[l].size());
       for (std::size_t k = 0; k < found[l].size(); ++k)
         fit.moved = std::max(fit.moved, laid[l].size() == found[l].size()
@@ -291,17 +224,17 @@ ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateMode
       for (std::vector<double>& ends : flank.across) {
         std::vector<double>& edges = laid[strip];
         std::sort(edges.begin(), edges.end());
-        widen_narrow(lengths[strip], options, edges);
-        ends = fitted_ends(lengths[strip], edges, options, counts[strip]);
+        widen_narrow(lengths[strip], cells, edges);
+        ends = cell_ends(lengths[strip], edges, cells, counts[strip]);
         ++strip;
       }
     const std::vector<std::vector<double>> before = ends_of(candidate.cells);
     lay_contact(scene, flanks, candidate);
-    if (!candidate.converged()) return fit;
+    if (!candidate.converged()) return unsettled();
     const Eigen::MatrixXd guess =
         carried_over(unworn.displacement, before, ends_of(candidate.cells), candidate.condensed->directions());
     unworn = response::steady_state(candidate.condensed, peak.omega, {}, steady, guess);
-    if (unworn.status != Status::converged) return fit;
+    if (unworn.status != Status::converged) return unsettled();
   }
 }
 

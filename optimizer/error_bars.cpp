@@ -91,8 +91,8 @@ void add_error_bars(const Scene& scene, const ModelBuilder& builder, CandidateRe
   const CandidateResult reference = computed(coarse, model);
   bars.add({"mesh", 2}, reference.evaluation, result.evaluation);
   Computation longer;
-  longer.contact.finest *= kRatio;
-  longer.contact.coarsest *= kRatio;
+  longer.contact.lengths.finest *= kRatio;
+  longer.contact.lengths.coarsest *= kRatio;
   bars.add({"contact_grid", 2}, computed(scene, result.model, longer).evaluation, result.evaluation);
 
   Scene changed = coarse;

@@ -178,6 +178,10 @@ CandidateResult computed(const Scene& scene, CandidateModel model, const Computa
   evaluation.model["contact_nodes"] = static_cast<double>(result.model.cells.count());
   evaluation.status = result.model.status;
   if (!result.model.converged()) return result;
+  if (!fit.settled)
+    evaluation.messages.push_back(
+        "The edges of the worn zones did not settle: their contact nodes end beside them, by up to " +
+        shortest(fit.moved) + " of an edge of the mesh.");
   static_responses(scene, result.model, evaluation);
   evaluation.status = dynamics(scene, how, result);
   note_penalties(result);

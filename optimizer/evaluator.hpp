@@ -49,12 +49,6 @@ class SceneEvaluator {
   ModelBuilder builder_, coarse_;
 };
 
-/// How a design is computed on a model of it.
-struct Computation {
-  ContactFitOptions contact = {};
-  double penalty_scale = 1;  ///< of the pseudo-penalty
-};
-
 /// The physics on a model that converged: contact nodes fitted to the worn zones, then all responses, without bars.
 [[nodiscard]] CandidateResult computed(const Scene& scene, CandidateModel model, const Computation& how = {});
 

@@ -24,7 +24,7 @@ Eigen::VectorXd friction_reserve(const response::CondensedModel& model, const re
 namespace {
 
 // Next to an edge the margin grows like the square root of the distance and slip like its power 3/2, so that means over
-// cells of equal length are not equally far from zero. Measured on dovetails with 24 to 96 edges per flank and cells of
+// cells of equal length are not equally far from zero. Measured on dovetails with 24 to 48 edges per flank and cells of
 // unequal lengths: with this weight, times the ratio of the lengths, an edge stays where it is (within 1 % of the worn
 // volume) whatever the cells.
 constexpr double kExcess = 0.7;
