@@ -76,14 +76,6 @@ Status geometric_stiffness(const Scene& scene, const CandidateModel& candidate, 
   return Status::converged;
 }
 
-void set_budget(const SolverSettings& solver, CandidateModel& candidate) {
-  candidate.jacobian_operations = response::jacobian_operations(
-      candidate.system.contact.count(), candidate.system.full.dimensions, solver.harmonics, solver.samples);
-  candidate.budget = std::make_shared<Budget>(
-      solver.max_jacobians > 0 ? solver.max_jacobians * candidate.jacobian_operations : kInfinity,
-      solver.time_limit > 0 ? solver.time_limit : kInfinity);
-}
-
 /// The rules of the section, and in space those of the solid.
 geometry::Feasibility feasibility_of(const Scene& scene) {
   geometry::FeasibilityLimits limits = scene.limits;
@@ -102,6 +94,14 @@ std::string first_broken(const geometry::Feasibility& feasibility, std::vector<s
 
 std::vector<fem::Material> materials(const Scene& scene) {
   return {scene.blade, scene.disk};
+}
+
+void renew_budget(const SolverSettings& solver, CandidateModel& candidate) {
+  candidate.jacobian_operations = response::jacobian_operations(
+      candidate.cells.count(), candidate.system.full.dimensions, solver.harmonics, solver.samples);
+  candidate.budget = std::make_shared<Budget>(
+      solver.max_jacobians > 0 ? solver.max_jacobians * candidate.jacobian_operations : kInfinity,
+      solver.time_limit > 0 ? solver.time_limit : kInfinity);
 }
 
 void lay_contact(const Scene& scene, const std::vector<fem::FlankCells>& flanks, CandidateModel& candidate) {
@@ -179,7 +179,7 @@ CandidateModel ModelBuilder::build(const Scene& scene) const {
   const fem::Assembler assembler(mesh);
   candidate.system = fem::build_sector_system(candidate.mesh.sector, bodies, assembler);
   candidate.timings_s["assembly"] = watch.lap();
-  set_budget(scene.solver, candidate);
+  renew_budget(scene.solver, candidate);
 
   Eigen::SparseMatrix<double> geometric;
   const Status prestress = geometric_stiffness(scene, candidate, assembler, bodies, geometric);

@@ -48,6 +48,9 @@ struct CandidateModel {
 /// preload. A stage that fails is named in its status. Cost: dense algebra of their number and a preload.
 void lay_contact(const Scene& scene, const std::vector<fem::FlankCells>& flanks, CandidateModel& candidate);
 
+/// A budget of its own for what is computed next on a candidate with contact nodes, by the scene's limits.
+void renew_budget(const SolverSettings& solver, CandidateModel& candidate);
+
 /// Builds the models of many candidates on one mesh topology, that of the reference scene's geometry and
 /// mesh sizes. When the reference is a geometry that cannot be meshed, each candidate is meshed on its own
 /// topology and says so. A candidate's model depends on the reference and the candidate only. `build` may be called

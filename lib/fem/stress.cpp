@@ -129,6 +129,27 @@ Eigen::SparseMatrix<double> nodal_stress_operator(const Mesh& mesh, std::span<co
   return result;
 }
 
+Eigen::VectorXd on_free_surface(const Eigen::Ref<const Eigen::VectorXd>& stress,
+                                const Eigen::Ref<const Eigen::VectorXd>& normal, double poisson_ratio) {
+  const auto relieved = [&]<class Element>(Element) -> Eigen::VectorXd {
+    constexpr int d = Element::kDimensions;
+    using Tensor = Eigen::Matrix<double, d, d>;
+    const Eigen::Matrix<double, d, 1> n = normal;
+    const Tensor tensor = stress_tensor<Element>(stress);
+    const Tensor along = Tensor::Identity() - n * n.transpose();
+    // Hooke's law with the same strains along the surface and no stress across it.
+    const double across = n.dot(tensor * n) * poisson_ratio / (1 - poisson_ratio);
+    const Tensor result = along * (tensor - across * Tensor::Identity()) * along;
+    Eigen::Matrix<double, Element::kStresses, 1> vector;
+    if constexpr (d == 2)
+      vector << result(0, 0), result(1, 1), result(0, 1);
+    else
+      vector << result(0, 0), result(1, 1), result(2, 2), result(0, 1), result(1, 2), result(2, 0);
+    return vector;
+  };
+  return stress.size() == 3 ? relieved(Triangle6{}) : relieved(Wedge18{});
+}
+
 double von_mises(const StressVector& stress, double poisson_ratio) {
   return von_mises_in_space(in_space(stress, poisson_ratio));
 }

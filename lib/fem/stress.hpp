@@ -21,6 +21,11 @@ namespace dovetail::fem {
 [[nodiscard]] Eigen::SparseMatrix<double> nodal_stress_operator(const Mesh& mesh, std::span<const Material> materials,
                                                                 std::span<const int> nodes);
 
+/// Stress [s] at a surface with unit normal n [d] on which nothing acts, out of one [s] that nearly keeps that. Strains
+/// along the surface stay as they are: on the side of an element they converge faster than those across it.
+[[nodiscard]] Eigen::VectorXd on_free_surface(const Eigen::Ref<const Eigen::VectorXd>& stress,
+                                              const Eigen::Ref<const Eigen::VectorXd>& normal, double poisson_ratio);
+
 /// Stress [3] in the plane or [6] in space. Plane strain adds sigma_zz = nu (sxx + syy); for a plane-stress region pass
 /// nu = 0. In space nu does not count.
 using StressVector = Eigen::Ref<const Eigen::VectorXd>;

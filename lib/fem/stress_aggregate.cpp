@@ -26,38 +26,43 @@ std::array<Vector, 3> slopes(const Vector& a, const Vector& m, const Vector& b) 
 
 constexpr std::array<double, 3> kSimpson{1.0 / 6, 4.0 / 6, 1.0 / 6};
 
-/// |dr| at the three nodes of an edge, times their weights.
-std::array<double, 3> side_weights(const Mesh& mesh, const std::array<int, 3>& nodes) {
+/// The normal at the three nodes of an edge, as long as their weights.
+std::array<Eigen::Vector2d, 3> side_normals(const Mesh& mesh, const std::array<int, 3>& nodes) {
   const auto at = [&](std::size_t k) { return Eigen::Vector2d(mesh.nodes.col(nodes[k])); };
   const std::array<Eigen::Vector2d, 3> slope = slopes(at(0), at(1), at(2));
-  std::array<double, 3> weights{};
-  for (std::size_t k = 0; k < 3; ++k) weights[k] = kSimpson[k] * slope[k].norm();
-  return weights;
+  std::array<Eigen::Vector2d, 3> normals;
+  for (std::size_t k = 0; k < 3; ++k) normals[k] = kSimpson[k] * Eigen::Vector2d(slope[k].y(), -slope[k].x());
+  return normals;
 }
 
-/// |dr x dr| at the nine nodes of a side, times their weights.
-std::array<double, 9> side_weights(const Mesh& mesh, const std::array<int, 9>& nodes) {
+/// The same at the nine nodes of a side.
+std::array<Eigen::Vector3d, 9> side_normals(const Mesh& mesh, const std::array<int, 9>& nodes) {
   const auto at = [&](std::size_t row, std::size_t k) { return Eigen::Vector3d(mesh.nodes.col(nodes[3 * row + k])); };
   std::array<std::array<Eigen::Vector3d, 3>, 3> along, across;  // [row][k], [k][row]
   for (std::size_t k = 0; k < 3; ++k) {
     along[k] = slopes(at(k, 0), at(k, 1), at(k, 2));
     across[k] = slopes(at(0, k), at(1, k), at(2, k));
   }
-  std::array<double, 9> weights{};
+  std::array<Eigen::Vector3d, 9> normals;
   for (std::size_t row = 0; row < 3; ++row)
     for (std::size_t k = 0; k < 3; ++k)
-      weights[3 * row + k] = kSimpson[row] * kSimpson[k] * along[row][k].cross(across[k][row]).norm();
-  return weights;
+      normals[3 * row + k] = kSimpson[row] * kSimpson[k] * along[row][k].cross(across[k][row]);
+  return normals;
 }
 
-}  // namespace
+struct Boundary {
+  Eigen::VectorXd weights;  // [nodes]
+  Eigen::MatrixXd normals;  // [d, nodes], of unit length; 0 for nodes on no side
+};
 
-Eigen::VectorXd boundary_weights(const Mesh& mesh, std::span<const int> nodes) {
+Boundary boundary_of(const Mesh& mesh, std::span<const int> nodes) {
   std::vector<int> slot(static_cast<std::size_t>(mesh.node_count()), -1);
   for (std::size_t k = 0; k < nodes.size(); ++k) slot[static_cast<std::size_t>(nodes[k])] = static_cast<int>(k);
   const auto slot_of = [&](int node) { return slot[static_cast<std::size_t>(node)]; };
 
-  Eigen::VectorXd weights = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(nodes.size()));
+  const auto count = static_cast<Eigen::Index>(nodes.size());
+  Boundary boundary{.weights = Eigen::VectorXd::Zero(count),
+                    .normals = Eigen::MatrixXd::Zero(mesh.dimensions(), count)};
   with_element(mesh.kind, [&]<class Element>(Element) {
     // Sides within the list, by their middle node; seen from two elements they are inside the body.
     using Side = typename std::decay_t<decltype(Element::sides())>::value_type;
@@ -77,16 +82,30 @@ Eigen::VectorXd boundary_weights(const Mesh& mesh, std::span<const int> nodes) {
     }
     for (const auto& [middle, use] : used) {
       if (use.elements != 1) continue;
-      const auto weight = side_weights(mesh, use.nodes);
-      for (std::size_t k = 0; k < use.nodes.size(); ++k) weights[slot_of(use.nodes[k])] += weight[k];
+      const auto normals = side_normals(mesh, use.nodes);
+      for (std::size_t k = 0; k < use.nodes.size(); ++k) {
+        boundary.weights[slot_of(use.nodes[k])] += normals[k].norm();
+        boundary.normals.col(slot_of(use.nodes[k])) += normals[k];
+      }
     }
   });
-  if (!(weights.sum() > 0))
+  if (!(boundary.weights.sum() > 0))
     throw InputError({.file = {},
                       .key = "nodes",
                       .value = std::to_string(nodes.size()) + " nodes",
                       .allowed = "must contain all nodes of boundary sides of elements"});
-  return weights;
+  boundary.normals.colwise().normalize();
+  return boundary;
+}
+
+}  // namespace
+
+Eigen::VectorXd boundary_weights(const Mesh& mesh, std::span<const int> nodes) {
+  return boundary_of(mesh, nodes).weights;
+}
+
+Eigen::MatrixXd boundary_normals(const Mesh& mesh, std::span<const int> nodes) {
+  return boundary_of(mesh, nodes).normals;
 }
 
 Aggregate kreisselmeier_steinhauser(const Eigen::Ref<const Eigen::VectorXd>& stress,

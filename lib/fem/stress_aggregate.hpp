@@ -13,6 +13,9 @@ namespace dovetail::fem {
 /// nodes on no such side. Throws InputError when there is no such side at all.
 [[nodiscard]] Eigen::VectorXd boundary_weights(const Mesh& mesh, std::span<const int> nodes);
 
+/// Unit normals [d, nodes] of those sides at the same nodes, means where sides meet at an angle; 0 for nodes on none.
+[[nodiscard]] Eigen::MatrixXd boundary_normals(const Mesh& mesh, std::span<const int> nodes);
+
 struct AggregateOptions {
   /// p, 1/Pa, > 0: stresses within 1/p of the peak count as peak. Larger follows the maximum more
   /// closely and is harder on an optimiser.

@@ -173,6 +173,36 @@ class PeakSearch {
   bool curved_down_ = false;
 };
 
+/// Where the search begins: the frequency and, unless empty, the displacement there.
+struct PeakStart {
+  double omega = 0;
+  Eigen::MatrixXd guess;
+  int solves = 0, jacobians = 0;  ///< spent on finding it
+};
+
+/// With many harmonics the way to the peak is found with half of them, at an eighth of the cost of a step; what is left
+/// is a short way on which Newton's method does not have to find out which nodes slip.
+PeakStart with_fewer_harmonics(const std::shared_ptr<const CondensedModel>& model, PeakStart start,
+                               const ContactCondition& condition, SteadyOptions options, const ResonanceOptions& peak) {
+  constexpr int kMany = 9;
+  if (options.harmonics < kMany) return start;
+  const Eigen::Index all = 2 * options.harmonics + 1;
+  options.harmonics /= 2;
+  const Eigen::Index few = 2 * options.harmonics + 1;
+  PeakStart first = start;
+  if (first.guess.cols() > few) first.guess.conservativeResize(Eigen::NoChange, few);
+  first = with_fewer_harmonics(model, std::move(first), condition, options, peak);
+  const Resonance found = PeakSearch(model, condition, options, peak).run(first.omega, first.guess);
+  start.solves = first.solves + found.solves;
+  start.jacobians = first.jacobians + found.jacobians;
+  if (found.status != Status::converged) return start;
+  Eigen::MatrixXd guess = Eigen::MatrixXd::Zero(found.state.displacement.rows(), all);
+  guess.leftCols(few) = found.state.displacement;
+  start.omega = found.omega;
+  start.guess = std::move(guess);
+  return start;
+}
+
 }  // namespace
 
 AmplitudeSlope amplitude_slope(const SteadyState& state, Eigen::Index output) {
@@ -195,7 +225,11 @@ Resonance resonance(const std::shared_ptr<const CondensedModel>& model, double o
                      .value = std::to_string(resonance_options.output),
                      .allowed = "must be < " + std::to_string(outputs)});
   if (!found.empty()) throw InputError(std::move(found));
-  Resonance near = PeakSearch(model, condition, options, resonance_options).run(omega_start, guess);
+  const PeakStart start =
+      with_fewer_harmonics(model, {.omega = omega_start, .guess = guess, .solves = 0, .jacobians = 0}, condition, options, resonance_options);
+  Resonance near = PeakSearch(model, condition, options, resonance_options).run(start.omega, start.guess);
+  near.solves += start.solves;
+  near.jacobians += start.jacobians;
   if (near.status == Status::converged || cut_short(near.status) || resonance_options.sweep_range == 0) return near;
   Resonance far = peak_sweep(model, omega_start * (1 + resonance_options.search_range),
                              omega_start * (1 - resonance_options.sweep_range), condition, options, resonance_options);

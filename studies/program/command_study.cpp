@@ -81,7 +81,7 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
   Study study = load_study(options.study, with_solver(options.overrides, options.solver));
   const std::shared_ptr<const optimizer::SceneEvaluator> evaluator = scene_evaluator(study);
   const std::optional<Status> automatic = choose_truncation(study.scene, *evaluator, options.solver);
-  optimizer::Evaluation evaluation = evaluator->evaluate(study.scene).evaluation;
+  optimizer::Evaluation evaluation = evaluator->evaluate(study.scene, !options.no_bars).evaluation;
   if (automatic && *automatic != Status::converged)
     evaluation.messages.push_back(
         truncation_complaint(*automatic, optimizer::steady_options(study.scene.solver), options.solver));
