@@ -52,8 +52,7 @@ class Bars {
         open_.insert(name);
         continue;
       }
-      add(source.name, name,
-          source.factor(name) * std::abs(changed.responses.at(name) - reference.responses.at(name)));
+      add(source.name, name, source.factor(name) * std::abs(changed.responses.at(name) - reference.responses.at(name)));
     }
   }
   void add(const char* source, const std::string& response, double bar) {

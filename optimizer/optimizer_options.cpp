@@ -82,6 +82,11 @@ dovetail::option_table<dovetail::optimizer::OptimizerOptions>() {
        .member = &O::threads,
        .range = {.lower = 1},
        .help = "Candidates evaluated at once where several are known; does not change the result."},
+      {.key = "finer_meshes",
+       .member = &O::finer_meshes,
+       .range = {.lower = 0, .upper = 4},
+       .help = "Meshes, each with twice as many edges along the flanks as the last, on which the best design must keep "
+               "its limits."},
       {.key = "verify",
        .member = &O::verify,
        .range = {.lower = 0, .upper = 100},

@@ -23,7 +23,9 @@ struct OptimizerOptions {
   double constraint_margin = 1e-4;     ///< >= 0; algorithms aim at c <= -margin, so that they end on the right side
   std::string difference = "forward";  ///< forward | central finite differences
   int threads = 1;                     ///< >= 1; candidates evaluated at once where several are known
-  int verify = 3;                      ///< >= 0; best designs verified by the full wear history after the search
+  int finer_meshes =
+      2;           ///< >= 0; meshes, each twice as fine as the last, on which the best design must keep its limits
+  int verify = 3;  ///< >= 0; best designs verified by the full wear history after the search
 };
 
 /// Every algorithm by name.

@@ -111,7 +111,8 @@ std::vector<std::string> constraint_names(const Problem& problem) {
   return names;
 }
 
-Judgement judge(const Problem& problem, const Evaluation& evaluation, double tolerance) {
+Judgement judge(const Problem& problem, const Evaluation& evaluation, double tolerance,
+                std::span<const double> shifts) {
   Judgement judgement;
   bool finite = evaluation.converged();
   for (const ObjectiveTerm& term : problem.objective)
@@ -128,7 +129,8 @@ Judgement judge(const Problem& problem, const Evaluation& evaluation, double tol
     judgement.objective = kNaN;
     std::fill(judgement.constraints.begin(), judgement.constraints.end(), kNaN);
   } else {
-    for (const double c : judgement.constraints) {
+    for (std::size_t j = 0; j < judgement.constraints.size(); ++j) {
+      const double c = judgement.constraints[j] + (shifts.empty() ? 0 : shifts[j]);
       judgement.violation += std::max(0.0, c);
       met = met && c <= tolerance;
     }

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -60,7 +61,9 @@ struct Judgement {
 };
 
 /// Judges with the exact constraints: feasible when every c <= tolerance. Pure; never throws.
-[[nodiscard]] Judgement judge(const Problem& problem, const Evaluation& evaluation, double tolerance);
+/// @param shifts  added to the response constraints before they count, order of constraint_names; empty: none
+[[nodiscard]] Judgement judge(const Problem& problem, const Evaluation& evaluation, double tolerance,
+                              std::span<const double> shifts = {});
 
 /// Writes what the problem makes of it into the evaluation: its constraints by name, `feasible` as the values say,
 /// which constraints their bars leave undecided, and a failing status

@@ -1,10 +1,12 @@
 #include "optimizer/run.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <utility>
 
+#include "optimizer/finer_limits.hpp"
 #include "optimizer/ipopt_search.hpp"
 #include "optimizer/nlopt_search.hpp"
 #include "optimizer/random_stream.hpp"
@@ -58,6 +60,77 @@ SearchOutcome search(EvaluationSession& session) {
   return outcome;
 }
 
+/// The search, ended by its budget or by itself.
+template <class Search>
+SearchOutcome within_budget(Search&& search) {
+  try {
+    return search();
+  } catch (const StopSearch& stop) {
+    if (stop.reason != Status::iteration_limit) throw;
+    return {.status = stop.reason, .message = {}};
+  }
+}
+
+struct CorrectionSettings {
+  double reserve = 0.2;  // of the evaluations, for what is left to do after a look at finer meshes
+  double step = 0.25;    // first step of the search that goes on, by that of the search; halves from round to round
+  int looks = 6;         // at finer meshes while the search goes on, and as many in the end at what is known
+  double apart = 0.1;  // a known design closer than this in every variable to one that broke its limits is passed over
+};
+
+/// After a search whose best designs broke limits on finer meshes: the best known one, unlike them, that does not.
+void settle_for_another(EvaluationSession& session, FinerLimits& finer, const CorrectionSettings& settings) {
+  std::vector<std::size_t> broken;
+  for (const FinerCheck& check : finer.checks())
+    if (!check.held) broken.push_back(check.candidate);
+  const auto beside = [&](std::size_t i, std::size_t j) {
+    return std::ranges::equal(session.unit(i), session.unit(j),
+                              [&](double a, double b) { return std::abs(a - b) <= settings.apart; });
+  };
+  for (int look = 0; session.best();) {
+    const std::size_t best = *session.best();
+    if (look == settings.looks || std::ranges::any_of(broken, [&](std::size_t i) { return beside(best, i); })) {
+      session.reject(best);
+      continue;
+    }
+    ++look;
+    if (finer.holds(best)) return;
+    broken.push_back(best);
+  }
+}
+
+/// The search with its limits corrected by what finer meshes say, at its start and where it ends. Its best candidate
+/// keeps its limits on them, or there is none.
+SearchOutcome corrected_search(EvaluationSession& session, FinerLimits& finer) {
+  const OptimizerOptions& options = session.options();
+  constexpr CorrectionSettings kSettings;
+  const auto all = static_cast<std::size_t>(options.max_evaluations);
+  const bool only_scan = options.algorithm == "scan";
+  if (finer.active()) {
+    finer.correct(session.best().value_or(0));
+    session.limit(std::max(session.candidates().size(),
+                           all - static_cast<std::size_t>(kSettings.reserve * options.max_evaluations)));
+  }
+  SearchOutcome outcome = only_scan ? SearchOutcome{.status = Status::converged, .message = "scan: complete"}
+                                    : within_budget([&] { return search(session); });
+  double step = kSettings.step * options.initial_step;
+  for (int look = 0; finer.active() && session.best(); ++look) {
+    if (finer.holds(*session.best())) return outcome;
+    if (look + 1 >= kSettings.looks) {
+      settle_for_another(session, finer, kSettings);
+      break;
+    }
+    const std::size_t left = all - session.candidates().size();
+    if (left == 0 || only_scan || !session.best()) continue;
+    session.limit(session.candidates().size() + (left + 1) / 2);
+    step = std::max(step, 2 * stopping_step(options));
+    static_cast<void>(within_budget([&] { return search_once(session, step, look + 1); }));
+    step /= 2;
+  }
+  if (finer.active() && !session.best()) outcome.message += "; limits kept on the search's mesh break on finer ones";
+  return outcome;
+}
+
 std::string describe(Status status, const std::string& message) {
   if (status == Status::iteration_limit && message.empty()) return "the budget of evaluations is used up";
   if (status == Status::interrupted) return "interrupted; everything finished is kept";
@@ -95,15 +168,21 @@ OptimizationResult run_optimization(const Problem& problem, const Evaluator& eva
                                     const RunHooks& hooks) {
   check(problem, options);
   EvaluationSession session(problem, evaluator, options, hooks);
+  FinerLimits finer(session, hooks);
+  OptimizationResult result;
   try {
     session.evaluate_start();
-    scan(session);
-    if (options.algorithm == "scan") return result_of(session, Status::converged, "scan: complete");
-    const SearchOutcome outcome = search(session);
-    return result_of(session, outcome.status, outcome.message);
+    static_cast<void>(within_budget([&] {
+      scan(session);
+      return SearchOutcome{};
+    }));
+    const SearchOutcome outcome = corrected_search(session, finer);
+    result = result_of(session, outcome.status, outcome.message);
   } catch (const StopSearch& stop) {
-    return result_of(session, stop.reason, {});
+    result = result_of(session, stop.reason, {});
   }
+  result.finer = finer.checks();
+  return result;
 }
 
 OptimizationResult random_search(const Problem& problem, const Evaluator& evaluator, int feasible_designs,

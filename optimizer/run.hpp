@@ -30,11 +30,32 @@ struct Progress {
   std::optional<std::size_t> best;  ///< best feasible so far
 };
 
+/// Evaluates a point of the design space on a finer mesh: level 1 that of the verification, every further one with half
+/// the size.
+using FinerEvaluator = std::function<Evaluation(std::span<const double> x, int level)>;
+
+/// How a candidate keeps the limits on a finer mesh.
+struct FinerCheck {
+  std::size_t candidate = 0;
+  int level = 1;
+  Evaluation evaluation;
+  std::vector<double> constraints;  ///< c in the order of constraint_names, NaN unless computed
+  bool held = false;                ///< every c <= the tolerance
+
+  /// As the evaluation says; 0 if it does not.
+  [[nodiscard]] int flank_elements() const {
+    const auto found = evaluation.parameters.find("mesh.flank_elements");
+    return found == evaluation.parameters.end() ? 0 : static_cast<int>(found->second);
+  }
+};
+
 /// What a run is connected to. All optional.
 struct RunHooks {
   Journal* journal = nullptr;                          ///< answers what it holds, records what is new
   std::function<void(const Progress&)> progress = {};  ///< may throw: the run ends and the exception reaches the caller
   const std::atomic<bool>* stop = nullptr;             ///< looked at between evaluations
+  FinerEvaluator finer = {};                           ///< without: limits are kept on the mesh of the search alone
+  Journal* finer_journal = nullptr;                    ///< of it; x is followed by the level
 };
 
 struct SearchStatistics {
@@ -57,12 +78,19 @@ struct OptimizationResult {
   std::optional<std::size_t> best;          ///< feasible candidate with the least objective
   std::optional<std::size_t> least_broken;  ///< without `best`: the candidate nearest to feasible
   std::vector<Candidate> evaluations;       ///< in the order asked for
+  std::vector<FinerCheck> finer;            ///< in the order asked for
   std::string message;
   SearchStatistics statistics;
 };
 
 /// Minimises the problem: the start, `scan_evaluations` Latin-hypercube candidates, then the algorithm from the best
 /// seen, then restarts with smaller steps while budget is left.
+///
+/// With hooks.finer the limits hold on finer meshes, too: what one level finer changes in the constraints is added to
+/// them before the algorithm starts; where it ends, the best design is evaluated on `finer_meshes` finer ones, and when
+/// it breaks a limit there, the constraints are shifted by what was seen and the search goes on from there with
+/// small steps. `best` then is a design that keeps its limits on all of them, and `feasible` of a Judgement says that
+/// its values leave room for the shifts.
 ///
 /// Same problem, options and evaluator give the same candidates bit by bit, whatever `threads` is. To resume, run
 /// again with the journal: it answers the candidates it holds, the algorithm takes the same path and continues it.

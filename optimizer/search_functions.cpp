@@ -41,8 +41,11 @@ SearchFunctions::SearchFunctions(EvaluationSession& session, std::string phase)
   }
   reference_constraints_.assign(constraint_count() - 1, 0.0);
   if (judgement.computed)
-    for (std::size_t j = 0; j < reference_constraints_.size(); ++j)
-      reference_constraints_[j] = judgement.constraints[j] + options().constraint_margin;
+    for (std::size_t j = 0; j < reference_constraints_.size(); ++j) reference_constraints_[j] = aimed(judgement, j);
+}
+
+double SearchFunctions::aimed(const Judgement& judgement, std::size_t j) const {
+  return judgement.constraints[j] + session_.shifts()[j] + options().constraint_margin;
 }
 
 std::size_t SearchFunctions::size() const {
@@ -56,10 +59,9 @@ std::size_t SearchFunctions::constraint_count() const {
 SearchValue SearchFunctions::seen(const Candidate& candidate) const {
   const Judgement& judgement = candidate.judgement;
   SearchValue value{.constraints = reference_constraints_, .computed = judgement.computed};
-  const double margin = options().constraint_margin;
   if (judgement.computed) {
     value.objective = judgement.objective / scale_;
-    for (std::size_t j = 0; j < value.constraints.size(); ++j) value.constraints[j] = judgement.constraints[j] + margin;
+    for (std::size_t j = 0; j < value.constraints.size(); ++j) value.constraints[j] = aimed(judgement, j);
     value.constraints.push_back(std::min(judgement.rules.value_or(kUnknownRules), kMostViolation));
   } else if (candidate.evaluation.status == "infeasible") {
     value.objective = level_ + std::min(judgement.violation, kMostViolation);

@@ -25,8 +25,8 @@ struct SearchGradient {
 /// Objective and constraints as functions of unit coordinates for a library that knows nothing of failures.
 ///
 /// With f_s the median |objective| of the computed candidates so far, frozen at construction:
-/// - computed: f/f_s; every response c + constraint_margin; the rules as their largest c, or -0.01 when none is
-/// reported.
+/// - computed: f/f_s; every response c + its shift + constraint_margin; the rules as their largest c, or -0.01 when
+/// none is reported.
 /// - infeasible (rule broken, no physics): level + v, with v the sum of the broken rules and level the worst scaled
 ///   objective so far, at most 1 above the best; response constraints as at the best; the rules as their largest c.
 ///   So the way back into the geometry is downhill.
@@ -49,6 +49,8 @@ class SearchFunctions {
   [[nodiscard]] const OptimizerOptions& options() const { return session_.options(); }
 
  private:
+  /// c of a limit as algorithms see it.
+  [[nodiscard]] double aimed(const Judgement& judgement, std::size_t j) const;
   [[nodiscard]] SearchValue seen(const Candidate& candidate) const;
   [[nodiscard]] std::optional<SearchGradient> supplied(const Candidate& candidate) const;
   [[nodiscard]] SearchGradient differences(std::size_t base);
@@ -58,7 +60,7 @@ class SearchFunctions {
   std::size_t reference_ = 0;
   double scale_ = 1;
   double level_ = 0;
-  std::vector<double> reference_constraints_;  ///< margin included
+  std::vector<double> reference_constraints_;  ///< as aimed at
 };
 
 }  // namespace dovetail::optimizer

@@ -15,7 +15,12 @@ constexpr int kMostRepeatsInARow = 5000;
 
 EvaluationSession::EvaluationSession(const Problem& problem, const Evaluator& evaluator,
                                      const OptimizerOptions& options, const RunHooks& hooks)
-    : problem_(problem), evaluator_(evaluator), options_(options), hooks_(hooks) {
+    : problem_(problem),
+      evaluator_(evaluator),
+      options_(options),
+      hooks_(hooks),
+      limit_(static_cast<std::size_t>(options.max_evaluations)),
+      shifts_(constraint_names(problem).size(), 0.0) {
   if (hooks_.journal == nullptr) return;
   const std::vector<JournalRecord>& records = hooks_.journal->records();
   for (std::size_t i = 0; i < records.size(); ++i) in_journal_.insert(records[i].x, i);
@@ -65,7 +70,7 @@ std::vector<std::size_t> EvaluationSession::evaluate_all(const std::vector<std::
       ++statistics_.repeated;
       continue;
     }
-    if (known + pending.size() >= static_cast<std::size_t>(options_.max_evaluations)) {
+    if (known + pending.size() >= limit_) {
       budget_ends = true;
       break;
     }
@@ -186,7 +191,7 @@ void EvaluationSession::commit(Pending& candidate, const std::string& phase) {
   by_unit_.insert(candidate.unit, index);
   by_value_.insert(candidate.x, index);
   units_.push_back(candidate.unit);
-  const Judgement judgement = judge(problem_, evaluation, options_.constraint_tolerance);
+  const Judgement judgement = judge(problem_, evaluation, options_.constraint_tolerance, shifts_);
   ++(replayed ? statistics_.replayed : statistics_.computed);
   if (evaluation.status == "infeasible")
     ++statistics_.infeasible;
@@ -199,6 +204,30 @@ void EvaluationSession::commit(Pending& candidate, const std::string& phase) {
                          .replayed = replayed});
   if (judgement.feasible && (!best_ || judgement.objective < candidates_[*best_].judgement.objective)) best_ = index;
   if (hooks_.progress) hooks_.progress({.index = index, .candidate = candidates_.back(), .best = best_});
+}
+
+void EvaluationSession::limit(std::size_t candidates) {
+  limit_ = std::min(candidates, static_cast<std::size_t>(options_.max_evaluations));
+}
+
+void EvaluationSession::shift_constraints(std::vector<double> shifts) {
+  shifts_ = std::move(shifts);
+  judge_again();
+}
+
+void EvaluationSession::reject(std::size_t index) {
+  rejected_.push_back(index);
+  judge_again();
+}
+
+void EvaluationSession::judge_again() {
+  best_.reset();
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    Judgement& judgement = candidates_[i].judgement;
+    judgement = judge(problem_, candidates_[i].evaluation, options_.constraint_tolerance, shifts_);
+    if (std::ranges::find(rejected_, i) != rejected_.end()) judgement.feasible = false;
+    if (judgement.feasible && (!best_ || judgement.objective < candidates_[*best_].judgement.objective)) best_ = i;
+  }
 }
 
 void EvaluationSession::stop_if_asked() const {

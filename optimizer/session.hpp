@@ -35,6 +35,14 @@ class EvaluationSession {
   /// within it are evaluated before StopSearch.
   std::vector<std::size_t> evaluate_all(const std::vector<std::vector<double>>& units, const std::string& phase);
 
+  /// Evaluations from now on end at this number of candidates, the options' max_evaluations at most.
+  void limit(std::size_t candidates);
+  /// Candidates keep their limits when c + shift does; order of constraint_names. All are judged again.
+  void shift_constraints(std::vector<double> shifts);
+  [[nodiscard]] const std::vector<double>& shifts() const { return shifts_; }
+  /// Whatever its values say, this candidate does not keep its limits.
+  void reject(std::size_t index);
+
   /// `unit` as it will be evaluated: in the box, on the grid.
   [[nodiscard]] static std::vector<double> snap(std::span<const double> unit);
 
@@ -48,6 +56,8 @@ class EvaluationSession {
   [[nodiscard]] std::optional<std::size_t> least_broken() const;
   [[nodiscard]] SearchStatistics& statistics() { return statistics_; }
   [[nodiscard]] int unused_records() const;
+  /// Throws StopSearch when the user asked for the end.
+  void stop_if_asked() const;
 
  private:
   struct Pending {
@@ -61,7 +71,7 @@ class EvaluationSession {
   void compute_in_parallel(std::vector<Pending>& pending, const std::string& phase);
   void call_evaluator(Pending& candidate) const;
   void commit(Pending& candidate, const std::string& phase);
-  void stop_if_asked() const;
+  void judge_again();
 
   const Problem& problem_;
   const Evaluator& evaluator_;
@@ -70,6 +80,9 @@ class EvaluationSession {
   ExactCache by_unit_, by_value_, in_journal_;
   std::deque<Candidate> candidates_;
   std::deque<std::vector<double>> units_;
+  std::size_t limit_;
+  std::vector<double> shifts_;  // [constraints]
+  std::vector<std::size_t> rejected_;
   std::optional<std::size_t> best_;
   SearchStatistics statistics_;
   bool responses_known_ = false;

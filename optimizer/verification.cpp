@@ -19,14 +19,6 @@ std::string failure(const std::string& stage, std::string_view why) {
   return stage + ": " + std::string(why);
 }
 
-/// Twice the edges along the flanks, 2H+1 harmonics, 2N samples.
-Scene refined(Scene scene) {
-  scene.mesh.flank_elements *= 2;
-  scene.solver.harmonics = 2 * scene.solver.harmonics + 1;
-  scene.solver.samples *= 2;
-  return scene;
-}
-
 /// Depths of the cells of one grid at the middles of another's, strip by strip as they lie along the slot.
 Eigen::VectorXd on_grid(const Eigen::VectorXd& depth, const fem::ContactCells& from, const fem::ContactCells& to) {
   Eigen::VectorXd result = Eigen::VectorXd::Zero(to.count());
@@ -112,16 +104,28 @@ std::string compare(const Scene& scene, const CandidateResult& fine, const Verif
 
 }  // namespace
 
+Scene finer(Scene scene, int level) {
+  scene.mesh.flank_elements <<= level;
+  scene.solver.harmonics = 2 * scene.solver.harmonics + 1;
+  scene.solver.samples *= 2;
+  return scene;
+}
+
+CandidateResult evaluated_finer(const SceneEvaluator& evaluator, const Scene& scene, int level) {
+  const Scene fine = finer(scene, level);
+  return computed(fine, ModelBuilder(finer(evaluator.reference(), level)).build(fine));
+}
+
 Verification verify(const SceneEvaluator& evaluator, const Scene& scene, const VerificationOptions& options,
                     const wear::Control& control) {
   Stopwatch watch;
   Verification verification;
   verification.follow = scene.loading.follow;
   const CandidateResult result = evaluator.evaluate(scene);
-  const Scene finer = refined(scene);
-  verification.flank_elements = finer.mesh.flank_elements;
-  verification.harmonics = finer.solver.harmonics;
-  verification.samples = finer.solver.samples;
+  const Scene scene_there = finer(scene, 1);
+  verification.flank_elements = scene_there.mesh.flank_elements;
+  verification.harmonics = scene_there.solver.harmonics;
+  verification.samples = scene_there.solver.samples;
   if (!result.evaluation.converged()) {
     verification.status = result.evaluation.status;
   } else {
@@ -129,8 +133,8 @@ Verification verify(const SceneEvaluator& evaluator, const Scene& scene, const V
     verification.search_depth = result.asymptote->largest_depth;
     const auto bar = result.evaluation.error_estimates.find("asymptotic_wear_volume_m3");
     verification.search_bar = bar == result.evaluation.error_estimates.end() ? std::nan("") : bar->second;
-    CandidateResult fine = computed(finer, ModelBuilder(refined(evaluator.reference())).build(finer));
-    verification.status = compare(finer, fine, options, control, verification);
+    CandidateResult fine = evaluated_finer(evaluator, scene, 1);
+    verification.status = compare(scene_there, fine, options, control, verification);
     verification.search_profile = on_grid(result.asymptote->depth, result.model.cells, fine.model.cells);
     verification.model = std::move(fine.model);
   }

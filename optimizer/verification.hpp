@@ -44,6 +44,12 @@ struct Verification {
   [[nodiscard]] bool converged() const { return status == "converged"; }
 };
 
+/// The scene on a mesh with 2^level times the edges along the flanks; with 2H+1 harmonics and 2N samples.
+[[nodiscard]] Scene finer(Scene scene, int level);
+
+/// All responses of a design on such a mesh, without bars.
+[[nodiscard]] CandidateResult evaluated_finer(const SceneEvaluator& evaluator, const Scene& scene, int level);
+
 /// Never throws for what a design is like; what could not be computed is in the status. Cost: two evaluations and some
 /// 100 to 300 steady states of four times the size.
 [[nodiscard]] Verification verify(const SceneEvaluator& evaluator, const Scene& scene,

@@ -226,7 +226,8 @@ Resonance resonance(const std::shared_ptr<const CondensedModel>& model, double o
                      .allowed = "must be < " + std::to_string(outputs)});
   if (!found.empty()) throw InputError(std::move(found));
   const PeakStart start =
-      with_fewer_harmonics(model, {.omega = omega_start, .guess = guess, .solves = 0, .jacobians = 0}, condition, options, resonance_options);
+      with_fewer_harmonics(model, {.omega = omega_start, .guess = guess, .solves = 0, .jacobians = 0}, condition,
+                           options, resonance_options);
   Resonance near = PeakSearch(model, condition, options, resonance_options).run(start.omega, start.guess);
   near.solves += start.solves;
   near.jacobians += start.jacobians;

@@ -31,7 +31,8 @@ void define_study_commands(CLI::App& app, Arguments& a) {
   add_set(*evaluate, a);
   add_solver(*evaluate, a);
   add_json(*evaluate, a.evaluate.json);
-  evaluate->add_flag("--no-bars", a.evaluate.no_bars, "Responses alone, without their error bars: as a search computes them, in a fraction of the time");
+  evaluate->add_flag("--no-bars", a.evaluate.no_bars,
+                     "Responses alone, without their error bars: as a search computes them, in a fraction of the time");
   evaluate->callback([&a] {
     a.command = [&a](const Streams& s) {
       a.evaluate.overrides = a.overrides();

@@ -49,6 +49,21 @@ fs::path prepare_directory(const RunOptions& options, const Study& study) {
   return directory;
 }
 
+/// How far the best design stays from its limits, in per cent of them, here and on finer meshes.
+std::string limits_kept(const Study& study, const OptimizationResult& result) {
+  std::string text;
+  const std::vector<std::string> names = constraint_names(study.problem);
+  for (std::size_t j = 0; j < names.size(); ++j) {
+    std::string finer;
+    for (const optimizer::FinerCheck& check : result.finer)
+      if (check.candidate == *result.best)
+        finer += fmt::format(", {:.3g} % on {} edges", -100 * check.constraints[j], check.flank_elements());
+    text += fmt::format("  {} kept by {:.3g} % of its limit{}\n", names[j],
+                        -100 * result.evaluations[*result.best].judgement.constraints[j], finer);
+  }
+  return text;
+}
+
 std::string conclusion(const Study& study, const OptimizationResult& result, const fs::path& directory) {
   const optimizer::SearchStatistics& counts = result.statistics;
   std::string text =
@@ -60,7 +75,7 @@ std::string conclusion(const Study& study, const OptimizationResult& result, con
   text += fmt::format("best objective {:.6g} (evaluation {}), start {:.6g}\n", best.judgement.objective,
                       *result.best + 1, result.evaluations.front().judgement.objective);
   for (const auto& [key, value] : variable_values(study, best)) text += fmt::format("  {} = {:.6g}\n", key, value);
-  return text + fmt::format("written to {}\n", directory.string());
+  return text + limits_kept(study, result) + fmt::format("written to {}\n", directory.string());
 }
 
 std::string verified(const std::vector<report::VerificationRecord>& verifications) {
@@ -81,19 +96,31 @@ int run_study(const RunOptions& options, const Streams& streams, const RunEngine
   const std::string fingerprint = optimizer::fingerprint(
       study.problem, study.optimizer, std::string("dovetail ") + version() + "\n" + physics_text(study.scene));
   const fs::path directory = prepare_directory(options, study);
-  const fs::path file = directory / "journal.jsonl";
-  optimizer::Journal journal =
-      options.resume ? optimizer::Journal::resume(file, fingerprint) : optimizer::Journal::create(file, fingerprint);
-  if (!journal.note().empty()) streams.err << "dovetail: " << journal.note() << "\n";
+  const auto opened = [&](const char* name) {
+    const fs::path file = directory / name;
+    optimizer::Journal journal =
+        options.resume ? optimizer::Journal::resume(file, fingerprint) : optimizer::Journal::create(file, fingerprint);
+    if (!journal.note().empty()) streams.err << "dovetail: " << journal.note() << "\n";
+    return journal;
+  };
+  optimizer::Journal journal = opened("journal.jsonl"), finer_journal = opened("finer.jsonl");
   replace_file(directory / "study.toml", study.text);
 
   const OrderlyInterrupt interrupt;
   OptimizationResult result;
   {
     RunProgress progress(streams.err, error_is_terminal(), study.optimizer.max_evaluations);
-    const optimizer::RunHooks hooks{.journal = &journal,
-                                    .progress = [&](const optimizer::Progress& at) { progress(at); },
-                                    .stop = &interrupt.flag()};
+    optimizer::RunHooks hooks{.journal = &journal,
+                              .progress = [&](const optimizer::Progress& at) { progress(at); },
+                              .stop = &interrupt.flag(),
+                              .finer = {},
+                              .finer_journal = &finer_journal};
+    if (engine.finer)
+      hooks.finer = [&](std::span<const double> x, int level) {
+        progress.note(fmt::format("looking at the limits on a mesh with {} edges per flank",
+                                  study.scene.mesh.flank_elements << level));
+        return engine.finer(x, level);
+      };
     result = optimizer::run_optimization(study.problem, engine.evaluate, study.optimizer, hooks);
   }
 

@@ -31,10 +31,16 @@ std::shared_ptr<const SceneEvaluator> scene_evaluator(const Study& study) {
 RunEngine study_engine(const Study& study) {
   const std::shared_ptr<const SceneEvaluator> evaluator = scene_evaluator(study);
   RunEngine engine;
-  engine.evaluate = [evaluator, base = study.scene, keys = study.problem.space.keys()](std::span<const double> x) {
+  const auto scene_at = [base = study.scene, keys = study.problem.space.keys()](std::span<const double> x) {
     Scene scene = base;
     for (std::size_t i = 0; i < keys.size(); ++i) optimizer::set_parameter(scene, keys[i], x[i]);
-    return evaluator->evaluate(scene, false).evaluation;
+    return scene;
+  };
+  engine.evaluate = [evaluator, scene_at](std::span<const double> x) {
+    return evaluator->evaluate(scene_at(x), false).evaluation;
+  };
+  engine.finer = [evaluator, scene_at](std::span<const double> x, int level) {
+    return optimizer::evaluated_finer(*evaluator, scene_at(x), level).evaluation;
   };
   engine.describe = [evaluator](const Scene& scene) {
     return report::make_design_record(scene, evaluator->evaluate(scene));

@@ -22,7 +22,14 @@ void RunProgress::operator()(const optimizer::Progress& progress) {
     has_best_ = true;
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-  const std::string text = line(progress, seconds);
+  show(line(progress, seconds));
+}
+
+void RunProgress::note(const std::string& text) {
+  show(text);
+}
+
+void RunProgress::show(const std::string& text) {
   if (terminal_) {
     stream_ << "\r\033[K" << text << std::flush;
     open_ = true;

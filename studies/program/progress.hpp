@@ -20,10 +20,15 @@ class RunProgress {
 
   void operator()(const optimizer::Progress& progress);
 
+  /// What is under way beside candidates.
+  void note(const std::string& text);
+
   /// The line after `done` candidates, `computed` of them not from the journal, `seconds` after the start.
   [[nodiscard]] std::string line(const optimizer::Progress& progress, double seconds) const;
 
  private:
+  void show(const std::string& text);
+
   std::ostream& stream_;
   bool terminal_;
   int evaluations_;

@@ -13,6 +13,8 @@ namespace dovetail::studies {
 /// What a run computes with.
 struct RunEngine {
   optimizer::Evaluator evaluate;  ///< design variables in, evaluation out
+  /// The same on finer meshes; empty: limits are kept on one mesh.
+  optimizer::FinerEvaluator finer = {};
   /// The design with the curves and fields its results and report show; empty: they show none.
   std::function<report::DesignRecord(const optimizer::Scene&)> describe;
   /// The design's wear by the full history; empty: designs are not verified.

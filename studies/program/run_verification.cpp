@@ -17,8 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 using report::VerificationRecord;
 
-/// Distances below this fraction of the ranges make the same design.
-constexpr double kSame = 0.02;
+/// Closer than this fraction of every range two designs are one to the eye.
+constexpr double kSame = 0.1;
 
 bool alike(const optimizer::DesignSpace& space, const std::vector<double>& a, const std::vector<double>& b) {
   const std::vector<optimizer::DesignVariable>& variables = space.variables();
@@ -120,6 +120,8 @@ std::vector<std::size_t> best_designs(const optimizer::Problem& problem, const o
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return all[a].judgement.objective < all[b].judgement.objective;
   });
+  // The best was looked at more closely than the others.
+  if (result.best && count > 0) chosen.push_back(*result.best);
   for (const std::size_t i : order) {
     if (static_cast<int>(chosen.size()) >= count) break;
     if (std::none_of(chosen.begin(), chosen.end(),

@@ -120,7 +120,7 @@ std::string verification_section(const RunRecord& record) {
 }
 
 std::string search_section(const RunRecord& record) {
-  std::string text = "<section><h2>Search</h2>\n" + problem_list(record);
+  std::string text = "<section><h2>Search</h2>\n" + problem_list(record) + limit_table(record);
   if (record.evaluations.empty()) return text + "<p>There are no candidates to show.</p>\n</section>\n";
   std::vector<Plot> plots{objective_plot(record)};
   for (Plot& plot : limit_plots(record)) plots.push_back(std::move(plot));
@@ -131,15 +131,13 @@ std::string search_section(const RunRecord& record) {
 constexpr const char* kSection =
     "A plane section of one sector stands for the joint: skewed slots and bending out of the plane are not in it";
 constexpr const char* kSector =
-    "One sector in space stands for the disk, with worn zones of whole contact nodes, so that worn volumes move in "
-    "steps "
-    "with the design";
+    "One sector in space stands for the disk; its frequencies with friction are those of nodal diameter 0";
 constexpr const char* kLaws =
     ". Coulomb friction and Archard wear have constant coefficients, temperature and debris are left out, and measured "
-    "wear coefficients scatter by about half. The error bars cover harmonics, samples, the reduction and the edge of "
-    "the "
-    "worn zone, but neither the finite-element mesh nor the laws themselves, so trust differences between designs more "
-    "than absolute depths.</p>\n";
+    "wear coefficients scatter by about half. The error bars cover mesh, contact nodes, harmonics, samples, reduction "
+    "and "
+    "the edges of worn zones, but not these laws, so trust differences between designs more than absolute "
+    "depths.</p>\n";
 
 std::string limits(const Comparison& designs) {
   const bool space = designs.after && in_space(designs.after->contact);

@@ -16,7 +16,7 @@ namespace {
 std::string header(const std::vector<std::string>& columns) {
   std::string text = "<thead><tr>";
   for (const std::string& column : columns) {
-    const bool textual = column == "key" || column == "found by" || column == "status";
+    const bool textual = column == "key" || column == "found by" || column == "status" || column == "limit";
     text += std::string("<th scope=\"col\"") + (textual ? " class=\"text\">" : ">") + escape(column) + "</th>";
   }
   return text + "</tr></thead>";
@@ -143,6 +143,38 @@ std::string problem_list(const RunRecord& record) {
     text += "</li>\n";
   }
   return text + "</ul>\n";
+}
+
+std::string limit_table(const RunRecord& record) {
+  const EvaluationRecord* best = best_of(record);
+  std::vector<const FinerRecord*> finer;
+  for (const FinerRecord& check : record.finer)
+    if (record.best && check.evaluation == static_cast<std::int64_t>(*record.best)) finer.push_back(&check);
+  const std::vector<std::string> names = constraint_names(record.problem);
+  if (best == nullptr || finer.empty() || best->constraints.size() != names.size()) return {};
+  std::vector<std::string> columns{"limit", "room left (%)"};
+  for (const FinerRecord* check : finer) columns.push_back(fmt::format("on {} edges (%)", check->flank_elements));
+  std::string text =
+      "<p>How far the best design stays from its limits, in per cent of each, on the mesh of the search "
+      "and on finer ones.</p>\n<div class=\"scroll\"><table>" +
+      header(columns) + "<tbody>\n";
+  for (std::size_t j = 0; j < names.size(); ++j) {
+    const std::size_t colon = names[j].rfind(':');
+    const std::string limited = names[j].substr(0, colon), side = names[j].substr(colon + 1);
+    double scale = 1;
+    for (const optimizer::ResponseConstraint& c : record.problem.constraints)
+      if (c.response == limited)
+        scale = c.scale > 0 ? c.scale : std::abs((side == "upper" ? c.upper : c.lower).value_or(1));
+    text +=
+        fmt::format("<tr><th scope=\"row\" class=\"text\">{}, {}</th><td>{}</td>", escape(words(limited)), side,
+                    with_error(-best->constraints[j], error_bar(*best, limited) / scale, {.symbol = "", .si = 0.01}));
+    for (const FinerRecord* check : finer)
+      text += fmt::format("<td>{}</td>", j < check->constraints.size() && std::isfinite(check->constraints[j])
+                                             ? significant(-100 * check->constraints[j], 3)
+                                             : escape(check->status));
+    text += "</tr>\n";
+  }
+  return text + "</tbody></table></div>\n";
 }
 
 std::string evaluation_table(const RunRecord& record) {

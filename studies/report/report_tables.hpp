@@ -17,6 +17,8 @@ namespace dovetail::report {
 
 /// What was minimised and under which limits.
 [[nodiscard]] std::string problem_list(const RunRecord& record);
+/// How far the best design stays from each limit, on the search's mesh and on finer ones; empty without the latter.
+[[nodiscard]] std::string limit_table(const RunRecord& record);
 
 /// Every candidate, collapsed.
 [[nodiscard]] std::string evaluation_table(const RunRecord& record);

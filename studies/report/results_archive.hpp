@@ -99,6 +99,8 @@ void exchange(Writer& writer, const std::string& group, const DesignRecord& desi
 void exchange(const Reader& reader, const std::string& group, DesignRecord& design);
 
 /// A verification below `group`, both ways.
+void exchange(Writer& writer, const std::string& group, const FinerRecord& record);
+void exchange(const Reader& reader, const std::string& group, FinerRecord& record);
 void exchange(Writer& writer, const std::string& group, const VerificationRecord& record);
 void exchange(const Reader& reader, const std::string& group, VerificationRecord& record);
 

@@ -115,6 +115,15 @@ void verification(Archive& archive, const std::string& group, Record& record) {
   archive.number(group, "seconds", record.seconds);
 }
 
+template <class Archive, class Record>
+void finer(Archive& archive, const std::string& group, Record& record) {
+  archive.group(group);
+  archive.whole(group, "evaluation", record.evaluation);
+  archive.whole(group, "flank_elements", record.flank_elements);
+  archive.text(group, "status", record.status);
+  archive.numbers(group + "/constraints", record.constraints);
+}
+
 /// A list of the design that may be empty but not of another length.
 void require_list(const Reader& reader, const std::string& path, std::size_t found, std::size_t expected) {
   if (found != 0) reader.require_size(path, found, expected);
@@ -152,6 +161,14 @@ void exchange(Writer& writer, const std::string& group, const DesignRecord& desi
 void exchange(const Reader& reader, const std::string& group, DesignRecord& design) {
   pieces(reader, group, design);
   require_consistent(reader, group, design);
+}
+
+void exchange(Writer& writer, const std::string& group, const FinerRecord& record) {
+  finer(writer, group, record);
+}
+
+void exchange(const Reader& reader, const std::string& group, FinerRecord& record) {
+  finer(reader, group, record);
 }
 
 void exchange(Writer& writer, const std::string& group, const VerificationRecord& record) {

@@ -9,6 +9,7 @@ namespace {
 constexpr const char* kFormat = "dovetail-results";
 constexpr std::int64_t kVersion = 1;
 constexpr const char* kVerifications = "/verifications";
+constexpr const char* kFiner = "/finer";
 
 std::int64_t index_of(const std::optional<std::size_t>& index) {
   return index ? static_cast<std::int64_t>(*index) : -1;
@@ -98,6 +99,8 @@ void write_results(const std::filesystem::path& path, const RunRecord& record) {
                [&](const DesignRecord& design) { exchange(w, "/baseline", design); });
     w.records(kVerifications, record.verifications,
               [&](const std::string& group, const VerificationRecord& v) { exchange(w, group, v); });
+    w.records(kFiner, record.finer,
+              [&](const std::string& group, const FinerRecord& check) { exchange(w, group, check); });
   });
 }
 
@@ -123,6 +126,12 @@ RunRecord read_results(const std::filesystem::path& path) {
   if (file.exists(kVerifications))
     r.records(kVerifications, record.verifications,
               [&](const std::string& group, VerificationRecord& v) { exchange(r, group, v); });
+  if (file.exists(kFiner))
+    r.records(kFiner, record.finer, [&](const std::string& group, FinerRecord& check) { exchange(r, group, check); });
+  for (const FinerRecord& check : record.finer)
+    if (check.evaluation < 0 || check.evaluation >= static_cast<std::int64_t>(record.evaluations.size()))
+      r.refuse(std::string(kFiner) + ", evaluation", std::to_string(check.evaluation),
+               "must be the index of an evaluation");
   for (const VerificationRecord& v : record.verifications)
     if (v.evaluation < 0 || v.evaluation >= static_cast<std::int64_t>(record.evaluations.size()))
       r.refuse(std::string(kVerifications) + ", evaluation", std::to_string(v.evaluation),

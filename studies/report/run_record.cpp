@@ -83,6 +83,11 @@ RunRecord record_run(const optimizer::Problem& problem, const optimizer::Optimiz
   const std::size_t limits = constraint_names(problem).size();
   for (const optimizer::Candidate& candidate : result.evaluations)
     record.evaluations.push_back(evaluation_of(candidate, limits));
+  for (const optimizer::FinerCheck& check : result.finer)
+    record.finer.push_back({.evaluation = static_cast<std::int64_t>(check.candidate),
+                            .flank_elements = check.flank_elements(),
+                            .status = check.evaluation.status,
+                            .constraints = check.constraints});
   record.best = result.best;
   record.least_broken = result.least_broken;
   if (!result.evaluations.empty()) record.baseline = 0;

@@ -133,6 +133,14 @@ struct Provenance {
   std::string study_file, study_text;            ///< name and verbatim content
 };
 
+/// How a candidate keeps its limits on a finer mesh; see optimizer::FinerCheck.
+struct FinerRecord {
+  std::int64_t evaluation = 0;  ///< index of the candidate
+  std::int64_t flank_elements = 0;
+  std::string status;   ///< of the evaluation there
+  Numbers constraints;  ///< c in the order of constraint_names, NaN unless computed
+};
+
 /// A finished or interrupted run with everything its report shows.
 struct RunRecord {
   std::string name, title;
@@ -146,6 +154,7 @@ struct RunRecord {
   std::optional<std::size_t> baseline;      ///< index of the start
   std::optional<DesignRecord> best_design, baseline_design;
   std::vector<VerificationRecord> verifications;  ///< of the best designs, best first
+  std::vector<FinerRecord> finer;                 ///< in the order asked for; the best design is among the last
   Provenance provenance;
 };
 

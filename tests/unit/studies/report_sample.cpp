@@ -166,6 +166,8 @@ RunRecord sample_record() {
                            .search_profile_m = {1.2e-6, 0, 1.2e-6, 0},
                            .direct_profile_m = {1.3e-6, 0, 1.3e-6, 0},
                            .history_profile_m = {1.31e-6, 0, 1.31e-6, 0}}};
+  record.finer = {{.evaluation = 3, .flank_elements = 32, .status = "converged", .constraints = {-0.01}},
+                  {.evaluation = 3, .flank_elements = 64, .status = "infeasible", .constraints = {kNaN}}};
   record.provenance = {.program_version = "0.1.0",
                        .date_utc = "2025-01-02T03:04:05Z",
                        .compiler = "g++ 12",

@@ -1,0 +1,104 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "bowl.hpp"
+#include "scratch_file.hpp"
+
+namespace dovetail::optimizer {
+namespace {
+
+/// The bowl's bottom lies at height 4; with this limit the best point is where the limit is.
+Problem low_bowl() {
+  Problem problem = bowl_problem();
+  problem.constraints = {{.response = "height", .lower = {}, .upper = 3}};
+  return problem;
+}
+
+OptimizerOptions options() {
+  OptimizerOptions result = bowl_options("cobyla");
+  result.max_evaluations = 60;
+  return result;
+}
+
+/// Finer meshes see higher walls, and the more so the further from x = 0: what was measured at the start is wrong where
+/// the search ends.
+Evaluation finer_bowl(std::span<const double> x, int level) {
+  Evaluation e = bowl(x);
+  e.responses["height"] += 0.1 * level + 0.1 * std::abs(x[0]);
+  return e;
+}
+
+class FinerLimits : public ScratchFile {};
+
+TEST(FinerLimitsOf, TheBestDesignHoldOnEveryMesh) {
+  const RunHooks hooks{.finer = finer_bowl};
+  const OptimizationResult result = run_optimization(low_bowl(), bowl, options(), hooks);
+  ASSERT_TRUE(result.best) << result.message;
+  const Candidate& best = result.evaluations[*result.best];
+  for (int level = 1; level <= 2; ++level) EXPECT_LE(finer_bowl(best.x, level).responses.at("height"), 3) << level;
+  // Not further from the limit than it has to be: 3 - 0.2 - 0.1 at x = 1, less a fifth of what was made up for.
+  EXPECT_GT(best.x[1], 2.5);
+  int held = 0;
+  for (const FinerCheck& check : result.finer) held += check.candidate == *result.best && check.held ? 1 : 0;
+  EXPECT_EQ(held, 2);
+  EXPECT_LE(result.evaluations.size(), 60U);
+}
+
+TEST(FinerLimitsOf, NothingIsAskedWithoutMeshesOrWithoutLimits) {
+  int asked = 0;
+  const RunHooks hooks{.finer = [&asked](std::span<const double> x, int level) {
+    ++asked;
+    return finer_bowl(x, level);
+  }};
+  OptimizerOptions none = options();
+  none.finer_meshes = 0;
+  EXPECT_TRUE(run_optimization(low_bowl(), bowl, none, hooks).best);
+  Problem free = low_bowl();
+  free.constraints.clear();
+  EXPECT_TRUE(run_optimization(free, bowl, options(), hooks).best);
+  EXPECT_EQ(asked, 0);
+}
+
+TEST(FinerLimitsOf, NoDesignIsHandedOverThatBreaksThemThere) {
+  const RunHooks hooks{.finer = [](std::span<const double> x, int) {
+    Evaluation e = bowl(x);
+    e.responses["height"] += 20;
+    return e;
+  }};
+  const OptimizationResult result = run_optimization(low_bowl(), bowl, options(), hooks);
+  EXPECT_FALSE(result.best);
+  EXPECT_NE(result.message.find("finer"), std::string::npos) << result.message;
+}
+
+TEST(FinerLimitsOf, ADesignThatFailsThereIsPassedOver) {
+  const RunHooks hooks{.finer = [](std::span<const double> x, int) { return x[0] > 0.9 ? failed() : bowl(x); }};
+  const OptimizationResult result = run_optimization(low_bowl(), bowl, options(), hooks);
+  ASSERT_TRUE(result.best) << result.message;
+  EXPECT_LE(result.evaluations[*result.best].x[0], 0.9);
+}
+
+TEST_F(FinerLimits, AreNotComputedAgainWhenARunGoesOn) {
+  int asked = 0;
+  const FinerEvaluator finer = [&asked](std::span<const double> x, int level) {
+    ++asked;
+    return finer_bowl(x, level);
+  };
+  OptimizationResult first, again;
+  {
+    Journal journal = Journal::create(file, "key");
+    first = run_optimization(low_bowl(), bowl, options(), {.finer = finer, .finer_journal = &journal});
+  }
+  const int before = asked;
+  EXPECT_GT(before, 2);
+  {
+    Journal journal = Journal::resume(file, "key");
+    again = run_optimization(low_bowl(), bowl, options(), {.finer = finer, .finer_journal = &journal});
+  }
+  EXPECT_EQ(asked, before);
+  EXPECT_EQ(again.best, first.best);
+  EXPECT_EQ(again.finer.size(), first.finer.size());
+}
+
+}  // namespace
+}  // namespace dovetail::optimizer
