@@ -51,7 +51,7 @@ struct FeasibilityLimits {
 /// Sizes of the mesh.
 struct MeshSizes {
   int flank_elements = 24;       ///< element edges along each straight flank
-  double flank_grading = 4;      ///< longest of these edges, in the middle, over the shortest, at both ends; 1: equal
+  double flank_grading = 8;      ///< longest of these edges, in the middle, over the shortest, at both ends; 1: equal
   double fillet_fraction = 0.1;  ///< element size on a fillet as a fraction of its radius
   double bulk_size = 3e-3;       ///< largest element size in the blade root and disk, m
   int aerofoil_elements = 24;    ///< element edges along the aerofoil's span

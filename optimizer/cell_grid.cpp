@@ -50,16 +50,22 @@ std::vector<double> cell_ends(const EdgeLengths& edge_lengths, const std::vector
     for (int k = 0; k < kSteps; ++k)
       cells[static_cast<std::size_t>(k) + 1] =
           cells[static_cast<std::size_t>(k)] + piece / kSteps / wanted(from + piece * (k + 0.5) / kSteps);
-    int& count = counts[p];
-    const int asked = std::max(1, static_cast<int>(std::ceil(cells.back() - 0.1)));
-    if (!again || std::abs(count - asked) > 1) count = asked;
-    for (int c = 1; c < count; ++c) {
-      const double at = cells.back() * c / count;
+    const auto place = [&](double at) {
       const auto above = std::upper_bound(cells.begin(), cells.end() - 1, at);
       const double step =
           static_cast<double>(above - cells.begin()) - 1 + (at - *(above - 1)) / (*above - *(above - 1));
-      ends.push_back(from + piece * step / kSteps);
-    }
+      return from + piece * step / kSteps;
+    };
+    // Whole cells from both ends; what is left over in the middle, half a cell to one and a half, is a cell of its own.
+    // So its number changes in the middle, where cells are longest and the contact changes least, and nowhere else.
+    const double total = cells.back();
+    int& count = counts[p];
+    const int asked = std::max(1, static_cast<int>(std::lround(total)));
+    if (!again || std::abs(count - asked) > 1) count = asked;
+    const int before = count / 2, after = count - 1 - before;
+    const double scale = std::min(1.0, total / (count - 0.5));
+    for (int c = 1; c <= before; ++c) ends.push_back(place(c * scale));
+    for (int c = after; c >= 1; --c) ends.push_back(place(total - c * scale));
     ends.push_back(fixed[p + 1]);
   }
   return ends;

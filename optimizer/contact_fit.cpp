@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "optimizer/evaluator.hpp"
@@ -176,7 +175,7 @@ ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateMode
   std::vector<std::vector<int>> counts(lengths.size());
   EdgeSearch search;
   struct Best {
-    double moved = std::numeric_limits<double>::infinity();
+    double moved = kInfinity, share = 1;
     int grid = 0;
     std::vector<fem::FlankCells> flanks;
   } best;
@@ -186,7 +185,7 @@ ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateMode
   // What the last grid says of the edges is not known: they may be anywhere near.
   const auto unsettled = [&fit] {
     fit.settled = false;
-    fit.moved = 1;
+    fit.moved = fit.share = 1;
     return fit;
   };
   // At the resonance of the first grid on all of them: it hardly moves, and edges move less.
@@ -196,25 +195,32 @@ ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateMode
     if (worn.verdict != wear::Verdict::asymptote) return unsettled();
     std::vector<std::vector<double>> found = search.hold(edge_places(candidate.cells, worn.trail), lengths);
     fit.moved = 0;
+    fit.share = 0;
     fit.edges = 0;
     for (std::size_t l = 0; l < found.size(); ++l) {
       widen_narrow(lengths[l], cells, found[l]);
       fit.edges += static_cast<int>(found[l].size());
-      for (std::size_t k = 0; k < found[l].size(); ++k)
-        fit.moved = std::max(fit.moved, laid[l].size() == found[l].size()
-                                            ? std::abs(found[l][k] - laid[l][k]) / lengths[l].at(found[l][k])
-                                            : 1.0);
+      for (std::size_t k = 0; k < found[l].size(); ++k) {
+        const bool known = laid[l].size() == found[l].size();
+        const double step = known ? std::abs(found[l][k] - laid[l][k]) : kInfinity;
+        const double below = found[l][k] - (k == 0 ? 0 : found[l][k - 1]);
+        const double above = (k + 1 == found[l].size() ? 1 : found[l][k + 1]) - found[l][k];
+        fit.moved = std::max(fit.moved, known ? step / lengths[l].at(found[l][k]) : 1.0);
+        fit.share = std::max(fit.share, std::min(1.0, step / std::min(below, above)));
+      }
     }
     // A zone that the finer cells beside its edge make vanish is none.
     const bool vanished = fit.edges == 0 && fit.grids > 0;
     fit.settled = vanished || fit.moved <= options.tolerance;
     if (fit.moved <= best.moved || vanished)
-      best = {.moved = fit.moved, .grid = fit.grids, .flanks = candidate.cells.flanks};
-    if (fit.settled) return fit;
+      best = {.moved = fit.moved, .share = fit.share, .grid = fit.grids, .flanks = candidate.cells.flanks};
+    if (vanished || fit.moved <= options.aim) return fit;
     if (fit.grids == options.grids) {
       // Edges that go to and fro: the grid that they would have left least.
       if (best.grid < fit.grids) lay_contact(scene, best.flanks, candidate);
       fit.moved = best.moved;
+      fit.share = best.share;
+      fit.settled = fit.moved <= options.tolerance;
       return fit;
     }
     laid = search.next(found, laid);

@@ -7,7 +7,8 @@ namespace dovetail::optimizer {
 
 struct ContactFitOptions {
   int grids = 6;            ///< >= 0. Further grids of contact nodes tried at most
-  double tolerance = 0.02;  ///< > 0. Edges that move by less have been found, in lengths of the mesh's edge there
+  double aim = 0.005;       ///< > 0. No further grid where edges move by less, in lengths of the mesh's edge there
+  double tolerance = 0.02;  ///< >= aim. Those that move by less on the last grid have settled
   CellLengths lengths;
 };
 
@@ -21,6 +22,7 @@ struct ContactFit {
   int grids = 0;     ///< laid, the first not counted
   double moved = 1;  ///< largest change of an edge that another grid would have made, in lengths of the mesh's edge; 1
                      ///< where that could not be computed
+  double share = 1;  ///< the same, of the narrower of the two pieces of the flank that meet at the edge
   bool settled = false;  ///< `moved` is within the tolerance
   int edges = 0;         ///< of worn zones
 };

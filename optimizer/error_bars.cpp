@@ -140,10 +140,12 @@ void add_error_bars(const Scene& scene, const ModelBuilder& builder, CandidateRe
   for (const char* name : {"resonance_hz", "worn_resonance_hz"})
     bars.add("search", name, tolerance * result.evaluation.responses.at(name));
   bars.add("search", "resonance_drift", 2 * tolerance);
-  if (const auto moved = result.evaluation.model.find("contact_edges_moved");
-      moved != result.evaluation.model.end() && moved->second > ContactFitOptions{}.tolerance)
-    for (const char* name : {"asymptotic_wear_volume_m3", "asymptotic_wear_depth_max_m", "resonance_drift"})
-      bars.add("edge", name, std::min(1.0, moved->second) * std::abs(result.evaluation.responses.at(name)));
+  // Of a zone of width w the depth grows like its power 3/2, the volume like 5/2.
+  const double moved = result.evaluation.model.at("contact_edges_moved_share");
+  for (const auto& [name, power] : {std::pair{"asymptotic_wear_volume_m3", 2.5}, std::pair{"resonance_drift", 2.5},
+                                    std::pair{"asymptotic_wear_depth_max_m", 1.5}})
+    if (moved > 0)
+      bars.add("edge", name, std::min(1.0, power * moved) * std::abs(result.evaluation.responses.at(name)));
   if (sharp_ended(scene)) bars.leave_open("contact_pressure_max_pa");
   bars.total();
 }

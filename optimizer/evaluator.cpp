@@ -175,6 +175,7 @@ CandidateResult computed(const Scene& scene, CandidateModel model, const Computa
   evaluation.model["contact_grids"] = fit.grids;
   evaluation.model["contact_edges"] = fit.edges;
   evaluation.model["contact_edges_moved"] = fit.moved;
+  evaluation.model["contact_edges_moved_share"] = fit.settled ? 0 : fit.share;
   evaluation.model["contact_nodes"] = static_cast<double>(result.model.cells.count());
   evaluation.status = result.model.status;
   if (!result.model.converged()) return result;

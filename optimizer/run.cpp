@@ -114,13 +114,18 @@ SearchOutcome corrected_search(EvaluationSession& session, FinerLimits& finer) {
   SearchOutcome outcome = only_scan ? SearchOutcome{.status = Status::converged, .message = "scan: complete"}
                                     : within_budget([&] { return search(session); });
   double step = kSettings.step * options.initial_step;
+  std::optional<std::size_t> held;
   for (int look = 0; finer.active() && session.best(); ++look) {
-    if (finer.holds(*session.best())) return outcome;
+    const std::size_t left = all - session.candidates().size();
+    if (finer.holds(*session.best())) {
+      const bool unfinished = outcome.status == Status::iteration_limit && left > 0;
+      if (!unfinished || session.best() == held) return outcome;
+      held = session.best();
+    }
     if (look + 1 >= kSettings.looks) {
       settle_for_another(session, finer, kSettings);
       break;
     }
-    const std::size_t left = all - session.candidates().size();
     if (left == 0 || only_scan || !session.best()) continue;
     session.limit(session.candidates().size() + (left + 1) / 2);
     step = std::max(step, 2 * stopping_step(options));

@@ -38,8 +38,8 @@ struct SolverSettings {
   std::string solver = "auto";       ///< auto | newton | powell | powell_fd
   double pseudo_penalty = 0;         ///< eps of all contact nodes, N/m; 0: from the model
   double pseudo_penalty_normal = 0;  ///< eps in the normal direction, N/m; 0: pseudo_penalty
-  int max_jacobians = 1000;  ///< work of one evaluation, in Jacobians in which all contact nodes take part; 0: no limit
-  double time_limit = 0;     ///< of one evaluation from the preload on, s; 0: none
+  int max_jacobians = 500;  ///< work of one evaluation, in Jacobians in which all contact nodes take part; 0: no limit
+  double time_limit = 0;    ///< of one evaluation from the preload on, s; 0: none
 };
 
 /// One fully specified candidate: everything the evaluator needs, in SI.

@@ -95,6 +95,7 @@ def design(program, scene, seed, index):
         return row
     fine = evaluate(program, scene["study"], settings | scene["fine"], ["--no-bars"])
     row |= {"fine_status": fine["status"], "fine_seconds": fine["timings_s"]["total"]}
+    row["jacobians"] = usual["model"]["jacobians_spent"]
     row["messages"] = " | ".join(usual["messages"])
     row["sources"] = json.dumps(usual["error_sources"])
     for name, value in usual["responses"].items():

@@ -86,7 +86,6 @@ class Study {
     if (found.verdict != wear::Verdict::asymptote)
       fail("No worn state at rest was found: " + std::string(wear::to_string(found.verdict)) + ".");
     results_.asymptote_volume_m3 = found.worn_volume;
-    results_.nodal_volume_m3 = found.worn_volume;
     results_.certificate = found.certificate;
   }
 

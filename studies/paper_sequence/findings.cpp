@@ -87,11 +87,9 @@ Finding steady_state(const Results& r) {
       .here = fmt::format("After {} cycles the largest rate is {} of the first one. The worn volume, {}, is then {} "
                           "that of the state at rest found directly at the same nodes, which leaves {}.",
                           significant(history.cycles.back(), 2), significant(share, 2), in(volume, 1e-9, "mm\u00b3"),
-                          change(r.nodal_volume_m3, volume, "above", "below"),
+                          change(r.asymptote_volume_m3, volume, "above", "below"),
                           r.certificate < 1e-9 ? "no wear rate" : significant(r.certificate, 2) + " of the first rate"),
-      .why = r.in_space() ? ""
-                          : fmt::format("With the edges of the worn zones between nodes the state at rest has {}.",
-                                        in(r.asymptote_volume_m3, 1e-9, "mm\u00b3")),
+      .why = "",
       .verdict = when(share < 1e-2 && r.certificate < 1e-2)};
 }
 

@@ -47,8 +47,7 @@ struct Results {
   Numbers frequency_hz, glued_amplitude_m;
   std::vector<WornState> states;  ///< unworn first, asymptote last
   History history;
-  double asymptote_volume_m3 = 0;           ///< with the edges of the worn zones between nodes
-  double nodal_volume_m3 = 0;               ///< with whole nodes, as a history wears
+  double asymptote_volume_m3 = 0;           ///< found directly
   double certificate = 0;                   ///< largest rate the asymptote leaves over the unworn one
   double resonance_wear_ratio = 0;          ///< largest rate of the history's last state over the first largest one
   Numbers unequal_flanks_volume_m3;         ///< worn off the left and right flank when their angles differ; or empty

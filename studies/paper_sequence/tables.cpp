@@ -58,7 +58,6 @@ Json results_json(const Results& r) {
             {"glued_hz", r.glued_hz},
             {"glued_amplitude_m", r.glued_m},
             {"asymptotic_volume_m3", r.asymptote_volume_m3},
-            {"asymptotic_nodal_volume_m3", r.nodal_volume_m3},
             {"certificate", r.certificate},
             {"failures", r.failures},
             {"frequency_hz", r.frequency_hz},

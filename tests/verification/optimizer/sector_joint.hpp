@@ -48,42 +48,37 @@ struct FlankLoad {
   [[nodiscard]] Eigen::VectorXd middle() const { return pressure.col(pressure.cols() / 2); }
 };
 
+/// Of the nodes from `first` on, `across` times `along` of them; moves `first` behind them.
+inline FlankLoad flank_load(const response::Preload& preload, const Eigen::VectorXd& area, Eigen::Index d,
+                            Eigen::Index across, Eigen::Index along, Eigen::Index& first) {
+  const Eigen::Index count = across * along;
+  FlankLoad load;
+  load.pressure = preload.pressure.segment(first, count).reshaped(across, along);
+  load.area = area.segment(first, count).reshaped(across, along);
+  const Eigen::MatrixXd force = preload.force.segment(d * first, d * count).reshaped(d, count);
+  load.normal = force.row(0).sum();
+  load.tangential = force.row(1).sum();
+  if (d == 3) load.axial = force.row(2).sum();
+  first += count;
+  return load;
+}
+
 inline std::vector<FlankLoad> flank_loads(const fem::SectorMesh& sector, const fem::SectorSystem& system,
                                           const response::Preload& preload) {
   std::vector<FlankLoad> loads;
-  const Eigen::Index d = system.full.dimensions;
   Eigen::Index first = 0;
-  for (const fem::Flank& flank : sector.flanks) {
-    const Eigen::Index count = flank.contact_count();
-    FlankLoad load;
-    load.pressure = preload.pressure.segment(first, count).reshaped(flank.grid[0], flank.grid[1]);
-    load.area = system.contact.area.segment(first, count).reshaped(flank.grid[0], flank.grid[1]);
-    const Eigen::MatrixXd force = preload.force.segment(d * first, d * count).reshaped(d, count);
-    load.normal = force.row(0).sum();
-    load.tangential = force.row(1).sum();
-    if (d == 3) load.axial = force.row(2).sum();
-    loads.push_back(load);
-    first += count;
-  }
+  for (const fem::Flank& flank : sector.flanks)
+    loads.push_back(
+        flank_load(preload, system.contact.area, system.full.dimensions, flank.grid[0], flank.grid[1], first));
   return loads;
 }
 
 inline std::vector<FlankLoad> flank_loads(const CandidateModel& model) {
   std::vector<FlankLoad> loads;
-  const Eigen::Index d = model.cells.position.rows();
   Eigen::Index first = 0;
-  for (const fem::FlankCells& flank : model.cells.flanks) {
-    const auto across = std::ssize(flank.across.front()) - 1, along = std::ssize(flank.across), count = across * along;
-    FlankLoad load;
-    load.pressure = model.preload.pressure.segment(first, count).reshaped(across, along);
-    load.area = model.cells.area.segment(first, count).reshaped(across, along);
-    const Eigen::MatrixXd force = model.preload.force.segment(d * first, d * count).reshaped(d, count);
-    load.normal = force.row(0).sum();
-    load.tangential = force.row(1).sum();
-    if (d == 3) load.axial = force.row(2).sum();
-    loads.push_back(load);
-    first += count;
-  }
+  for (const fem::FlankCells& flank : model.cells.flanks)
+    loads.push_back(flank_load(model.preload, model.cells.area, model.cells.position.rows(),
+                               std::ssize(flank.across.front()) - 1, std::ssize(flank.across), first));
   return loads;
 }
 
