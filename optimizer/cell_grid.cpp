@@ -56,14 +56,15 @@ std::vector<double> cell_ends(const EdgeLengths& edge_lengths, const std::vector
           static_cast<double>(above - cells.begin()) - 1 + (at - *(above - 1)) / (*above - *(above - 1));
       return from + piece * step / kSteps;
     };
-    // Whole cells from both ends; what is left over in the middle, half a cell to one and a half, is a cell of its own.
+    // Whole cells from both ends; what is left over in the middle, up to a cell and a bit, is a cell of its own.
     // So its number changes in the middle, where cells are longest and the contact changes least, and nowhere else.
     const double total = cells.back();
     int& count = counts[p];
-    const int asked = std::max(1, static_cast<int>(std::lround(total)));
+    constexpr double kBit = 0.2;
+    const int asked = std::max(1, static_cast<int>(std::ceil(total - kBit)));
     if (!again || std::abs(count - asked) > 1) count = asked;
     const int before = count / 2, after = count - 1 - before;
-    const double scale = std::min(1.0, total / (count - 0.5));
+    const double scale = std::min(1.0, total / (count - 1 + kBit));
     for (int c = 1; c <= before; ++c) ends.push_back(place(c * scale));
     for (int c = after; c >= 1; --c) ends.push_back(place(total - c * scale));
     ends.push_back(fixed[p + 1]);

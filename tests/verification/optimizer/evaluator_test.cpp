@@ -55,9 +55,11 @@ TEST(SectionEvaluation, ConvergesWithEveryResponseAndAFiniteErrorBar) {
 
 // The status names the stage that spent the budget, responses of those before it stay.
 TEST(SectionEvaluation, EndsWithItsBudget) {
-  ASSERT_GT(baseline().evaluation.model.at("jacobians_spent"), 1.2);
+  // Enough to lay the contact nodes as without a limit.
+  const double spent = baseline().evaluation.model.at("jacobians_spent");
+  ASSERT_GT(spent, 10);
   Scene scene = coarse_scene();
-  scene.solver.max_jacobians = 1;
+  scene.solver.max_jacobians = static_cast<int>(0.8 * spent);
   const Evaluation part = evaluator().evaluate(scene).evaluation;
   const std::size_t colon = part.status.find(": ");
   ASSERT_NE(colon, std::string::npos) << part.status;

@@ -15,6 +15,7 @@ inline Scene joint(const std::string& type) {
   // On a smaller bore the disk's umbrella mode comes next to the blade's first one.
   scene.geometry.bore_radius = 0.16;
   scene.mesh = {.flank_elements = 6,
+                .flank_grading = 4,
                 .fillet_fraction = 0.7,
                 .bulk_size = 12e-3,
                 .aerofoil_elements = 6,

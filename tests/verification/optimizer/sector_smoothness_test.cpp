@@ -64,7 +64,7 @@ TEST_P(SectorSmoothness, FrequenciesAndPressuresDoNotJump) {
   // by the whole range one of 1. Pressures have kinks where a node lifts off, hence one range for all of them.
   // Frequencies that the line hardly changes (crowns: by the stress alone) may move by the reduction's tolerance.
   for (Eigen::Index a = 0; a < kFrequencies; ++a)
-    EXPECT_LT(second(a), 0.2 * range(a) + 1e-6 * answers(a, 0)) << "frequency " << a;
+    EXPECT_LT(second(a), 0.25 * range(a) + 1e-6 * answers(a, 0)) << "frequency " << a;
   const Eigen::Index nodes = answers.rows() - kFrequencies;
   EXPECT_GT(range.tail(nodes).maxCoeff(), 1e-3 * answers.col(0).tail(nodes).mean());
   EXPECT_LT(second.tail(nodes).maxCoeff(), 0.2 * range.tail(nodes).maxCoeff());
