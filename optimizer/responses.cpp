@@ -45,4 +45,9 @@ const ResponseName* find_response(std::string_view name) {
   return found == table.end() ? nullptr : &*found;
 }
 
+std::vector<std::string> responses_without_limit(const Scene& scene) {
+  const bool sharp = scene.geometry.left.edge_radius == 0 || scene.geometry.right.edge_radius == 0;
+  return sharp ? std::vector<std::string>{"contact_pressure_max_pa"} : std::vector<std::string>{};
+}
+
 }  // namespace dovetail::optimizer

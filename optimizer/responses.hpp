@@ -1,7 +1,11 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
+
+#include "optimizer/scene.hpp"
 
 namespace dovetail::optimizer {
 
@@ -17,5 +21,8 @@ struct ResponseName {
 
 /// The entry of that name, or nullptr.
 [[nodiscard]] const ResponseName* find_response(std::string_view name);
+
+/// Responses that grow without limit as the scene's mesh becomes finer: the peak of pressure at sharp ends of flanks.
+[[nodiscard]] std::vector<std::string> responses_without_limit(const Scene& scene);
 
 }  // namespace dovetail::optimizer

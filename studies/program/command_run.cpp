@@ -92,6 +92,7 @@ int run_study(const RunOptions& options, const Streams& streams, const RunEngine
   const auto begin = std::chrono::steady_clock::now();
   const Study study = load_study(options.study);
   require_runnable(study);
+  for (const std::string& warning : warnings(study)) streams.err << options.study << ": warning: " << warning << "\n";
   const RunEngine engine = make_engine(study);
   const std::string fingerprint = optimizer::fingerprint(
       study.problem, study.optimizer, std::string("dovetail ") + version() + "\n" + physics_text(study.scene));

@@ -28,6 +28,7 @@ void deliver_json(const std::string& where, const std::string& text, const Strea
 int run_check(const CheckOptions& options, const Streams& streams) {
   const Study study = load_study(options.study, options.overrides);
   const optimizer::Problem& problem = study.problem;
+  for (const std::string& warning : warnings(study)) streams.err << options.study << ": warning: " << warning << "\n";
   const auto counted = [](std::size_t count, const char* what) {
     return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
   };
@@ -79,6 +80,7 @@ std::string evaluation_table(const optimizer::Evaluation& evaluation) {
 int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
   check_accuracy(options.solver);
   Study study = load_study(options.study, with_solver(options.overrides, options.solver));
+  for (const std::string& warning : warnings(study)) streams.err << options.study << ": warning: " << warning << "\n";
   const std::shared_ptr<const optimizer::SceneEvaluator> evaluator = scene_evaluator(study);
   const std::optional<Status> automatic = choose_truncation(study.scene, *evaluator, options.solver);
   optimizer::Evaluation evaluation = evaluator->evaluate(study.scene, !options.no_bars).evaluation;

@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 
+#include "optimizer/responses.hpp"
 #include "studies/program/export.hpp"
 #include "studies/program/problem_reader.hpp"
 #include "studies/program/section_reader.hpp"
@@ -161,6 +162,20 @@ std::string physics_text(const optimizer::Scene& scene) {
   std::string text = "scene.type = " + scene.type + "\nsolver.solver = " + scene.solver.solver + "\n";
   for (const auto& [key, value] : optimizer::parameters(scene)) text += key + " = " + shortest(value) + "\n";
   return text;
+}
+
+std::vector<std::string> warnings(const Study& study) {
+  std::vector<std::string> result;
+  const auto leans_on = [&](const std::string& name, const char* what) {
+    for (const std::string& without : optimizer::responses_without_limit(study.scene))
+      if (name == without)
+        result.push_back(what + (" of " + name) +
+                         ": at sharp ends of the flanks it grows without limit as the mesh becomes finer; give "
+                         "geometry.flank_edge_radius_mm or take contact_pressure_mean_pa.");
+  };
+  for (const optimizer::ObjectiveTerm& term : study.problem.objective) leans_on(term.response, "an objective");
+  for (const optimizer::ResponseConstraint& limit : study.problem.constraints) leans_on(limit.response, "a limit");
+  return result;
 }
 
 }  // namespace dovetail::studies

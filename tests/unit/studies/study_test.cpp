@@ -58,6 +58,17 @@ TEST(Study, TemplateReadsAsTheDefaults) {
   EXPECT_EQ(study.problem.constraints.size(), 2U);
 }
 
+TEST(Study, WarnsOfAResponseWithoutLimit) {
+  const std::string limit = "[[constraint]]\nresponse = \"contact_pressure_max_pa\"\nupper = 400e6\n";
+  EXPECT_TRUE(warnings(read(sample())).empty());
+  const std::vector<std::string> sharp = warnings(read(sample() + limit));
+  ASSERT_EQ(sharp.size(), 1U);
+  EXPECT_THAT(sharp.front(), HasSubstr("contact_pressure_max_pa"));
+  Study rounded = read(sample() + limit);
+  rounded.scene.geometry.left.edge_radius = rounded.scene.geometry.right.edge_radius = 5e-3;
+  EXPECT_TRUE(warnings(rounded).empty());
+}
+
 TEST(Study, EveryRequiredKeyIsMissedByName) {
   int required = 0;
   for (const Place& place : places()) {
