@@ -80,8 +80,10 @@ void march_node(const double* prediction, const NodeLaw& law, int samples, const
     }
     // Slip that dies out geometrically is as far from its orbit as the changes still to come: their sum counts. What an
     // extrapolation stirs up dies out faster than what it was made for, of which a little is left.
+    // Changes of some rounding errors say nothing about a ratio: they may go on for ever.
+    constexpr double kErrors = 8;
     double rest = largest;
-    if (Directions == 2 && largest > rounding) {
+    if (Directions == 2 && largest > kErrors * rounding) {
       const double ratio = largest_before > 0 ? std::max(largest / largest_before, slowest) : 1;
       rest = ratio < 1 ? largest * std::max(1.0, ratio / (1 - ratio)) : kInfinity;
     }
