@@ -29,7 +29,8 @@ struct Study {
 /// limits, an objective that is missing.
 [[nodiscard]] Study read_study(const Document& document);
 
-/// What a study asks for that it had better not, a sentence each: an objective or a limit of a response without a limit.
+/// What a study asks for that it had better not, a sentence each: an objective or a limit of a response without a
+/// limit.
 [[nodiscard]] std::vector<std::string> warnings(const Study& study);
 
 /// load_document, apply_overrides and read_study in one.
