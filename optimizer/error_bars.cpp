@@ -41,16 +41,15 @@ double mesh_factor(const std::string& response) {
   if (response == "glued_frequency_hz" || response == "resonance_hz" || response == "worn_resonance_hz" ||
       response == "resonance_drift" || response.ends_with("_stress_pa"))
     return left_over(2);
-  // The largest depth stands at one place, next to the sharp end of a flank.
-  if (response == "asymptotic_wear_depth_max_m") return left_over(1);
-  // Integrals over zones of slip.
-  return left_over(4.0 / 3);
+  // The worn joint bears on its inner parts.
+  if (response == "worn_peak_amplitude_m") return left_over(4.0 / 3);
+  // Slip next to the sharp ends of flanks.
+  return left_over(1);
 }
 
 /// Nodes 1.5 times as long on the same mesh, which the coarse mesh has as well: what they change is in both.
 double grid_factor(const std::string& response) {
-  return response == "asymptotic_wear_depth_max_m" || response == "resonance_drift" ? left_over(5.0 / 3)
-                                                                                    : left_over(7.0 / 3);
+  return left_over(response == "worn_peak_amplitude_m" ? 7.0 / 3 : 5.0 / 3);
 }
 
 class Bars {

@@ -13,9 +13,10 @@ namespace dovetail::optimizer {
 /// change of a response:
 ///
 /// - mesh: d to a mesh 1.5 times as coarse, with its own contact nodes. With an error of order p, d / (1.5^p - 1) is
-///   left: p = 1 for the largest depth, 4/3 for what is an integral over zones of slip (flanks end sharply), 2 for
-///   frequencies and fillet stresses, 4 for resultants. Of fillet stresses, what the free surface corrects besides.
-/// - contact_grid: d to contact nodes 1.5 times as long on the same mesh: 0.63 d, of depth and drift 1.03 d. Worn
+///   left: p = 1 for slip next to the sharp ends of flanks and the wear that comes of it, 4/3 for the amplitude of the
+///   worn joint, 2 for frequencies and fillet stresses, 4 for resultants. Of fillet stresses, what the free surface
+///   corrects besides.
+/// - contact_grid: d to contact nodes 1.5 times as long on the same mesh: 1.03 d, of the worn amplitude 0.63 d. Worn
 ///   volumes of zero are asked for on nodes half as long, too.
 /// - harmonics, samples: d to 2H+1 and to 2N; errors fall at least like 1/H and 1/N: 2 d.
 /// - pseudo_penalty: 1/2 d to half of it, which acts through the harmonics left out.
