@@ -32,7 +32,7 @@ double left_over(double order) {
 }
 
 // The orders were chosen while looking at random designs against meshes four times as fine (studies/error_bars, seed
-// 1): the highest at which nearly all errors stay inside.
+// 1).
 double mesh_factor(const std::string& response) {
   // Forces that follow from equilibrium know of the mesh only through its quadratic arcs.
   if (response == "contact_pressure_mean_pa" || response == "neck_tension_pa") return left_over(4);

@@ -27,8 +27,8 @@ namespace dovetail::optimizer {
 /// The last four kinds are asked of the coarse companion, which costs a fraction. The bar is the sum. A response
 /// without a limit is `unbounded`: the pressure peak at sharp ends of the flanks, and whatever a companion that did not
 /// converge leaves open (with a message).
-/// @param coarse  makes the models of coarsened(scene). Cost: five evaluations of the coarse scene and one on another
-/// grid of contact nodes; each has a budget of its own.
+/// @param coarse  makes the models of coarsened(scene). Cost: five evaluations of the coarse scene and one or two on
+/// other grids of contact nodes; each has a budget of its own.
 void add_error_bars(const Scene& scene, const ModelBuilder& coarse, CandidateResult& result);
 
 }  // namespace dovetail::optimizer

@@ -86,7 +86,7 @@ dovetail::option_table<dovetail::optimizer::OptimizerOptions>() {
        .member = &O::finer_meshes,
        .range = {.lower = 0, .upper = 4},
        .help = "Meshes, each with twice as many edges along the flanks as the last, on which the best design must keep "
-               "its limits."},
+               "its limits; in space 1 unless given."},
       {.key = "verify",
        .member = &O::verify,
        .range = {.lower = 0, .upper = 100},

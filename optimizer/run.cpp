@@ -185,6 +185,8 @@ OptimizationResult run_optimization(const Problem& problem, const Evaluator& eva
     result = result_of(session, outcome.status, outcome.message);
   } catch (const StopSearch& stop) {
     result = result_of(session, stop.reason, {});
+    if (finer.active() && result.best)
+      result.message += "; how the best design so far keeps its limits on finer meshes is not known";
   }
   result.finer = finer.checks();
   return result;

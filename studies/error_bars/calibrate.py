@@ -18,18 +18,13 @@ import random
 import statistics
 import subprocess
 import sys
+import tomllib
 
 STUDIES = pathlib.Path(__file__).resolve().parents[1]
 
 SECTION = {
     "study": STUDIES / "quickstart/study.toml",
-    "box": {
-        "geometry.flank_mismatch_um": (-5, 25),
-        "geometry.flank_crown_um": (-3, 10),
-        "geometry.flank_angle_deg": (47, 55),
-        "geometry.flank_length_mm": (5, 6),
-        "geometry.neck_width_mm": (8, 9.5),
-        "geometry.neck_fillet_radius_mm": (1.6, 2.5),
+    "box": {  # beside the variables of the study
         "contact.friction": (0.2, 0.8),
         "loading.tip_force_n": (0.5, 5),
         "loading.damping_ratio": (3e-4, 3e-3),
@@ -70,6 +65,11 @@ SPACE = {
 }
 
 
+def ranges(scene):
+    variables = tomllib.loads(scene["study"].read_text(encoding="utf-8")).get("variable", [])
+    return {v["key"]: (v["lower"], v["upper"]) for v in variables} | scene["box"]
+
+
 def evaluate(program, study, settings, extra=()):
     command = [program, "evaluate", str(study), "--json", "-", *extra]
     for key, value in settings.items():
@@ -85,7 +85,7 @@ def design(program, scene, seed, index):
     """The first design of this index whose geometry is possible, evaluated coarsely and finely."""
     generator = random.Random(f"{seed} {index}")
     while True:
-        settings = {key: round(generator.uniform(*bounds), 6) for key, bounds in scene["box"].items()}
+        settings = {key: round(generator.uniform(*bounds), 6) for key, bounds in ranges(scene).items()}
         usual = evaluate(program, scene["study"], settings)
         if usual["status"] != "infeasible":
             break

@@ -89,7 +89,6 @@ Finding steady_state(const Results& r) {
                           significant(history.cycles.back(), 2), significant(share, 2), in(volume, 1e-9, "mm\u00b3"),
                           change(r.asymptote_volume_m3, volume, "above", "below"),
                           r.certificate < 1e-9 ? "no wear rate" : significant(r.certificate, 2) + " of the first rate"),
-      .why = "",
       .verdict = when(share < 1e-2 && r.certificate < 1e-2)};
 }
 

@@ -141,6 +141,8 @@ Study read_study(const Document& document) {
   report_contradictions(document, study.scene, problems);
 
   SectionReader optimizer(root.take("optimizer"), "optimizer", problems);
+  // In space a mesh four times as fine costs hours.
+  if (study.scene.in_space()) study.optimizer.finer_meshes = 1;
   optimizer.fields(study.optimizer, option_table<optimizer::OptimizerOptions>());
   optimizer.finish();
 

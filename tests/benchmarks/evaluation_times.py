@@ -20,17 +20,11 @@ import resource
 import statistics
 import subprocess
 import sys
+import tomllib
 
 STUDY = pathlib.Path(__file__).resolve().parents[2] / "studies/quickstart/study.toml"
 
-DESIGN = {
-    "geometry.flank_mismatch_um": (-5, 25),
-    "geometry.flank_crown_um": (-3, 10),
-    "geometry.flank_angle_deg": (47, 55),
-    "geometry.flank_length_mm": (5, 6),
-    "geometry.neck_width_mm": (8, 9.5),
-    "geometry.neck_fillet_radius_mm": (1.6, 2.5),
-}
+DESIGN = {v["key"]: (v["lower"], v["upper"]) for v in tomllib.loads(STUDY.read_text(encoding="utf-8"))["variable"]}
 STUDY_BOX = DESIGN | {
     "geometry.flank_angle_deg": (40, 55),
     "contact.friction": (0.2, 0.8),

@@ -90,6 +90,48 @@ std::vector<int> outer_arc(const Grid& grid) {
   return nodes;
 }
 
+// Nothing acts on the surface any more, and the strains along it are those before: for random states.
+TEST(FreeSurface, KeepsTheStrainsAlongItAndLosesItsTraction) {
+  const double nu = 0.3;
+  for (int k = 0; k < 100; ++k) {
+    const bool plane = k % 2 == 0;
+    const Eigen::Matrix3d random = Eigen::Matrix3d::Random();
+    Eigen::Matrix3d before = random + random.transpose(), after;
+    Eigen::Vector3d n = Eigen::Vector3d::Random();
+    if (plane) {
+      n.z() = before(0, 2) = before(2, 0) = before(1, 2) = before(2, 1) = 0;
+      before(2, 2) = nu * (before(0, 0) + before(1, 1));
+    }
+    n.normalize();
+    if (plane) {
+      const Eigen::VectorXd s =
+          on_free_surface(Eigen::Vector3d(before(0, 0), before(1, 1), before(0, 1)), n.head<2>(), nu);
+      after << s[0], s[2], 0, s[2], s[1], 0, 0, 0, nu * (s[0] + s[1]);
+    } else {
+      Eigen::Matrix<double, 6, 1> s;
+      s << before(0, 0), before(1, 1), before(2, 2), before(0, 1), before(1, 2), before(2, 0);
+      after = stress_tensor<Wedge18>(on_free_surface(s, n, nu));
+    }
+    EXPECT_LT((after * n).norm(), 1e-12);
+    const auto along = [&](const Eigen::Matrix3d& stress) {
+      const Eigen::Matrix3d strain = (1 + nu) * stress - nu * stress.trace() * Eigen::Matrix3d::Identity();
+      const Eigen::Matrix3d projection = Eigen::Matrix3d::Identity() - n * n.transpose();
+      return Eigen::Matrix3d(projection * strain * projection);
+    };
+    EXPECT_LT((along(after) - along(before)).norm(), 1e-12) << k;
+  }
+}
+
+TEST(FreeSurface, NormalsOfACircleAreItsRadii) {
+  const Grid grid = testing::make_grid(1, 8, testing::annular_sector(0.1, 0.2, 6));
+  const std::vector<int> nodes = outer_arc(grid);
+  const Eigen::MatrixXd normals = boundary_normals(grid.mesh, nodes);
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    EXPECT_NEAR(std::abs(normals.col(static_cast<Eigen::Index>(k)).dot(grid.mesh.nodes.col(nodes[k]).normalized())), 1,
+                1e-4)
+        << k;
+}
+
 TEST(BoundaryWeights, SumToTheLengthOfTheArc) {
   // Simpson's rule on parabolic edges: the error of an arc's length falls like h^4.
   double previous = 0;
