@@ -96,12 +96,16 @@ std::vector<fem::Material> materials(const Scene& scene) {
   return {scene.blade, scene.disk};
 }
 
+SharedBudget new_budget(const SolverSettings& solver, const CandidateModel& candidate) {
+  return std::make_shared<Budget>(
+      solver.max_jacobians > 0 ? solver.max_jacobians * candidate.jacobian_operations : kInfinity,
+      solver.time_limit > 0 ? solver.time_limit : kInfinity);
+}
+
 void renew_budget(const SolverSettings& solver, CandidateModel& candidate) {
   candidate.jacobian_operations = response::jacobian_operations(
       candidate.cells.count(), candidate.system.full.dimensions, solver.harmonics, solver.samples);
-  candidate.budget = std::make_shared<Budget>(
-      solver.max_jacobians > 0 ? solver.max_jacobians * candidate.jacobian_operations : kInfinity,
-      solver.time_limit > 0 ? solver.time_limit : kInfinity);
+  candidate.budget = new_budget(solver, candidate);
 }
 
 void lay_contact(const Scene& scene, const std::vector<fem::FlankCells>& flanks, CandidateModel& candidate) {

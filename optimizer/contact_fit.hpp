@@ -16,6 +16,7 @@ struct ContactFitOptions {
 struct Computation {
   ContactFitOptions contact = {};
   double penalty_scale = 1;  ///< of the pseudo-penalty
+  bool history = false;      ///< where the direct worn state is in doubt the wear history decides
 };
 
 struct ContactFit {

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "optimizer/evaluator.hpp"
 #include "optimizer/responses.hpp"
 #include "response/resonance.hpp"
 
@@ -13,62 +16,69 @@ namespace dovetail::optimizer {
 
 namespace {
 
-constexpr double kRatio = 1.5;
+constexpr double kGridRatio = 1.5;
 
-/// A change of settings and what its effect on a response says about the error left.
-struct Source {
-  const char* name;
-  double (*factor)(const std::string& response);
+/// How much of the change of a response by other settings may be left as its error.
+using Factor = std::function<double(const std::string& response)>;
+
+/// The design at other settings, and what its distance from the reference says.
+struct Companion {
+  const Evaluation* evaluation;
+  Factor factor;
 };
 
-template <int numerator, int denominator>
-double share(const std::string&) {
-  return static_cast<double>(numerator) / denominator;
+Factor share(double factor) {
+  return [factor](const std::string&) { return factor; };
 }
 
-/// With an error of order p, d to a mesh 1.5 times as coarse leaves d / (1.5^p - 1).
-double left_over(double order) {
-  return 1 / (std::pow(kRatio, order) - 1);
+/// With an error of order p, d to settings `ratio` times as coarse leaves d / (ratio^p - 1).
+double left_over(double order, double ratio) {
+  return 1 / (std::pow(ratio, order) - 1);
 }
 
 // The orders were chosen while looking at random designs against meshes four times as fine (studies/error_bars, seed
 // 1).
-double mesh_factor(const std::string& response) {
+double mesh_order(const std::string& response) {
   // Forces that follow from equilibrium know of the mesh only through its quadratic arcs.
-  if (response == "contact_pressure_mean_pa" || response == "neck_tension_pa") return left_over(4);
+  if (response == "contact_pressure_mean_pa" || response == "neck_tension_pa") return 4;
   // Energies of the whole, into which the ends of the flanks enter with the square of their error; stresses of fillets,
   // for which what the free surface says of them counts besides.
   if (response == "glued_frequency_hz" || response == "resonance_hz" || response == "worn_resonance_hz" ||
       response == "resonance_drift" || response.ends_with("_stress_pa"))
-    return left_over(2);
+    return 2;
   // The worn joint bears on its inner parts.
-  if (response == "worn_peak_amplitude_m") return left_over(4.0 / 3);
+  if (response == "worn_peak_amplitude_m") return 4.0 / 3;
   // Slip next to the sharp ends of flanks.
-  return left_over(1);
+  return 1;
 }
 
 /// Nodes 1.5 times as long on the same mesh, which the coarse mesh has as well: what they change is in both.
 double grid_factor(const std::string& response) {
-  return left_over(response == "worn_peak_amplitude_m" ? 7.0 / 3 : 5.0 / 3);
+  return left_over(response == "worn_peak_amplitude_m" ? 7.0 / 3 : 5.0 / 3, kGridRatio);
 }
 
 class Bars {
  public:
   explicit Bars(CandidateResult& result) : evaluation_(result.evaluation) {}
 
-  /// The effect of `changed` against `reference`, for every response of the evaluation.
-  void add(const Source& source, const Evaluation& changed, const Evaluation& reference) {
-    const bool known = changed.converged() && reference.converged();
-    if (!known)
-      evaluation_.messages.push_back(std::string("No bar for the error by ") + source.name +
-                                     ": the design computed for it ended with \"" +
-                                     (changed.converged() ? reference.status : changed.status) + "\".");
+  /// The largest that the companions which converged say against `reference`, for every response of the evaluation.
+  void add(const char* source, const std::vector<Companion>& companions, const Evaluation& reference) {
+    bool known = false;
+    for (const Companion& companion : companions) {
+      if (companion.evaluation->converged() && reference.converged())
+        known = true;
+      else
+        evaluation_.messages.push_back(std::string("A design computed for the error by ") + source + " ended with \"" +
+                                       (reference.converged() ? companion.evaluation->status : reference.status) +
+                                       "\".");
+    }
     for (const auto& [name, value] : evaluation_.responses) {
-      if (!known) {
-        open_.insert(name);
-        continue;
-      }
-      add(source.name, name, source.factor(name) * std::abs(changed.responses.at(name) - reference.responses.at(name)));
+      double bar = 0;
+      for (const Companion& companion : companions)
+        if (known && companion.evaluation->converged())
+          bar = std::max(bar, companion.factor(name) *
+                                  std::abs(companion.evaluation->responses.at(name) - reference.responses.at(name)));
+      known ? add(source, name, bar) : leave_open(name);
     }
   }
   void add(const char* source, const std::string& response, double bar) {
@@ -91,18 +101,30 @@ class Bars {
   std::set<std::string> open_;
 };
 
+/// What the wear history leaves open, as a share of the worn shape: nodes end where the direct method has its edges,
+/// not where a history ended elsewhere; and what is in doubt without a history that ends may be anything.
+double left_in_doubt(const wear::Asymptote& asymptote) {
+  if (asymptote.doubt.empty() || asymptote.doubt == "finer_settings") return 0;
+  if (!asymptote.confirmed_by_history) return 1;
+  if (asymptote.decided_by != "history") return 0;
+  for (const wear::OtherState& other : asymptote.other_states)
+    if (other.found_by == "release" && asymptote.worn_volume > 0)
+      return std::min(1.0, std::abs(other.worn_volume / asymptote.worn_volume - 1));
+  return 0;
+}
+
 }  // namespace
 
-Scene coarsened(Scene scene) {
-  const auto fewer = [](int count, int least) {
-    return std::max(least, static_cast<int>(std::lround(count / kRatio)));
+Scene coarsened(Scene scene, double ratio) {
+  const auto fewer = [ratio](int count, int least) {
+    return std::max(least, static_cast<int>(std::lround(count / ratio)));
   };
   scene.mesh.flank_elements = fewer(scene.mesh.flank_elements, 4);
   scene.mesh.aerofoil_elements = fewer(scene.mesh.aerofoil_elements, 2);
   if (!scene.in_space()) {
-    scene.mesh.fillet_fraction = std::min(1.0, kRatio * scene.mesh.fillet_fraction);
-    scene.mesh.blend_fraction = std::min(2.0, kRatio * scene.mesh.blend_fraction);
-    scene.mesh.bulk_size = std::min(0.1, kRatio * scene.mesh.bulk_size);
+    scene.mesh.fillet_fraction = std::min(1.0, ratio * scene.mesh.fillet_fraction);
+    scene.mesh.blend_fraction = std::min(2.0, ratio * scene.mesh.blend_fraction);
+    scene.mesh.bulk_size = std::min(0.1, ratio * scene.mesh.bulk_size);
   }
   scene.solid_mesh.slot_elements = fewer(scene.solid_mesh.slot_elements, 2);
   if (scene.solid_mesh.contact_slot_elements > 0)
@@ -112,38 +134,64 @@ Scene coarsened(Scene scene) {
   return scene;
 }
 
-void add_error_bars(const Scene& scene, const ModelBuilder& builder, CandidateResult& result) {
+CoarseBuilders::CoarseBuilders(const Scene& reference) {
+  for (double ratio : kCoarser) builders_.emplace_back(coarsened(reference, ratio));
+}
+
+void add_error_bars(const Scene& scene, const CoarseBuilders& builders, CandidateResult& result) {
   Bars bars(result);
-  const Scene coarse = coarsened(scene);
-  const CandidateModel model = builder.build(coarse);
-  const auto companion = [](const Scene& of, CandidateModel on, const Computation& how = {}) {
+  const auto companion = [](const Scene& of, CandidateModel on, const Computation& how) {
     if (on.converged()) renew_budget(of.solver, on);
     return computed(of, std::move(on), how).evaluation;
   };
-  const auto cells = [](double longer) {
-    Computation how;
+  // Where the history decided, it does so for the companions.
+  Computation as_here;
+  as_here.history = result.asymptote->decided_by == "history";
+  const auto cells = [&as_here](double longer) {
+    Computation how = as_here;
     how.contact.lengths.finest *= longer;
     how.contact.lengths.coarsest *= longer;
     return how;
   };
-  const Evaluation reference = companion(coarse, model);
-  bars.add({"mesh", mesh_factor}, reference, result.evaluation);
-  bars.add({"contact_grid", grid_factor}, companion(scene, result.model, cells(kRatio)), result.evaluation);
+  const auto settings = [&](const char* source, double factor, const Evaluation& changed, const Evaluation& reference) {
+    bars.add(source, {{&changed, share(factor)}}, reference);
+  };
+
+  std::vector<Evaluation> coarse;
+  std::vector<Companion> meshes;
+  coarse.reserve(kCoarser.size());
+  for (std::size_t i = 0; i < kCoarser.size(); ++i) {
+    const Scene scene_i = coarsened(scene, kCoarser[i]);
+    coarse.push_back(companion(scene_i, builders[i].build(scene_i), as_here));
+    meshes.push_back({&coarse.back(), [ratio = kCoarser[i]](const std::string& response) {
+                        return left_over(mesh_order(response), ratio);
+                      }});
+  }
+  bars.add("mesh", meshes, result.evaluation);
+  const Evaluation longer = companion(scene, result.model, cells(kGridRatio));
+  bars.add("contact_grid", {{&longer, grid_factor}}, result.evaluation);
   // Worn zones narrower than the contact nodes are not seen.
   if (result.asymptote->worn_volume == 0)
-    bars.add({"contact_grid", share<2, 1>}, companion(scene, result.model, cells(0.5)), result.evaluation);
+    settings("contact_grid", 2, companion(scene, result.model, cells(0.5)), result.evaluation);
 
-  Scene changed = coarse;
-  changed.solver.harmonics = 2 * coarse.solver.harmonics + 1;
+  // What the other settings leave hardly depends on the mesh: it is asked where a design costs least.
+  const std::size_t on = coarse.front().converged() ? 0 : 1;
+  const Scene base = coarsened(scene, kCoarser[on]);
+  const Evaluation& reference = coarse[on];
+  const CandidateModel model = builders[on].build(base);
+  Scene changed = base;
+  changed.solver.harmonics = 2 * base.solver.harmonics + 1;
   while (changed.solver.samples < 4 * changed.solver.harmonics + 4) changed.solver.samples *= 2;
-  bars.add({"harmonics", share<2, 1>}, companion(changed, model), reference);
-  changed = coarse;
+  settings("harmonics", 2, companion(changed, model, as_here), reference);
+  changed = base;
   changed.solver.samples *= 2;
-  bars.add({"samples", share<2, 1>}, companion(changed, model), reference);
-  bars.add({"pseudo_penalty", share<1, 2>}, companion(coarse, model, {.contact = {}, .penalty_scale = 0.5}), reference);
-  changed = coarse;
+  settings("samples", 2, companion(changed, model, as_here), reference);
+  Computation softer = as_here;
+  softer.penalty_scale = 0.5;
+  settings("pseudo_penalty", 0.5, companion(base, model, softer), reference);
+  changed = base;
   changed.solver.modes *= 2;
-  bars.add({"modes", share<3, 2>}, companion(changed, builder.build(changed)), reference);
+  settings("modes", 1.5, companion(changed, builders[on].build(changed), as_here), reference);
 
   bars.add("mesh", "blade_fillet_stress_pa", result.blade_fillet->aggregate_error);
   bars.add("mesh", "disk_fillet_stress_pa", result.disk_fillet->aggregate_error);
@@ -153,11 +201,14 @@ void add_error_bars(const Scene& scene, const ModelBuilder& builder, CandidateRe
     bars.add("search", name, tolerance * result.evaluation.responses.at(name));
   bars.add("search", "resonance_drift", 2 * tolerance);
   // Of a zone of width w the depth grows like its power 3/2, the volume like 5/2.
-  const double moved = result.evaluation.model.at("contact_edges_moved_share");
+  const double moved = result.evaluation.model.at("contact_edges_moved_share"),
+               doubt = left_in_doubt(*result.asymptote);
   for (const auto& [name, power] : {std::pair{"asymptotic_wear_volume_m3", 2.5}, std::pair{"resonance_drift", 2.5},
-                                    std::pair{"asymptotic_wear_depth_max_m", 1.5}})
-    if (moved > 0)
-      bars.add("edge", name, std::min(1.0, power * moved) * std::abs(result.evaluation.responses.at(name)));
+                                    std::pair{"asymptotic_wear_depth_max_m", 1.5}}) {
+    const double size = std::abs(result.evaluation.responses.at(name));
+    if (moved > 0) bars.add("edge", name, std::min(1.0, power * moved) * size);
+    if (doubt > 0) bars.add("history", name, doubt * size);
+  }
   for (const std::string& name : responses_without_limit(scene)) bars.leave_open(name);
   bars.total();
 }

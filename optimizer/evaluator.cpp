@@ -1,5 +1,7 @@
 #include "optimizer/evaluator.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -79,6 +81,57 @@ void note_penalties(CandidateResult& result) {
   if (result.worn) note("worn resonance", result.worn->state);
 }
 
+struct WornState {
+  wear::Asymptote asymptote;
+  std::optional<wear::Asymptote> held;  ///< where the resonance is followed
+  double omega = 0;                     ///< rad/s, at which wear came to rest
+};
+
+WornState worn_state(const Scene& scene, const CandidateModel& model, const response::Resonance& unworn,
+                     const response::SteadyOptions& steady, const char* arbitration) {
+  wear::AsymptoteOptions options;
+  options.arbitration = arbitration;
+  if (scene.loading.follow != "resonance")
+    return {.asymptote = wear::asymptote(model.condensed, unworn.omega, {}, steady, options, &unworn.state),
+            .held = {},
+            .omega = unworn.omega};
+  wear::FollowedAsymptote found =
+      wear::followed_asymptote(model.condensed, unworn.omega, {}, steady, options, {}, &unworn.state);
+  return {.asymptote = std::move(found.asymptote), .held = std::move(found.held), .omega = found.omegas.back()};
+}
+
+/// Looks for doubt in a worn state that was found directly and asks the wear history, on a budget of its own. Where
+/// that does not come to an end the direct one stays, in doubt.
+void settle(const Scene& scene, const CandidateModel& model, const response::Resonance& unworn,
+            response::SteadyOptions steady, WornState& worn) {
+  steady.budget = new_budget(scene.solver, model);
+  WornState asked = worn_state(scene, model, unworn, steady, "auto");
+  if (asked.asymptote.verdict == wear::Verdict::not_converged)
+    worn.asymptote.doubt = asked.asymptote.doubt.empty() ? "unfinished" : asked.asymptote.doubt;
+  else
+    worn = std::move(asked);
+}
+
+/// Whether the worn state was in doubt, and what decided.
+void note_doubt(const reduction::ContactNodes& contact, const wear::Asymptote& asymptote, Evaluation& evaluation) {
+  const bool asked = asymptote.confirmed_by_history;
+  evaluation.model["wear_history_may_differ"] = asymptote.doubt.empty() || asked ? 0 : 1;
+  evaluation.model["wear_decided_by_history"] = asymptote.decided_by == "history" ? 1 : 0;
+  if (asymptote.doubt.empty()) return;
+  std::string outcome = "no wear history has decided";
+  if (asymptote.decided_by == "history")
+    outcome = "the wear history decided";
+  else if (asked)
+    outcome = "the wear history ends in it, too";
+  else if (asymptote.doubt == "finer_settings")
+    outcome = "twice the harmonics and samples let it wear a little further, which is in their bars";
+  for (const wear::OtherState& other : asymptote.other_states)
+    if (other.found_by == "release")
+      outcome += fmt::format(" and ends with {:.4g} m^3, the direct method with {:.4g} m^3",
+                             wear::worn_volume(contact, asymptote.depth), other.worn_volume);
+  evaluation.messages.push_back("The worn state was in doubt (" + asymptote.doubt + "): " + outcome + ".");
+}
+
 /// The physics after the model; returns the status of the evaluation.
 std::string dynamics(const Scene& scene, const Computation& how, CandidateResult& result) {
   Evaluation& evaluation = result.evaluation;
@@ -100,18 +153,12 @@ std::string dynamics(const Scene& scene, const Computation& how, CandidateResult
   fillet_responses(scene, result);
   evaluation.timings_s["stress"] = watch.lap();
 
-  double wear_omega = result.unworn->omega;
-  if (scene.loading.follow == "resonance") {
-    wear::FollowedAsymptote found = wear::followed_asymptote(model.condensed, wear_omega, {}, steady,
-                                                             asymptote_options(), {}, &result.unworn->state);
-    wear_omega = found.omegas.back();
-    result.asymptote = std::move(found.asymptote);
-    result.held = std::move(found.held);
-  } else {
-    result.asymptote =
-        wear::asymptote(model.condensed, wear_omega, {}, steady, asymptote_options(), &result.unworn->state);
-  }
-  evaluation.model["wear_frequency_hz"] = hertz(wear_omega);
+  WornState state = worn_state(scene, model, *result.unworn, steady, "unsettled");
+  if (how.history && state.asymptote.verdict == wear::Verdict::asymptote)
+    settle(scene, model, *result.unworn, steady, state);
+  result.asymptote = std::move(state.asymptote);
+  result.held = std::move(state.held);
+  evaluation.model["wear_frequency_hz"] = hertz(state.omega);
   evaluation.timings_s["asymptote"] = watch.lap();
   const wear::Asymptote& asymptote = *result.asymptote;
   if (asymptote.verdict != wear::Verdict::asymptote)
@@ -121,7 +168,7 @@ std::string dynamics(const Scene& scene, const Computation& how, CandidateResult
   evaluation.model["wear_certificate"] = asymptote.certificate;
   evaluation.model["wear_bearing_share"] = asymptote.bearing.share;
   evaluation.model["wear_depth_over_compression"] = asymptote.bearing.closing;
-  evaluation.model["wear_history_may_differ"] = asymptote.doubt.empty() ? 0 : 1;
+  note_doubt(model.reduction.model.contact, asymptote, evaluation);
   responses["initial_wear_rate_m3_per_cycle"] =
       wear::worn_volume(model.reduction.model.contact, result.held ? result.held->unworn_rate : asymptote.unworn_rate);
   responses["asymptotic_wear_volume_m3"] = asymptote.worn_volume;
@@ -148,12 +195,6 @@ response::SteadyOptions steady_options(const SolverSettings& settings) {
       .solver = settings.solver,
       .normal_penalty = settings.pseudo_penalty_normal > 0 ? settings.pseudo_penalty_normal : settings.pseudo_penalty,
       .tangential_penalty = settings.pseudo_penalty};
-}
-
-wear::AsymptoteOptions asymptote_options() {
-  wear::AsymptoteOptions options;
-  options.arbitration = "unsettled";
-  return options;
 }
 
 CandidateResult computed(const Scene& scene, CandidateModel model, const Computation& how) {
@@ -191,12 +232,12 @@ CandidateResult computed(const Scene& scene, CandidateModel model, const Computa
 }
 
 SceneEvaluator::SceneEvaluator(const Scene& reference)
-    : reference_(reference), builder_(reference), coarse_(coarsened(reference)) {}
+    : reference_(reference), builder_(reference), coarse_(reference) {}
 
-CandidateResult SceneEvaluator::evaluate(const Scene& scene, bool bars) const {
+CandidateResult SceneEvaluator::evaluate(const Scene& scene, const Purpose& purpose) const {
   Stopwatch total;
-  CandidateResult result = computed(scene, builder_.build(scene));
-  if (bars && result.evaluation.converged()) {
+  CandidateResult result = computed(scene, builder_.build(scene), {.contact = {}, .history = purpose.history});
+  if (purpose.bars && result.evaluation.converged()) {
     Stopwatch watch;
     add_error_bars(scene, coarse_, result);
     result.evaluation.timings_s["error_estimates"] = watch.lap();
@@ -209,7 +250,7 @@ Evaluator over_design_space(const SceneEvaluator& evaluator, const Scene& base, 
   return [&evaluator, base, keys = space.keys()](std::span<const double> x) {
     Scene scene = base;
     for (std::size_t i = 0; i < keys.size(); ++i) set_parameter(scene, keys[i], x[i]);
-    return evaluator.evaluate(scene, false).evaluation;
+    return evaluator.evaluate(scene, kSearch).evaluation;
   };
 }
 

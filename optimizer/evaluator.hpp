@@ -7,6 +7,7 @@
 #include "optimizer/candidate_model.hpp"
 #include "optimizer/contact_fit.hpp"
 #include "optimizer/design_space.hpp"
+#include "optimizer/error_bars.hpp"
 #include "optimizer/evaluation.hpp"
 #include "optimizer/fillet_stress.hpp"
 #include "response/resonance.hpp"
@@ -25,6 +26,13 @@ struct CandidateResult {
   std::optional<FilletStress> blade_fillet, disk_fillet;
 };
 
+/// How much an evaluation has to answer for. A search compares many designs and leaves both out.
+struct Purpose {
+  bool bars = true;     ///< error bars of all responses
+  bool history = true;  ///< where the direct worn state is in doubt, the wear history decides
+};
+inline constexpr Purpose kSearch{.bars = false, .history = false};
+
 /// Evaluates candidates of one study: the one place that names all stages in order,
 ///
 ///   geometry -> mesh -> finite elements -> reduced model -> preload -> unworn resonance -> wear at that frequency
@@ -35,18 +43,18 @@ class SceneEvaluator {
  public:
   explicit SceneEvaluator(const Scene& reference);
 
-  /// All responses, with their error bars unless those are left out, as in a search. Never throws for what a candidate
-  /// is like: an impossible geometry is "infeasible" with its rules in `constraints`, a stage that did not converge is
-  /// named in `status`. Throws InputError for a scene that violates the ranges of its keys. Cost: about a second at the
-  /// default sizes, and twice as much for the bars.
-  [[nodiscard]] CandidateResult evaluate(const Scene& scene, bool bars = true) const;
+  /// All responses. Never throws for what a candidate is like: an impossible geometry is "infeasible" with its rules in
+  /// `constraints`, a stage that did not converge is named in `status`. Throws InputError for a scene that violates the
+  /// ranges of its keys. Cost: about a second at the default sizes, and three times as much for the bars.
+  [[nodiscard]] CandidateResult evaluate(const Scene& scene, const Purpose& purpose = {}) const;
 
   [[nodiscard]] const ModelBuilder& builder() const { return builder_; }
   [[nodiscard]] const Scene& reference() const { return reference_; }
 
  private:
   Scene reference_;
-  ModelBuilder builder_, coarse_;
+  ModelBuilder builder_;
+  CoarseBuilders coarse_;
 };
 
 /// The physics on a model that converged: contact nodes fitted to the worn zones, then all responses, without bars.
@@ -54,10 +62,6 @@ class SceneEvaluator {
 
 /// Options of every steady state of a scene.
 [[nodiscard]] response::SteadyOptions steady_options(const SolverSettings& settings);
-
-/// Of every worn state of a design: the direct answer stands where release came to a certified end, so that it is
-/// smooth in the design; whether a history ends elsewhere is seen where the best designs are verified.
-[[nodiscard]] wear::AsymptoteOptions asymptote_options();
 
 /// The evaluator as a function of the design variables: `base` with the variables set.
 [[nodiscard]] Evaluator over_design_space(const SceneEvaluator& evaluator, const Scene& base, const DesignSpace& space);

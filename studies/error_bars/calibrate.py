@@ -3,14 +3,16 @@
 
     python3 studies/error_bars/calibrate.py build/dovetail --designs 200 --seed 2 --lines section.jsonl
 
-Every design is evaluated twice: as users do, with bars, and finely, where its responses count as the truth. One line
-per design goes to the file as soon as it is there; the same command goes on where it was stopped. Then a table
-says for each response how many of the true errors lie inside their bars, and how large both are in the median.
---table makes the table of such a file alone. --space takes a slice of a bladed disk in space.
+Every design is evaluated as users do, with bars, and held against its responses at fine settings, which count as the
+truth. Truths that are known stand in section.csv and space.csv beside this program; missing ones are computed (a
+minute each) and added. One line per design goes to the file of lines as soon as it is there; the same command goes on
+where it was stopped. Then a table says for each response how many of the true errors lie inside their bars, and how
+large both are in the median. --table makes the table of such a file alone. --space takes a slice of a bladed disk.
 """
 
 import argparse
 import concurrent.futures
+import csv
 import json
 import os
 import pathlib
@@ -18,9 +20,16 @@ import random
 import statistics
 import subprocess
 import sys
+import threading
 import tomllib
 
-STUDIES = pathlib.Path(__file__).resolve().parents[1]
+HERE = pathlib.Path(__file__).resolve().parent
+STUDIES = HERE.parent
+RESPONSES = (
+    "asymptotic_wear_depth_max_m", "asymptotic_wear_volume_m3", "blade_fillet_stress_pa", "contact_pressure_max_pa",
+    "contact_pressure_mean_pa", "disk_fillet_stress_pa", "dissipated_energy_j", "glued_frequency_hz",
+    "initial_wear_rate_m3_per_cycle", "mass_kg", "neck_tension_pa", "peak_amplitude_m", "peak_stress_pa", "post_width_m",
+    "resonance_drift", "resonance_hz", "worn_peak_amplitude_m", "worn_resonance_hz")
 
 SECTION = {
     "study": STUDIES / "quickstart/study.toml",
@@ -81,27 +90,76 @@ def evaluate(program, study, settings, extra=()):
     return json.loads(done.stdout)
 
 
-def design(program, scene, seed, index):
-    """The first design of this index whose geometry is possible, evaluated coarsely and finely."""
+def draw(program, scene, seed, index):
+    """The settings of the first design of this index whose geometry is possible, and what the program says of it."""
     generator = random.Random(f"{seed} {index}")
     while True:
         settings = {key: round(generator.uniform(*bounds), 6) for key, bounds in ranges(scene).items()}
-        usual = evaluate(program, scene["study"], settings)
+        usual = evaluate(program, scene["study"], settings, ["--no-bars"])
         if usual["status"] != "infeasible":
-            break
-    row = {"design": index, "status": usual["status"], "fine_status": "", "settings": json.dumps(settings),
-           "seconds": usual["timings_s"]["total"], "fine_seconds": ""}
+            return settings, usual
+
+
+def true_values(program, scene, settings, history):
+    """A row of the file of truths: settings, whether the wear history was asked, and the responses at fine settings."""
+    extra = ["--no-bars"] + ([] if history else ["--no-history"])
+    fine = evaluate(program, scene["study"], settings | scene["fine"], extra)
+    return {"history": int(history), "status": fine["status"], "seconds": round(fine["timings_s"]["total"], 1)} | {
+        key: repr(value) for key, value in settings.items()} | {
+        name: f"{value:.9g}" for name, value in fine["responses"].items()}
+
+
+class Truths:
+    """The truths known so far, by design, in a file to which new ones are added as soon as they are there."""
+
+    def __init__(self, path, scene):
+        self.path, self.lock, self.rows = path, threading.Lock(), {}
+        self.columns = ["seed", "design", "history", "status", "seconds", *ranges(scene), *RESPONSES]
+        if path.exists():
+            with path.open(encoding="utf-8", newline="") as file:
+                for row in csv.DictReader(file):
+                    self.rows[int(row["seed"]), int(row["design"])] = row
+
+    def add(self, seed, index, row):
+        row = {"seed": seed, "design": index} | {key: row.get(key, "") for key in self.columns[2:]}
+        with self.lock:
+            self.rows[seed, index] = row
+            new = not self.path.exists()
+            with self.path.open("a", encoding="utf-8", newline="") as file:
+                writer = csv.DictWriter(file, self.columns, lineterminator="\n")
+                if new:
+                    writer.writeheader()
+                writer.writerow(row)
+        return row
+
+
+def by_history(usual):
+    return bool(usual["model"].get("wear_decided_by_history", 0))
+
+
+def design(program, scene, truths, seed, index, judge):
+    """What the program says of a design with its bars, beside the truth, which is computed where it is not known."""
+    truth = truths.rows.get((seed, index))
+    if truth is None:
+        settings, usual = draw(program, scene, seed, index)
+        found = {key: repr(value) for key, value in settings.items()}
+        if usual["status"] == "converged":
+            found = true_values(program, scene, settings, by_history(usual))
+        truth = truths.add(seed, index, found)
+    settings = {key: float(truth[key]) for key in ranges(scene)}
+    if not judge:
+        return {"design": index, "status": "not asked", "fine_status": truth["status"], "seconds": 0}
+    usual = evaluate(program, scene["study"], settings)
+    row = {"design": index, "status": usual["status"], "seconds": usual["timings_s"]["total"], "fine_status": ""}
     if usual["status"] != "converged":
         return row
-    fine = evaluate(program, scene["study"], settings | scene["fine"], ["--no-bars"])
-    row |= {"fine_status": fine["status"], "fine_seconds": fine["timings_s"]["total"]}
-    row["jacobians"] = usual["model"]["jacobians_spent"]
-    row["messages"] = " | ".join(usual["messages"])
-    row["sources"] = json.dumps(usual["error_sources"])
+    if not truth["status"] or by_history(usual) > int(truth["history"]):
+        truth = truths.add(seed, index, true_values(program, scene, settings, by_history(usual)))
+    row |= {"fine_status": truth["status"], "messages": usual["messages"], "sources": usual["error_sources"]}
     for name, value in usual["responses"].items():
         row[name] = value
         row[name + ":bar"] = usual["error_estimates"].get(name, "")
-        row[name + ":fine"] = fine["responses"].get(name, "")
+        row[name + ":fine"] = float(truth[name]) if truth[name] else ""
     return row
 
 
@@ -146,29 +204,36 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", nargs="?", help="build/dovetail")
     parser.add_argument("--designs", type=int, default=200)
+    parser.add_argument("--first", type=int, default=0, help="index of the first design")
     parser.add_argument("--seed", type=int, default=1, help="1 was used while the bars were built")
     parser.add_argument("--space", action="store_true")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--lines", default="error_bars.jsonl", help="one line per design, kept and gone on with")
     parser.add_argument("--table", action="store_true", help="the table of --lines alone")
+    parser.add_argument("--truths", action="store_true", help="only compute the truths that are not known")
     given = parser.parse_args()
-    rows = read(given.lines)
+    rows = [] if given.truths else read(given.lines)
     if not given.table:
         if not given.program:
             sys.exit("calibrate.py: the program is missing: build/dovetail")
         scene, done = SPACE if given.space else SECTION, {row["design"] for row in rows}
-        with concurrent.futures.ThreadPoolExecutor(given.jobs) as pool, \
-                open(given.lines, "a", encoding="utf-8") as file:
-            started = [pool.submit(design, given.program, scene, given.seed, index)
-                       for index in range(given.designs) if index not in done]
+        truths = Truths(HERE / ("space.csv" if given.space else "section.csv"), scene)
+        indices = range(given.first, given.first + given.designs)
+        if given.truths:
+            done = {index for seed, index in truths.rows if seed == given.seed}
+        with concurrent.futures.ThreadPoolExecutor(given.jobs) as pool:
+            started = [pool.submit(design, given.program, scene, truths, given.seed, index, not given.truths)
+                       for index in indices if index not in done]
             for future in concurrent.futures.as_completed(started):
                 row = future.result()
                 rows.append(row)
-                file.write(json.dumps(row) + "\n")
-                file.flush()
-                print(f"{len(rows)}/{given.designs} design {row['design']}: {row['status']} {row['seconds']:.1f} s, "
-                      f"finely {row['fine_status']} {row['fine_seconds']} s", file=sys.stderr, flush=True)
-    print(table(rows))
+                if not given.truths:
+                    with open(given.lines, "a", encoding="utf-8") as file:
+                        file.write(json.dumps(row) + "\n")
+                print(f"{len(rows)} of {given.designs}: design {row['design']}: {row['status']} {row['seconds']:.1f} s, "
+                      f"finely {row['fine_status']}", file=sys.stderr, flush=True)
+    if not given.truths:
+        print(table(rows))
 
 
 if __name__ == "__main__":

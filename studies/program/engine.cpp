@@ -37,7 +37,7 @@ RunEngine study_engine(const Study& study) {
     return scene;
   };
   engine.evaluate = [evaluator, scene_at](std::span<const double> x) {
-    return evaluator->evaluate(scene_at(x), false).evaluation;
+    return evaluator->evaluate(scene_at(x), optimizer::kSearch).evaluation;
   };
   engine.finer = [evaluator, scene_at](std::span<const double> x, int level) {
     return optimizer::evaluated_finer(*evaluator, scene_at(x), level).evaluation;

@@ -54,7 +54,7 @@ Joint spun_up(const optimizer::ModelBuilder& builder, const optimizer::Scene& sc
 
 Wear worn(const optimizer::SceneEvaluator& evaluator, const optimizer::Scene& scene, double degrees) {
   optimizer::Stopwatch watch;
-  const optimizer::Evaluation found = evaluator.evaluate(skewed(scene, degrees), false).evaluation;
+  const optimizer::Evaluation found = evaluator.evaluate(skewed(scene, degrees), optimizer::kSearch).evaluation;
   const auto response = [&](const char* name) {
     const auto entry = found.responses.find(name);
     return entry == found.responses.end() ? std::nan("") : entry->second;

@@ -56,7 +56,7 @@ int run(const std::string& file, int points, const std::string& page) {
       optimizer::Scene scene = study.scene;
       const double value = variable.lower + (variable.upper - variable.lower) * i / (points - 1);
       optimizer::set_parameter(scene, variable.key, value);
-      const optimizer::Evaluation evaluation = evaluator->evaluate(scene, false).evaluation;
+      const optimizer::Evaluation evaluation = evaluator->evaluate(scene, optimizer::kSearch).evaluation;
       std::fprintf(stderr, "%s = %g: %s\n", variable.key.c_str(), value, evaluation.status.c_str());
       if (!evaluation.converged()) {
         ++failed;

@@ -7,11 +7,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <vector>
 
 #include "optimizer/problem.hpp"
 #include "reduction/accuracy.hpp"
+#include "wear/archard.hpp"
 #include "wear/history.hpp"
 
 namespace dovetail::optimizer {
@@ -209,6 +211,54 @@ TEST(SectionEvaluation, GrossSlipHasNoAsymptote) {
   EXPECT_FALSE(evaluation.converged());
   EXPECT_FALSE(evaluation.responses.contains("asymptotic_wear_volume_m3"));
   EXPECT_GT(evaluation.responses.at("dissipated_energy_j"), 0);
+}
+
+// Flanks that lift off in every cycle: nodes wear to where they touch without slip, before they touch nothing.
+TEST(SectionEvaluation, HistoryDecidesWhereTheDirectWornStateIsInDoubt) {
+  Scene scene = coarse_scene();
+  for (geometry::FlankParameters* flank : {&scene.geometry.left, &scene.geometry.right}) {
+    flank->mismatch = 6.131298e-6;
+    flank->crown = 4.587724e-6;
+    flank->angle = 52.72727 * std::numbers::pi / 180;
+    flank->length = 5.872546e-3;
+  }
+  scene.geometry.neck_width = 9.234462e-3;
+  scene.geometry.neck_fillet_radius = 2.395893e-3;
+  scene.contact.friction = 0.60024;
+  scene.loading.tip_force = 4.449043;
+  scene.loading.damping_ratio = 0.001833;
+  scene.loading.speed = 8542.736562 * std::numbers::pi / 30;
+  const CandidateResult searched = evaluator().evaluate(scene, kSearch);
+  ASSERT_TRUE(searched.evaluation.converged()) << searched.evaluation.status;
+  EXPECT_EQ(searched.evaluation.model.at("wear_history_may_differ"), 1);
+  EXPECT_EQ(searched.evaluation.model.at("wear_decided_by_history"), 0);
+
+  const CandidateResult settled = evaluator().evaluate(scene);
+  ASSERT_TRUE(settled.evaluation.converged()) << settled.evaluation.status;
+  EXPECT_EQ(settled.evaluation.model.at("wear_history_may_differ"), 0);
+  EXPECT_EQ(settled.evaluation.model.at("wear_decided_by_history"), 1);
+  EXPECT_TRUE(std::ranges::any_of(settled.evaluation.messages, [](const std::string& message) {
+    return message.find("the wear history decided") != std::string::npos;
+  }));
+  const double direct = searched.asymptote->worn_volume, decided = settled.asymptote->worn_volume;
+  EXPECT_GT(std::abs(decided / direct - 1), 0.01);
+  EXPECT_GE(settled.evaluation.error_estimates.at("asymptotic_wear_volume_m3"), std::abs(decided - direct));
+
+  // An explicit history that knows of neither, with two increments extrapolated to none.
+  const double increment = 0.25 * wear::largest_penetration(*searched.model.condensed, searched.unworn->state);
+  const auto ended = [&](double part) {
+    wear::HistoryOptions options;
+    options.increment = part * increment;
+    options.steps = 4000;
+    options.finish = false;
+    const wear::History history =
+        wear::history(searched.model.condensed, searched.unworn->omega, {}, steady_options(scene.solver), options);
+    EXPECT_EQ(history.end, wear::HistoryEnd::worn_out);
+    return history.worn_volume(history.cycles.size() - 1);
+  };
+  const double explicit_volume = 2 * ended(0.125) - ended(0.25);
+  EXPECT_LT(std::abs(explicit_volume - decided), 0.3 * std::abs(explicit_volume - direct))
+      << explicit_volume << " " << decided << " " << direct;
 }
 
 TEST(SectionEvaluation, RunsTwiceToTheSameBits) {
