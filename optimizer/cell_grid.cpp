@@ -17,12 +17,19 @@ CellLengths cell_lengths(const Scene& scene, CellLengths lengths) {
 }
 
 EdgeLengths::EdgeLengths(const fem::TraceLines& lines) {
-  for (std::size_t i = 0; i < lines.across.size(); i += 2) corners_.push_back(lines.across[i]);
+  for (std::size_t i = 2; i < lines.across.size(); i += 2) {
+    middles_.push_back(lines.across[i - 1]);
+    lengths_.push_back(lines.across[i] - lines.across[i - 2]);
+  }
 }
 
 double EdgeLengths::at(double place) const {
-  const auto above = std::upper_bound(corners_.begin() + 1, corners_.end() - 1, place);
-  return *above - *(above - 1);
+  const auto above = std::upper_bound(middles_.begin(), middles_.end(), place);
+  if (above == middles_.begin()) return lengths_.front();
+  if (above == middles_.end()) return lengths_.back();
+  const auto k = static_cast<std::size_t>(above - middles_.begin());
+  const double t = (place - middles_[k - 1]) / (middles_[k] - middles_[k - 1]);
+  return (1 - t) * lengths_[k - 1] + t * lengths_[k];
 }
 
 std::vector<double> cell_ends(const EdgeLengths& edge_lengths, const std::vector<double>& edges,

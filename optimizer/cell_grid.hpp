@@ -19,14 +19,15 @@ struct CellLengths {
 /// longer.
 [[nodiscard]] CellLengths cell_lengths(const Scene& scene, CellLengths lengths = {});
 
-/// Length of the mesh's edge at a place on a flank, as fractions of the flank.
+/// Length of the mesh's edge at a place on a flank, as fractions of the flank: linear between the middles of edges, so
+/// that it does not jump where an edge of a worn zone passes a node of the mesh.
 class EdgeLengths {
  public:
   explicit EdgeLengths(const fem::TraceLines& lines);
   [[nodiscard]] double at(double place) const;
 
  private:
-  std::vector<double> corners_;
+  std::vector<double> middles_, lengths_;
 };
 
 /// Ends of cells over a flank with an end on each of `edges` (rising, inside 0 to 1). `counts`: of the cells between
