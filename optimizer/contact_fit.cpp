@@ -12,6 +12,8 @@ namespace dovetail::optimizer {
 
 namespace {
 
+constexpr double kRounding = 1e-9;  // of a flank
+
 std::vector<std::vector<double>> ends_of(const fem::ContactCells& cells) {
   std::vector<std::vector<double>> ends;
   for (const fem::FlankCells& flank : cells.flanks) ends.insert(ends.end(), flank.across.begin(), flank.across.end());
@@ -30,6 +32,7 @@ std::vector<std::vector<int>> lines_of(const fem::ContactCells& cells) {
 /// An edge of a worn zone on a flank.
 struct Edge {
   double place = 0;    ///< fraction of the flank
+  double end = 0;      ///< where the last cell of the zone ends
   int outwards = 1;    ///< 1: the zone is on the neck side of it, -1: on the root side
   bool grown = false;  ///< by a later pass of release than the one that began the zone
 };
@@ -52,6 +55,7 @@ std::vector<std::vector<Edge>> edge_places(const fem::ContactCells& cells, const
     const double from = edge.before < 0 ? middle(edge.first) : border(edge.before, edge.first);
     places[line].push_back({.place = from + middle(edge.worn) - middle(edge.first) +
                                      edge.fraction * (middle(edge.bearing) - middle(edge.worn)),
+                            .end = border(edge.worn, edge.bearing),
                             .outwards = edge.worn < edge.bearing ? 1 : -1,
                             .grown = edge.before >= 0});
   }
@@ -78,25 +82,35 @@ void widen_narrow(const EdgeLengths& edge_lengths, const CellLengths& lengths, s
 /// putting the next grid where the last one found them would go to and fro.
 class EdgeSearch {
  public:
-  /// The places of `edges`. Those that grew in a later pass go on a little further than they have to, so that the
-  /// nodes beyond them stick, and do not come back: an earlier pass alone would end there before.
+  /// The places of `edges`. Those that grew in a later pass go on a little further than they have to, and each time
+  /// they grow again twice as far, so that the nodes beyond them stick, and do not come back: an earlier pass alone
+  /// would end there before.
   std::vector<std::vector<double>> hold(const std::vector<std::vector<Edge>>& edges,
                                         const std::vector<EdgeLengths>& lengths) {
     constexpr double kBeyond = 0.05;  // lengths of the mesh's edge
     std::vector<std::vector<double>> places(edges.size());
     held_.resize(edges.size());
     for (std::size_t l = 0; l < edges.size(); ++l) {
-      if (held_[l].size() != edges[l].size()) held_[l].assign(edges[l].size(), std::nullopt);
+      if (held_[l].size() != edges[l].size()) held_[l].assign(edges[l].size(), {});
       for (std::size_t k = 0; k < edges[l].size(); ++k) {
         const Edge& edge = edges[l][k];
+        Held& held = held_[l][k];
         double place = edge.place;
-        if (edge.grown) place += edge.outwards * kBeyond * lengths[l].at(edge.place);
-        if (held_[l][k]) place = edge.outwards > 0 ? std::max(place, *held_[l][k]) : std::min(place, *held_[l][k]);
-        if (edge.grown) held_[l][k] = place;
+        if (held.grown > 0) place = edge.outwards > 0 ? std::max(place, held.place) : std::min(place, held.place);
+        if (edge.grown) {
+          place += edge.outwards * std::ldexp(kBeyond, held.grown++) * lengths[l].at(edge.place);
+          held.place = place;
+        }
         places[l].push_back(place);
       }
     }
     return places;
+  }
+  /// Whether an edge is held where the nodes beyond it hardly stick.
+  [[nodiscard]] bool holds() const {
+    return std::ranges::any_of(held_, [](const std::vector<Held>& of_line) {
+      return std::ranges::any_of(of_line, [](const Held& edge) { return edge.grown > 0; });
+    });
   }
   std::vector<std::vector<double>> next(const std::vector<std::vector<double>>& found,
                                         const std::vector<std::vector<double>>& laid) {
@@ -117,12 +131,16 @@ class EdgeSearch {
   }
 
  private:
+  struct Held {
+    int grown = 0;  ///< how often
+    double place = 0;
+  };
   using Places = std::vector<std::vector<double>>;
   static double miss(const Places& found, const Places& laid, std::size_t l, std::size_t k) {
     return found[l][k] - laid[l][k];
   }
   Places laid_, found_;
-  std::vector<std::vector<std::optional<double>>> held_;
+  std::vector<std::vector<Held>> held_;
 };
 
 /// Displacements U [nc, 2H+1] of one grid carried over to another with the same strips, linear between the middles of
@@ -175,11 +193,12 @@ ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateMode
   std::vector<std::vector<int>> counts(lengths.size());
   EdgeSearch search;
   struct Best {
+    bool whole = false;  ///< the zones are those that the grid was laid for: no node beyond wore, too
     double moved = kInfinity, share = 1;
     int grid = 0;
     std::vector<fem::FlankCells> flanks;
   } best;
-  const response::Resonance peak = response::resonance(
+  response::Resonance peak = response::resonance(
       candidate.condensed, candidate.reduction.glued_frequencies(scene.loading.mode - 1), {}, steady);
   if (peak.status != Status::converged) return fit;
   // What the last grid says of the edges is not known: they may be anywhere near.
@@ -190,16 +209,23 @@ ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateMode
   };
   // At the resonance of the first grid on all of them: it hardly moves, and edges move less.
   response::SteadyState unworn = peak.state;
+  bool at_resonance = false;
   for (;; ++fit.grids) {
     const wear::Asymptote worn = wear::asymptote(candidate.condensed, peak.omega, {}, steady, release, &unworn);
     if (worn.verdict != wear::Verdict::asymptote) return unsettled();
-    std::vector<std::vector<double>> found = search.hold(edge_places(candidate.cells, worn.trail), lengths);
+    const std::vector<std::vector<Edge>> edges_now = edge_places(candidate.cells, worn.trail);
+    std::vector<std::vector<double>> found = search.hold(edges_now, lengths);
+    bool whole = true;
     fit.moved = 0;
     fit.share = 0;
     fit.edges = 0;
     for (std::size_t l = 0; l < found.size(); ++l) {
       widen_narrow(lengths[l], cells, found[l]);
       fit.edges += static_cast<int>(found[l].size());
+      whole =
+          whole && std::ranges::all_of(edges_now[l], [&](const Edge& edge) {
+            return std::ranges::any_of(laid[l], [&](double place) { return std::abs(place - edge.end) < kRounding; });
+          });
       for (std::size_t k = 0; k < found[l].size(); ++k) {
         const bool known = laid[l].size() == found[l].size();
         const double step = known ? std::abs(found[l][k] - laid[l][k]) : kInfinity;
@@ -212,11 +238,21 @@ ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateMode
     // A zone that the finer cells beside its edge make vanish is none.
     const bool vanished = fit.edges == 0 && fit.grids > 0;
     fit.settled = vanished || fit.moved <= options.tolerance;
-    if (fit.moved <= best.moved || vanished)
-      best = {.moved = fit.moved, .share = fit.share, .grid = fit.grids, .flanks = candidate.cells.flanks};
-    if (vanished || fit.moved <= options.aim) return fit;
+    if (vanished || whole > best.whole || (whole == best.whole && fit.moved <= best.moved))
+      best = {
+          .whole = whole, .moved = fit.moved, .share = fit.share, .grid = fit.grids, .flanks = candidate.cells.flanks};
+    if (vanished || fit.moved <= options.aim) {
+      // Where nodes beyond an edge hardly stick, do they at the resonance of this grid?
+      if (!search.holds() || at_resonance || vanished) return fit;
+      peak = response::resonance(candidate.condensed, peak.omega, {}, steady);
+      if (peak.status != Status::converged) return unsettled();
+      unworn = peak.state;
+      at_resonance = true;
+      --fit.grids;
+      continue;
+    }
     if (fit.grids == options.grids) {
-      // Edges that go to and fro: the grid that they would have left least.
+      // Edges that go to and fro: the grid that they would have left least, of those whose zones end at them.
       if (best.grid < fit.grids) lay_contact(scene, best.flanks, candidate);
       fit.moved = best.moved;
       fit.share = best.share;
