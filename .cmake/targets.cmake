@@ -48,6 +48,11 @@ function(dovetail_test name)
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE dovetail_warnings ${ARG_LINK} GTest::gtest_main GTest::gmock)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
+  # All of a label: cmake --build --preset ... --target tests_unit
+  if(NOT TARGET tests_${ARG_LABEL})
+    add_custom_target(tests_${ARG_LABEL})
+  endif()
+  add_dependencies(tests_${ARG_LABEL} ${name})
   include(GoogleTest)
   # Tests run side by side: threads of OpenBLAS within each would only slow the others down.
   set(environment ENVIRONMENT OPENBLAS_NUM_THREADS=1)

@@ -14,9 +14,12 @@ namespace dovetail::optimizer {
 struct VerificationOptions {
   // > 0. Largest increment of depth of the first history, relative to the largest local penetration of the unworn
   // contact (lambda_N over the node's own stiffness): the depth over which loads change. The second takes half of it.
-  double increment = 0.25;
+  // Twice as large the volume does not yet change with the first power of the increment.
+  double increment = 0.125;
   // >= 1. Steps of either history at most.
-  int steps = 600;
+  int steps = 1200;
+  // > 0. Budget of either history, in budgets of an evaluation (solver.max_jacobians and time_limit of the scene).
+  double budgets = 4;
 };
 
 /// A design's wear on a mesh with twice as many edges along the flanks, with twice the harmonics plus one and twice the

@@ -1,0 +1,45 @@
+// A design's wear by explicit histories on a finer mesh, against the direct answer of the search.
+#include "optimizer/verification.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace dovetail::optimizer {
+namespace {
+
+Scene coarse_scene() {
+  Scene scene;
+  scene.mesh.flank_elements = 12;
+  scene.mesh.fillet_fraction = 0.2;
+  scene.mesh.bulk_size = 4e-3;
+  scene.geometry.left.mismatch = scene.geometry.right.mismatch = 4e-6;
+  return scene;
+}
+
+TEST(Verification, ThreeAnswersAgreeWithinTheirBars) {
+  const Scene scene = coarse_scene();
+  const Verification v = verify(SceneEvaluator(scene), scene);
+  ASSERT_TRUE(v.converged()) << v.status;
+  EXPECT_EQ(v.flank_elements, 24);
+  EXPECT_EQ(v.harmonics, 2 * scene.solver.harmonics + 1);
+  EXPECT_EQ(v.samples, 2 * scene.solver.samples);
+  // Three answers, none of them a copy of another.
+  EXPECT_NE(v.direct_volume, v.search_volume);
+  EXPECT_NE(v.history_volume, v.direct_volume);
+  EXPECT_NEAR(v.direct_volume, v.search_volume, v.search_bar);
+  EXPECT_NEAR(v.history_volume, v.search_volume, v.search_bar + v.history_bar);
+  EXPECT_NEAR(v.history_volume, v.direct_volume, v.history_bar + 0.01 * v.direct_volume);
+  EXPECT_GT(v.history_bar, 0);
+  EXPECT_GT(v.history_solves, 20);
+}
+
+TEST(Verification, NeitherHistoryGoesOnWithoutABudget) {
+  const Scene scene = coarse_scene();
+  const Verification v = verify(SceneEvaluator(scene), scene, {.budgets = 0.02});
+  EXPECT_EQ(v.status, "history: budget_spent");
+  EXPECT_GT(v.direct_volume, 0);
+}
+
+}  // namespace
+}  // namespace dovetail::optimizer
