@@ -41,13 +41,12 @@ double left_over(double order, double ratio) {
 double mesh_order(const std::string& response) {
   // Forces that follow from equilibrium know of the mesh only through its quadratic arcs.
   if (response == "contact_pressure_mean_pa" || response == "neck_tension_pa") return 4;
-  // Energies of the whole, into which the ends of the flanks enter with the square of their error; stresses of fillets,
-  // for which what the free surface says of them counts besides.
-  if (response == "glued_frequency_hz" || response == "resonance_hz" || response == "worn_resonance_hz" ||
-      response == "resonance_drift" || response.ends_with("_stress_pa"))
-    return 2;
+  // Energies of the whole, into which the ends of the flanks enter with the square of their error.
+  if (response == "glued_frequency_hz" || response == "resonance_hz" || response == "worn_resonance_hz") return 2.5;
+  // Stresses of fillets, for which what the free surface says of them counts besides.
+  if (response == "resonance_drift" || response.ends_with("_stress_pa")) return 2;
   // The worn joint bears on its inner parts.
-  if (response == "worn_peak_amplitude_m") return 4.0 / 3;
+  if (response == "worn_peak_amplitude_m") return 5.0 / 3;
   // Slip next to the sharp ends of flanks.
   return 1;
 }

@@ -25,7 +25,7 @@ std::vector<Limit> limits(const Problem& problem) {
   std::vector<Limit> all;
   for (const ResponseConstraint& c : problem.constraints) {
     const auto add = [&](double limit, double sign) {
-      all.push_back({.of = &c, .limit = limit, .scale = c.scale > 0 ? c.scale : std::abs(limit), .sign = sign});
+      all.push_back({.of = &c, .limit = limit, .scale = c.scale_at(limit), .sign = sign});
     };
     if (c.upper) add(*c.upper, 1);
     if (c.lower) add(*c.lower, -1);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -27,6 +28,8 @@ struct ResponseConstraint {
   std::optional<double> lower, upper;  ///< at least one; SI
   double scale = 0;                    ///< > 0, needed when a limit is 0; 0: |limit|
   bool absolute = false;               ///< limits |r|
+  /// What the distance from one of its limits is divided by.
+  [[nodiscard]] double scale_at(double limit) const { return scale > 0 ? scale : std::abs(limit); }
 };
 
 /// What is minimised over which variables under which limits.

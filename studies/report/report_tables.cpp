@@ -163,8 +163,7 @@ std::string limit_table(const RunRecord& record) {
     const std::string limited = names[j].substr(0, colon), side = names[j].substr(colon + 1);
     double scale = 1;
     for (const optimizer::ResponseConstraint& c : record.problem.constraints)
-      if (c.response == limited)
-        scale = c.scale > 0 ? c.scale : std::abs((side == "upper" ? c.upper : c.lower).value_or(1));
+      if (c.response == limited) scale = c.scale_at((side == "upper" ? c.upper : c.lower).value_or(1));
     text +=
         fmt::format("<tr><th scope=\"row\" class=\"text\">{}, {}</th><td>{}</td>", escape(words(limited)), side,
                     with_error(-best->constraints[j], error_bar(*best, limited) / scale, {.symbol = "", .si = 0.01}));

@@ -37,7 +37,7 @@ TEST_F(SectionInCalculiX, HasOurNaturalFrequenciesOverNodalDiameters) {
       ours.sector, ours.materials, {.nodal_diameters = {kDiameters.begin(), kDiameters.end()}, .modes = kModes}));
   const double error = frequency_error(ours.frequencies(kDiameters, kModes, false), kDiameters, answer);
   RecordProperty("frequency_error", std::to_string(error));
-  EXPECT_LT(error, 1e-3);
+  EXPECT_LT(error, 3e-4);
 }
 
 // Plane elements, their cuts joined by equations: the deck of nodal diameter 0.
@@ -52,9 +52,9 @@ TEST_F(SectionInCalculiX, HasOurCentrifugalDisplacementsAndStresses) {
   RecordProperty("displacement_error", std::to_string(displacement));
   RecordProperty("largest_stress_error", std::to_string(stress.largest));
   RecordProperty("mean_stress_error", std::to_string(stress.mean));
-  EXPECT_LT(displacement, 5e-3);
+  EXPECT_LT(displacement, 2e-5);
   EXPECT_LT(stress.largest, 5e-3);
-  EXPECT_LT(stress.mean, 5e-3);
+  EXPECT_LT(stress.mean, 2.5e-3);
 }
 
 // Geometric stiffness and spin softening. CalculiX also takes the stiffness of the deformed shape, which we leave out:
@@ -69,7 +69,7 @@ TEST_F(SectionInCalculiX, HasOurFrequenciesAtSpeed) {
   const double all = frequency_error(frequencies, kDiameters, answer);
   RecordProperty("first_mode_error", std::to_string(first));
   RecordProperty("all_modes_error", std::to_string(all));
-  EXPECT_LT(first, 1e-3);
+  EXPECT_LT(first, 8e-5);
   EXPECT_LT(all, 4e-3);
   // At rest the first mode lies 28 % lower: the comparison above would not pass without the speed's stiffness.
   EXPECT_GT(frequencies(0, 0), 1.2 * ours.frequencies(kDiameters, 1, false)(0, 0));
@@ -84,7 +84,7 @@ TEST_F(SectionInCalculiX, HasOurFrequenciesWithRegionsOfDifferentThickness) {
         run(geometry::inp(ours.sector, ours.materials, {.nodal_diameters = diameters, .modes = kModes}));
     const double error = frequency_error(ours.frequencies(diameters, kModes, false), diameters, answer);
     RecordProperty("frequency_error_" + std::to_string(diameters.front()), std::to_string(error));
-    EXPECT_LT(error, 1e-3);
+    EXPECT_LT(error, 3e-4);
   }
 }
 
