@@ -32,9 +32,10 @@ class CoarseBuilders {
 /// change of a response:
 ///
 /// - mesh: d to meshes r = 1.5 and 2 times as coarse, with their own contact nodes. With an error of order p,
-///   d / (r^p - 1) is left, of which the larger counts: p = 1 for slip next to the sharp ends of flanks and the wear
-///   that comes of it, 5/3 for the amplitude of the worn joint, 2 for drift and fillet stresses, 2.5 for frequencies,
-///   4 for resultants. Of fillet stresses, what the free surface corrects besides.
+///   d / (r^p - 1) is left, of which the larger counts (of volume, depth and drift the first): p = 1 for slip next to
+///   the sharp ends of flanks and the wear that comes of it, 5/3 for the amplitude of the worn joint, 2 for drift and
+///   fillet stresses, 2.5 for frequencies, 4 for resultants. Of fillet stresses, what the free surface corrects
+///   besides.
 /// - contact_grid: d to contact nodes 1.5 times as long on the same mesh: 1.03 d, of the worn amplitude 0.63 d. Worn
 ///   volumes of zero are asked for on nodes half as long, too.
 /// - harmonics, samples: d to 2H+1 and to 2N; errors fall at least like 1/H and 1/N: 2 d.
