@@ -63,24 +63,25 @@ std::string verification_table(const RunRecord& record) {
     deepest = std::max({deepest, v.direct_depth_m, v.history_depth_m});
   }
   const Unit volume = readable_unit("m^3", most), depth = readable_unit("m", deepest);
-  std::string text = "<div class=\"scroll\"><table><thead><tr>";
+  const Unit bare{.symbol = "", .si = volume.si};  // the unit stands in the head
+  std::string text =
+      "<div class=\"scroll\"><table><thead><tr><th scope=\"col\">#</th><th scope=\"col\" class=\"text\">status</th>";
   for (const std::string& column :
-       {std::string("#"), "search (" + volume.symbol + ")", "direct (" + volume.symbol + ")",
-        "history (" + volume.symbol + ")", std::string("change"), "depth, direct (" + depth.symbol + ")",
-        "history (" + depth.symbol + ")", std::string("profiles differ by"), std::string("states, direct"),
-        std::string("history")})
+       {"search (" + volume.symbol + ")", "direct (" + volume.symbol + ")", "history (" + volume.symbol + ")",
+        std::string("change"), "depth, direct (" + depth.symbol + ")", "history (" + depth.symbol + ")",
+        std::string("profiles differ by"), std::string("states, direct"), std::string("history")})
     text += "<th scope=\"col\">" + escape(column) + "</th>";
-  text += "<th scope=\"col\" class=\"text\">status</th></tr></thead><tbody>\n";
+  text += "</tr></thead><tbody>\n";
   for (const VerificationRecord& v : record.verifications) {
     text += fmt::format(
-        "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>",
-        v.evaluation + 1, with_error(v.search_volume_m3, v.search_bar_m3, volume),
-        significant(v.direct_volume_m3 / volume.si, 4), with_error(v.history_volume_m3, v.history_bar_m3, volume),
-        per_cent(v.history_volume_m3, v.direct_volume_m3), significant(v.direct_depth_m / depth.si, 4),
-        significant(v.history_depth_m / depth.si, 4));
-    text += fmt::format("<td>{}\u00a0%</td><td>{}</td><td>{}</td><td class=\"text\">{}</td></tr>\n",
-                        significant(100 * v.profile_difference, 2), v.direct_solves, v.history_solves,
-                        escape(v.status == "converged" ? "agree within their bars" : v.status));
+        "<tr><th scope=\"row\">{}</th><td class=\"text\">{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
+        "<td>{}</td>",
+        v.evaluation + 1, escape(v.status == "converged" ? "agree within their bars" : v.status),
+        with_error(v.search_volume_m3, v.search_bar_m3, bare), significant(v.direct_volume_m3 / volume.si, 4),
+        with_error(v.history_volume_m3, v.history_bar_m3, bare), per_cent(v.history_volume_m3, v.direct_volume_m3),
+        significant(v.direct_depth_m / depth.si, 4), significant(v.history_depth_m / depth.si, 4));
+    text += fmt::format("<td>{}\u00a0%</td><td>{}</td><td>{}</td></tr>\n", significant(100 * v.profile_difference, 2),
+                        v.direct_solves, v.history_solves);
   }
   return text + "</tbody></table></div>\n";
 }
