@@ -194,9 +194,15 @@ void add_error_bars(const Scene& scene, const CoarseBuilders& builders, Candidat
   changed = base;
   changed.solver.samples *= 2;
   settings("samples", 2, companion(changed, model, as_here), reference);
-  Computation softer = as_here;
-  softer.penalty_scale = 0.5;
-  settings("pseudo_penalty", 0.5, companion(base, model, softer), reference);
+  // Half of it, or twice as much where that has no answer.
+  for (const double scale : {0.5, 2.0}) {
+    Computation scaled = as_here;
+    scaled.penalty_scale = scale;
+    const Evaluation found = companion(base, model, scaled);
+    if (!found.converged() && scale < 1) continue;
+    settings("pseudo_penalty", 0.5, found, reference);
+    break;
+  }
   changed = base;
   changed.solver.modes *= 2;
   settings("modes", 1.5, companion(changed, builders[on].build(changed), as_here), reference);
