@@ -83,7 +83,8 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
   for (const std::string& warning : warnings(study)) streams.err << options.study << ": warning: " << warning << "\n";
   const std::shared_ptr<const optimizer::SceneEvaluator> evaluator = scene_evaluator(study);
   const std::optional<Status> automatic = choose_truncation(study.scene, *evaluator, options.solver);
-  optimizer::Evaluation evaluation = evaluator->evaluate(study.scene, {.bars = !options.no_bars, .history = !options.no_history}).evaluation;
+  optimizer::Evaluation evaluation =
+      evaluator->evaluate(study.scene, {.bars = !options.no_bars, .history = !options.no_history}).evaluation;
   if (automatic && *automatic != Status::converged)
     evaluation.messages.push_back(
         truncation_complaint(*automatic, optimizer::steady_options(study.scene.solver), options.solver));
