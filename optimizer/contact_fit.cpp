@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <limits>
 
 #include "optimizer/evaluator.hpp"
 #include "response/resonance.hpp"
@@ -76,6 +76,40 @@ void widen_narrow(const EdgeLengths& edge_lengths, const CellLengths& lengths, s
     else
       ++k;
 }
+
+/// How far the worn zones of a grid are from those that it was laid for.
+struct Misfit {
+  int foreign = 0;  ///< strips on which a zone ends where none was laid to end: a node beyond it wore, too
+  int edges = 0;    ///< of zones
+  /// Largest way of an edge to where the next grid has it - on strips with more or fewer zones than the grid was laid
+  /// for, from the end of its cell - in lengths of the mesh's edge.
+  double moved = 0;
+  double share = 0;  ///< the same, of the narrower of the two pieces of the flank that meet at the edge
+
+  /// Of a strip: its edges, where they are `held`, where the next grid has them, and where this one was laid for.
+  void add(const std::vector<Edge>& edges_now, const std::vector<double>& held, const std::vector<double>& next,
+           const std::vector<double>& laid, const EdgeLengths& lengths) {
+    bool own = true;
+    double beside = 0;  // how far edges are from the ends of their cells
+    for (std::size_t k = 0; k < edges_now.size(); ++k) {
+      own = own &&
+            std::ranges::any_of(laid, [&](double place) { return std::abs(place - edges_now[k].end) < kRounding; });
+      beside = std::max(beside, std::abs(held[k] - edges_now[k].end));
+    }
+    foreign += own ? 0 : 1;
+    edges += static_cast<int>(next.size());
+    for (std::size_t k = 0; k < next.size(); ++k) {
+      const double way = next.size() == laid.size() ? std::abs(next[k] - laid[k]) : beside;
+      const double below = next[k] - (k == 0 ? 0 : next[k - 1]);
+      const double above = (k + 1 == next.size() ? 1 : next[k + 1]) - next[k];
+      moved = std::max(moved, way / lengths.at(next[k]));
+      share = std::max(share, std::min(1.0, way / std::min(below, above)));
+    }
+  }
+  [[nodiscard]] bool less_than(const Misfit& other) const {
+    return foreign != other.foreign ? foreign < other.foreign : moved < other.moved;
+  }
+};
 
 /// Where the ends of cells are put so that edges found on the grid (`found`) coincide with them: at the zero of found -
 /// laid, by the secant through the last two grids, edge by edge. Beside a narrow zone edges move against the cells, and
@@ -193,10 +227,10 @@ ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateMode
   std::vector<std::vector<int>> counts(lengths.size());
   EdgeSearch search;
   struct Best {
-    bool whole = false;  ///< the zones are those that the grid was laid for: no node beyond wore, too
-    double moved = kInfinity, share = 1;
+    Misfit misfit{.foreign = std::numeric_limits<int>::max()};
     int grid = 0;
     std::vector<fem::FlankCells> flanks;
+    Eigen::MatrixXd displacement;
   } best;
   response::Resonance peak = response::resonance(
       candidate.condensed, candidate.reduction.glued_frequencies(scene.loading.mode - 1), {}, steady);
@@ -211,36 +245,27 @@ ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateMode
   response::SteadyState unworn = peak.state;
   bool at_resonance = false;
   for (;; ++fit.grids) {
+    fit.omega = peak.omega;
+    fit.displacement = unworn.displacement;
     const wear::Asymptote worn = wear::asymptote(candidate.condensed, peak.omega, {}, steady, release, &unworn);
     if (worn.verdict != wear::Verdict::asymptote) return unsettled();
     const std::vector<std::vector<Edge>> edges_now = edge_places(candidate.cells, worn.trail);
     std::vector<std::vector<double>> found = search.hold(edges_now, lengths);
-    bool whole = true;
-    fit.moved = 0;
-    fit.share = 0;
-    fit.edges = 0;
+    Misfit misfit;
     for (std::size_t l = 0; l < found.size(); ++l) {
+      const std::vector<double> held = found[l];
       widen_narrow(lengths[l], cells, found[l]);
-      fit.edges += static_cast<int>(found[l].size());
-      whole =
-          whole && std::ranges::all_of(edges_now[l], [&](const Edge& edge) {
-            return std::ranges::any_of(laid[l], [&](double place) { return std::abs(place - edge.end) < kRounding; });
-          });
-      for (std::size_t k = 0; k < found[l].size(); ++k) {
-        const bool known = laid[l].size() == found[l].size();
-        const double step = known ? std::abs(found[l][k] - laid[l][k]) : kInfinity;
-        const double below = found[l][k] - (k == 0 ? 0 : found[l][k - 1]);
-        const double above = (k + 1 == found[l].size() ? 1 : found[l][k + 1]) - found[l][k];
-        fit.moved = std::max(fit.moved, known ? step / lengths[l].at(found[l][k]) : 1.0);
-        fit.share = std::max(fit.share, std::min(1.0, step / std::min(below, above)));
-      }
+      misfit.add(edges_now[l], held, found[l], laid[l], lengths[l]);
     }
+    fit.moved = misfit.moved;
+    fit.share = misfit.share;
+    fit.edges = misfit.edges;
     // A zone that the finer cells beside its edge make vanish is none.
     const bool vanished = fit.edges == 0 && fit.grids > 0;
     fit.settled = vanished || fit.moved <= options.tolerance;
-    if (vanished || whole > best.whole || (whole == best.whole && fit.moved <= best.moved))
+    if (vanished || !best.misfit.less_than(misfit))
       best = {
-          .whole = whole, .moved = fit.moved, .share = fit.share, .grid = fit.grids, .flanks = candidate.cells.flanks};
+          .misfit = misfit, .grid = fit.grids, .flanks = candidate.cells.flanks, .displacement = unworn.displacement};
     if (vanished || fit.moved <= options.aim) {
       // Where nodes beyond an edge hardly stick, do they at the resonance of this grid?
       if (!search.holds() || at_resonance || vanished) return fit;
@@ -253,9 +278,12 @@ ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateMode
     }
     if (fit.grids == options.grids) {
       // Edges that go to and fro: the grid that they would have left least, of those whose zones end at them.
-      if (best.grid < fit.grids) lay_contact(scene, best.flanks, candidate);
-      fit.moved = best.moved;
-      fit.share = best.share;
+      if (best.grid < fit.grids) {
+        lay_contact(scene, best.flanks, candidate);
+        fit.displacement = best.displacement;
+      }
+      fit.moved = best.misfit.moved;
+      fit.share = best.misfit.share;
       fit.settled = fit.moved <= options.tolerance;
       return fit;
     }
@@ -272,6 +300,7 @@ ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateMode
       }
     const std::vector<std::vector<double>> before = ends_of(candidate.cells);
     lay_contact(scene, flanks, candidate);
+    fit.displacement.resize(0, 0);
     if (!candidate.converged()) return unsettled();
     const Eigen::MatrixXd guess =
         carried_over(unworn.displacement, before, ends_of(candidate.cells), candidate.condensed->directions());

@@ -26,6 +26,10 @@ struct ContactFit {
   double share = 1;  ///< the same, of the narrower of the two pieces of the flank that meet at the edge
   bool settled = false;  ///< `moved` is within the tolerance
   int edges = 0;         ///< of worn zones
+  /// The unworn steady state near its resonance on the nodes laid, for the search of the resonance to start from:
+  /// rad/s and m. No displacement where there is none.
+  double omega = 0;
+  Eigen::MatrixXd displacement = {};
 };
 
 /// Lays contact nodes on a candidate so that the worn zones of its asymptote at the unworn resonance end where nodes

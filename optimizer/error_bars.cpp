@@ -108,16 +108,20 @@ class Bars {
   std::set<std::string> open_;
 };
 
-/// What the wear history leaves open, as a share of the worn shape: nodes end where the direct method has its edges,
-/// not where a history ended elsewhere; and what is in doubt without a history that ends may be anything.
-double left_in_doubt(const wear::Asymptote& asymptote) {
-  if (asymptote.doubt.empty() || asymptote.doubt == "finer_settings") return 0;
-  if (!asymptote.confirmed_by_history) return 1;
-  if (asymptote.decided_by != "history") return 0;
+struct Doubt {
+  double volume = 0, depth = 0;  ///< m^3, m
+};
+
+/// What the wear history leaves open: nodes end where the direct method has its edges, not where a history ended
+/// elsewhere; and what is in doubt without a history that ends may be anything.
+Doubt left_in_doubt(const wear::Asymptote& asymptote) {
+  if (asymptote.doubt.empty() || asymptote.doubt == "finer_settings") return {};
+  if (!asymptote.confirmed_by_history) return {.volume = asymptote.worn_volume, .depth = asymptote.largest_depth};
   for (const wear::OtherState& other : asymptote.other_states)
-    if (other.found_by == "release" && asymptote.worn_volume > 0)
-      return std::min(1.0, std::abs(other.worn_volume / asymptote.worn_volume - 1));
-  return 0;
+    if (asymptote.decided_by == "history" && other.found_by == "release")
+      return {.volume = std::abs(other.worn_volume - asymptote.worn_volume),
+              .depth = std::abs(other.largest_depth - asymptote.largest_depth)};
+  return {};
 }
 
 }  // namespace
@@ -194,15 +198,14 @@ void add_error_bars(const Scene& scene, const CoarseBuilders& builders, Candidat
   changed = base;
   changed.solver.samples *= 2;
   settings("samples", 2, companion(changed, model, as_here), reference);
-  // Half of it, or twice as much where that has no answer.
-  for (const double scale : {0.5, 2.0}) {
-    Computation scaled = as_here;
-    scaled.penalty_scale = scale;
-    const Evaluation found = companion(base, model, scaled);
-    if (!found.converged() && scale < 1) continue;
-    settings("pseudo_penalty", 0.5, found, reference);
-    break;
+  Computation scaled = as_here;
+  scaled.penalty_scale = 0.5;
+  Evaluation other = companion(base, model, scaled);
+  if (!other.converged()) {
+    scaled.penalty_scale = 2;
+    other = companion(base, model, scaled);
   }
+  settings("pseudo_penalty", 0.5, other, reference);
   changed = base;
   changed.solver.modes *= 2;
   settings("modes", 1.5, companion(changed, builders[on].build(changed), as_here), reference);
@@ -214,14 +217,19 @@ void add_error_bars(const Scene& scene, const CoarseBuilders& builders, Candidat
   for (const char* name : {"resonance_hz", "worn_resonance_hz"})
     bars.add("search", name, tolerance * result.evaluation.responses.at(name));
   bars.add("search", "resonance_drift", 2 * tolerance);
+  const std::map<std::string, double>& responses = result.evaluation.responses;
+  const double volume = responses.at("asymptotic_wear_volume_m3"), drift = std::abs(responses.at("resonance_drift"));
   // Of a zone of width w the depth grows like its power 3/2, the volume like 5/2.
-  const double moved = result.evaluation.model.at("contact_edges_moved_share"),
-               doubt = left_in_doubt(*result.asymptote);
-  for (const auto& [name, power] : {std::pair{"asymptotic_wear_volume_m3", 2.5}, std::pair{"resonance_drift", 2.5},
-                                    std::pair{"asymptotic_wear_depth_max_m", 1.5}}) {
-    const double size = std::abs(result.evaluation.responses.at(name));
-    if (moved > 0) bars.add("edge", name, std::min(1.0, power * moved) * size);
-    if (doubt > 0) bars.add("history", name, doubt * size);
+  if (const double moved = result.evaluation.model.at("contact_edges_moved_share"); moved > 0) {
+    bars.add("edge", "asymptotic_wear_volume_m3", std::min(1.0, 2.5 * moved) * volume);
+    bars.add("edge", "resonance_drift", std::min(1.0, 2.5 * moved) * drift);
+    bars.add("edge", "asymptotic_wear_depth_max_m",
+             std::min(1.0, 1.5 * moved) * responses.at("asymptotic_wear_depth_max_m"));
+  }
+  if (const Doubt doubt = left_in_doubt(*result.asymptote); doubt.volume > 0) {
+    bars.add("history", "asymptotic_wear_volume_m3", doubt.volume);
+    bars.add("history", "asymptotic_wear_depth_max_m", doubt.depth);
+    bars.add("history", "resonance_drift", std::min(1.0, doubt.volume / volume) * drift);
   }
   for (const std::string& name : responses_without_limit(scene)) bars.leave_open(name);
   bars.total();

@@ -39,16 +39,17 @@ class CoarseBuilders {
 /// - contact_grid: d to contact nodes 1.5 times as long on the same mesh: 1.03 d, of the worn amplitude 0.63 d. Worn
 ///   volumes of zero are asked for on nodes half as long, too.
 /// - harmonics, samples: d to 2H+1 and to 2N; errors fall at least like 1/H and 1/N: 2 d.
-/// - pseudo_penalty: 1/2 d to half of it, which acts through the harmonics left out.
+/// - pseudo_penalty: 1/2 d to half of it, or to twice as much where half has no answer, which acts through the
+///   harmonics left out.
 /// - modes: d to twice as many: 1.5 d, as the error falls like the square of the first frequency left out.
 /// - edge: ends of worn zones that went to and fro between two grids, in proportion to how far.
 /// - history: where the wear history decided against the direct method, by how much they differ, as nodes end where the
 ///   direct method has its edges; all of the worn shape where it was in doubt and no history came to an end.
 /// - search: what the tolerance of the resonance search leaves.
 ///
-/// The last four kinds are asked of the coarse companion, which costs a fraction. The bar is the sum. A response
-/// without a limit is `unbounded`: the pressure peak at sharp ends of the flanks, and whatever a companion that did not
-/// converge leaves open (with a message).
+/// Harmonics, samples, pseudo-penalty and modes are asked of the first coarse companion that converged, at a fraction
+/// of the cost. The bar is the sum. A response without a limit is `unbounded`: the pressure peak at sharp ends of the
+/// flanks, and whatever a companion that did not converge leaves open (with a message).
 /// Cost: six evaluations on coarser meshes and one or two on other grids of contact nodes; each has a budget of its
 /// own.
 void add_error_bars(const Scene& scene, const CoarseBuilders& builders, CandidateResult& result);

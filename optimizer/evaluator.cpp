@@ -133,7 +133,7 @@ void note_doubt(const reduction::ContactNodes& contact, const wear::Asymptote& a
 }
 
 /// The physics after the model; returns the status of the evaluation.
-std::string dynamics(const Scene& scene, const Computation& how, CandidateResult& result) {
+std::string dynamics(const Scene& scene, const Computation& how, const ContactFit& fit, CandidateResult& result) {
   Evaluation& evaluation = result.evaluation;
   std::map<std::string, double>& responses = evaluation.responses;
   const CandidateModel& model = result.model;
@@ -142,8 +142,9 @@ std::string dynamics(const Scene& scene, const Computation& how, CandidateResult
   steady.penalty_scale = how.penalty_scale;
   Stopwatch watch;
 
-  const double glued = model.reduction.glued_frequencies(scene.loading.mode - 1);
-  result.unworn = response::resonance(model.condensed, glued, {}, steady);
+  const double start =
+      fit.displacement.size() > 0 ? fit.omega : model.reduction.glued_frequencies(scene.loading.mode - 1);
+  result.unworn = response::resonance(model.condensed, start, {}, steady, {}, fit.displacement);
   evaluation.timings_s["unworn_resonance"] = watch.lap();
   if (result.unworn->status != Status::converged)
     return "unworn_resonance: " + std::string(to_string(result.unworn->status));
@@ -225,7 +226,7 @@ CandidateResult computed(const Scene& scene, CandidateModel model, const Computa
         "The edges of the worn zones did not settle: their contact nodes end beside them, by up to " +
         shortest(fit.moved) + " of an edge of the mesh.");
   static_responses(scene, result.model, evaluation);
-  evaluation.status = dynamics(scene, how, result);
+  evaluation.status = dynamics(scene, how, fit, result);
   note_penalties(result);
   evaluation.model["jacobians_spent"] = result.model.budget->used() / result.model.jacobian_operations;
   return result;

@@ -1,8 +1,8 @@
 #include "response/peak_sweep.hpp"
 
 #include <algorithm>
-#include <optional>
 
+#include "response/continuation.hpp"
 #include "response/peak.hpp"
 
 namespace dovetail::response {
@@ -30,16 +30,28 @@ double width_at(const Branch& branch, std::size_t i, Eigen::Index output) {
 
 constexpr double kHeight = 0.99;  // of the summit: a search may have run off to a lower maximum
 
-// The peak beside a summit by Newton on (U, omega); counts its work in `work`.
-std::optional<SteadyState> climbed(const BranchEquations& equations, const SteadyState& summit, double width,
-                                   const ResonanceOptions& options, Resonance& work) {
-  const ArcMetric metric = peak_metric(summit, width);
-  const BranchVector start{.displacement = summit.displacement, .omega = summit.omega};
-  const Peak peak = find_peak(equations, start, metric,
-                              {.output = options.output, .frequency_tolerance = options.frequency_tolerance});
-  ++work.solves;
-  work.jacobians += peak.iterations;
-  if (peak.status != Status::converged || peak.amplitude < kHeight * summit.amplitudes(options.output)) return {};
+}  // namespace
+
+std::optional<SteadyState> climb(const BranchEquations& equations, const SteadyState& from, double width,
+                                 const ResonanceOptions& options, Resonance& work) {
+  const ArcMetric metric = peak_metric(from, width);
+  BranchVector start{.displacement = from.displacement, .omega = from.omega};
+  double height = from.amplitudes(options.output);
+  Peak peak;
+  // Where the branch turns away from where it led at the start, the climb begins anew.
+  constexpr int kClimbs = 8;
+  constexpr double kGain = 1e-3;
+  for (int i = 0; i < kClimbs; ++i) {
+    peak = find_peak(equations, start, metric,
+                     {.output = options.output, .frequency_tolerance = options.frequency_tolerance});
+    ++work.solves;
+    work.jacobians += peak.iterations;
+    const bool ended = peak.status != Status::stalled && peak.status != Status::iteration_limit;
+    if (ended || peak.amplitude < (1 + kGain) * height) break;
+    height = peak.amplitude;
+    start = peak.point;
+  }
+  if (peak.status != Status::converged || peak.amplitude < kHeight * from.amplitudes(options.output)) return {};
   const BranchEquations::Correction found{.status = Status::converged,
                                           .point = peak.point,
                                           .residual = peak.residual,
@@ -52,8 +64,6 @@ std::optional<SteadyState> climbed(const BranchEquations& equations, const Stead
   if (state.status != Status::converged || !state.linearisation) return {};
   return state;
 }
-
-}  // namespace
 
 Resonance peak_sweep(const std::shared_ptr<const CondensedModel>& model, double omega_from, double omega_to,
                      const ContactCondition& condition, const SteadyOptions& options,
@@ -83,7 +93,7 @@ Resonance peak_sweep(const std::shared_ptr<const CondensedModel>& model, double 
     const SteadyState& summit = branch.points[candidates[c]].state;
     if (summit.amplitudes(resonance_options.output) < kHopeless * result.amplitude) break;
     const double width = width_at(branch, candidates[c], resonance_options.output);
-    std::optional<SteadyState> state = climbed(equations, summit, width, resonance_options, result);
+    std::optional<SteadyState> state = climb(equations, summit, width, resonance_options, result);
     if (!state) {
       ResonanceOptions near = resonance_options;
       near.sweep_range = 0;

@@ -1,9 +1,17 @@
 #pragma once
 
-#include "response/continuation.hpp"
+#include <optional>
+
+#include "response/branch.hpp"
 #include "response/resonance.hpp"
 
 namespace dovetail::response {
+
+/// The maximum of the branch beside a converged point near it, by Newton on (U, omega), which turning points do not
+/// stop; nothing when there is none as high as 0.99 of the point. `width`: the frequency range in which the output
+/// changes by its own size there. Where the branch turns away it begins anew, a few times. Counts its work in `work`.
+[[nodiscard]] std::optional<SteadyState> climb(const BranchEquations& equations, const SteadyState& from, double width,
+                                               const ResonanceOptions& options, Resonance& work);
 
 /// The highest maximum of the amplitude on the branch between omega_from and omega_to (rad/s): the branch is followed
 /// coarsely, through its turning points, and Newton on (U, omega) started from its highest points. Where frequency

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "response/amplitude.hpp"
+#include "response/peak.hpp"
 #include "response/peak_sweep.hpp"
 #include "response/real_block.hpp"
 
@@ -48,13 +49,26 @@ class PeakSearch {
     options_.linearise = true;
   }
 
-  // The response at omega, continued from the last point; halves the way when that does not converge.
+  // The response at omega, continued from the last point; halves the way when that does not converge. Where Newton's
+  // method alone does not get there soon, half the way costs less than its rescues, and they may end on another branch:
+  // these come last.
   bool go(double omega) {
-    for (int halving = 0; halving < 8 && result_.solves < peak_.max_solves; ++halving) {
+    constexpr int kCautious = 3, kHalvings = 8;
+    const double wanted = omega;
+    const bool continued = options_.solver == "auto" && now_.state.linearisation;
+    for (int halving = 0; halving < kHalvings && result_.solves < peak_.max_solves; ++halving) {
+      if (continued && halving == kCautious) omega = wanted;
+      SteadyOptions options = options_;
+      if (continued && halving < kCautious) {
+        options.solver = "newton";
+        options.max_iterations = std::min(kHard, options_.max_iterations);
+        options.penalty_cascade = false;
+        options.max_rescue_iterations = 0;
+      }
       Eigen::MatrixXd guess = guess_;
       if (now_.state.linearisation)
         guess = now_.state.displacement + (omega - now_.omega) * now_.state.linearisation->response_to_frequency();
-      SteadyState state = steady_state(model_, omega, condition_, options_, guess, now_.state.linearisation);
+      SteadyState state = steady_state(model_, omega, condition_, options, guess, now_.state.linearisation);
       ++result_.solves;
       result_.jacobians += state.iterations;
       last_status_ = state.status;
@@ -62,7 +76,7 @@ class PeakSearch {
         accept(std::move(state));
         return true;
       }
-      if (!now_.state.linearisation) return false;
+      if (!now_.state.linearisation || cut_short(last_status_)) return false;
       omega = (omega + now_.omega) / 2;
     }
     return false;
@@ -71,6 +85,7 @@ class PeakSearch {
   Resonance run(double start, const Eigen::MatrixXd& guess) {
     guess_ = guess;
     const double lowest = start * (1 - peak_.search_range), highest = start * (1 + peak_.search_range);
+    const auto climbs = [&] { return climbs_within(lowest, highest); };
     bool reached = go(start);
     // At an undamped glued resonance the condensed stiffness has a pole: step beside it.
     for (int i = 1; !reached && i <= 4; ++i) reached = go(start * (1 + 1e-6 * std::pow(10, i - 1) * (i % 2 ? 1 : -1)));
@@ -83,18 +98,24 @@ class PeakSearch {
         return finish(Status::converged);
       if (lower_ && upper_) {
         // A bracket may close on a kink of the curve, but not on a jump to another branch.
-        if (*upper_ - *lower_ <= peak_.frequency_tolerance * now_.omega)
-          return finish(std::abs(upper_amplitude_ - lower_amplitude_) <= 1e-4 * now_.amplitude ? Status::converged
-                                                                                               : Status::no_bracket);
+        if (*upper_ - *lower_ <= peak_.frequency_tolerance * now_.omega) {
+          if (std::abs(upper_amplitude_ - lower_amplitude_) <= 1e-4 * now_.amplitude || climbs())
+            return finish(Status::converged);
+          return finish(spent(options_.budget) ? Status::budget_spent : Status::no_bracket);
+        }
         const double target = now_.omega + step;
         if (!(target > *lower_ && target < *upper_) || stalling()) step = (*lower_ + *upper_) / 2 - now_.omega;
       }
       const double target = std::clamp(now_.omega + step, lowest, highest);
       if (target == now_.omega) return finish(Status::no_bracket);
+      const double amplitude_before = now_.amplitude;
+      const int jacobians_before = result_.jacobians;
       before = now_.omega;
       slope_before = now_.slope / now_.amplitude;
       has_before = true;
       if (!go(target)) return finish(result_.solves >= peak_.max_solves ? Status::iteration_limit : last_status_);
+      if (now_.amplitude < amplitude_before && result_.jacobians - jacobians_before > kHard && climbs())
+        return finish(Status::converged);
     }
     return finish(Status::iteration_limit);
   }
@@ -106,6 +127,10 @@ class PeakSearch {
     now_.omega = state.omega;
     now_.amplitude = at.amplitude;
     now_.slope = at.slope;
+    if (!highest_ || at.amplitude > highest_->amplitudes(peak_.output)) {
+      highest_ = state;
+      climbed_ = false;
+    }
     const std::complex<double> y(first.value(1), -first.value(2)), dy(first.slope(1), -first.slope(2));
     now_.pole = dy != 0.0 ? now_.omega + y / dy : std::complex<double>(now_.omega, 1e-3 * now_.omega);
     now_.state = std::move(state);
@@ -144,6 +169,18 @@ class PeakSearch {
     return std::clamp(-slope / curvature, -4 * width, 4 * width);
   }
 
+  // A curve that leans over has no maximum that steps in frequency could close in on: they fall off the higher branch,
+  // after many Jacobians. From the highest point so far Newton on (U, omega) gets there; each point is tried once.
+  bool climbs_within(double lowest, double highest) {
+    if (climbed_) return false;
+    climbed_ = true;
+    const BranchEquations equations(model_, condition_, options_, highest_->penalty_ratio);
+    std::optional<SteadyState> top = climb(equations, *highest_, peak_width(*highest_, peak_.output), peak_, result_);
+    if (!top || top->omega < lowest || top->omega > highest) return false;
+    accept(std::move(*top));
+    return true;
+  }
+
   // Three points without halving the bracket: the slope has a kink there, so bisect.
   [[nodiscard]] bool stalling() const {
     const std::size_t n = widths_.size();
@@ -165,6 +202,9 @@ class PeakSearch {
   const ResonanceOptions& peak_;
   Eigen::MatrixXd guess_;
   Point now_;
+  static constexpr int kHard = 12;  // Jacobians: a step within one branch takes fewer
+  std::optional<SteadyState> highest_;
+  bool climbed_ = false;
   Resonance result_;
   Status last_status_ = Status::no_bracket;
   std::optional<double> lower_, upper_;

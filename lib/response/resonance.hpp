@@ -28,7 +28,9 @@ struct Resonance {
 
 /// The maximum of the amplitude of one output on the response curve near `omega_start` (rad/s; the glued natural
 /// frequency is a good start). The slope dA/dw is exact (dU/dw = -J^-1 df/dw); its zero is bracketed, then found by
-/// a safeguarded secant, all within `search_range` of the start. `guess` may be the response at omega_start.
+/// a safeguarded secant, all within `search_range` of the start. Where steps in frequency fall off a curve that leans
+/// over, Newton on (U, omega) climbs to the maximum from the highest point found. `guess` may be the response at
+/// omega_start.
 ///
 /// When that ends without a maximum - it lies further away, the curve jumps between branches, a solve fails - the
 /// branch is followed from start (1 + search_range) down to start (1 - sweep_range), through its turning points, and

@@ -100,11 +100,10 @@ def draw(program, scene, seed, index):
             return settings, usual
 
 
-def true_values(program, scene, settings, history):
-    """A row of the file of truths: settings, whether the wear history was asked, and the responses at fine settings."""
-    extra = ["--no-bars"] + ([] if history else ["--no-history"])
-    fine = evaluate(program, scene["study"], settings | scene["fine"], extra)
-    return {"history": int(history), "status": fine["status"], "seconds": round(fine["timings_s"]["total"], 1)} | {
+def true_values(program, scene, settings):
+    """A row of the file of truths: settings and the responses at fine settings, the wear history asked where in doubt."""
+    fine = evaluate(program, scene["study"], settings | scene["fine"], ["--no-bars"])
+    return {"status": fine["status"], "seconds": round(fine["timings_s"]["total"], 1)} | {
         key: repr(value) for key, value in settings.items()} | {
         name: f"{value:.9g}" for name, value in fine["responses"].items()}
 
@@ -114,7 +113,7 @@ class Truths:
 
     def __init__(self, path, scene):
         self.path, self.lock, self.rows = path, threading.Lock(), {}
-        self.columns = ["seed", "design", "history", "status", "seconds", *ranges(scene), *RESPONSES]
+        self.columns = ["seed", "design", "status", "seconds", *ranges(scene), *RESPONSES]
         if path.exists():
             with path.open(encoding="utf-8", newline="") as file:
                 for row in csv.DictReader(file):
@@ -133,10 +132,6 @@ class Truths:
         return row
 
 
-def by_history(usual):
-    return bool(usual["model"].get("wear_decided_by_history", 0))
-
-
 def design(program, scene, truths, seed, index, judge):
     """What the program says of a design with its bars, beside the truth, which is computed where it is not known."""
     truth = truths.rows.get((seed, index))
@@ -144,7 +139,7 @@ def design(program, scene, truths, seed, index, judge):
         settings, usual = draw(program, scene, seed, index)
         found = {key: repr(value) for key, value in settings.items()}
         if usual["status"] == "converged":
-            found = true_values(program, scene, settings, by_history(usual))
+            found = true_values(program, scene, settings)
         truth = truths.add(seed, index, found)
     settings = {key: float(truth[key]) for key in ranges(scene)}
     if not judge:
@@ -153,8 +148,8 @@ def design(program, scene, truths, seed, index, judge):
     row = {"design": index, "status": usual["status"], "seconds": usual["timings_s"]["total"], "fine_status": ""}
     if usual["status"] != "converged":
         return row
-    if not truth["status"] or by_history(usual) > int(truth["history"]):
-        truth = truths.add(seed, index, true_values(program, scene, settings, by_history(usual)))
+    if not truth["status"]:
+        truth = truths.add(seed, index, true_values(program, scene, settings))
     row |= {"fine_status": truth["status"], "messages": usual["messages"], "sources": usual["error_sources"]}
     for name, value in usual["responses"].items():
         row[name] = value
@@ -188,8 +183,8 @@ def table(rows):
             bars.append(row[name + ":bar"])
             errors.append(abs(row[name] - row[name + ":fine"]))
             scales.append(abs(row[name + ":fine"]))
-            # What both settings compute to the last digits (a mass) has no error.
-            inside += errors[-1] <= bars[-1] + 1e-9 * scales[-1]
+            # What both settings compute to the last digits (a mass) has no error; truths are kept with nine.
+            inside += errors[-1] <= bars[-1] + 1e-8 * scales[-1]
         if not bars:
             lines.append(f"| {name} | 0 |  | {without} |  |  |  |")
             continue

@@ -40,13 +40,54 @@ std::vector<double> distinct(std::vector<double> values) {
   return kept;
 }
 
-/// Ends of the cell around a grid line: half-way to its neighbours, the line itself at the border.
-std::array<double, 2> cell(const std::vector<double>& lines, double value) {
-  const auto at = std::lower_bound(lines.begin(), lines.end(), value - 1e-12 - 1e-6 * (lines.back() - lines.front()));
-  const auto i = static_cast<std::size_t>(at - lines.begin());
-  return {i == 0 ? lines.front() : (lines[i - 1] + lines[i]) / 2,
-          i + 1 >= lines.size() ? lines.back() : (lines[i] + lines[i + 1]) / 2};
+/// Ends of cells around rising places: half-way between neighbours, the outermost places in the middle of their cells.
+std::vector<double> ends_around(const std::vector<double>& places) {
+  if (places.size() < 2) return {places.front(), places.front()};
+  std::vector<double> ends{0};
+  for (std::size_t k = 0; k + 1 < places.size(); ++k) ends.push_back((places[k] + places[k + 1]) / 2);
+  ends.front() = 2 * places.front() - ends[1];
+  ends.push_back(2 * places.back() - ends.back());
+  return ends;
 }
+
+/// Ends of cells that follow one another from the edge of the flank on, each around its place; half-way between places
+/// that are not in the middle of such cells.
+std::vector<double> ends_from_edge(const std::vector<double>& places) {
+  std::vector<double> ends{0};
+  for (const double place : places) {
+    ends.push_back(2 * place - ends.back());
+    if (ends.back() <= place) return ends_around(places);
+  }
+  return ends;
+}
+
+/// A panel as rectangles: strips of nodes across the slot, each with cells of its own, as contact nodes end where worn
+/// zones do.
+struct Rectangles {
+  std::vector<double> across;                          ///< ends of the strips
+  std::vector<std::vector<double>> along;              ///< of every strip, ends of its cells
+  std::vector<std::array<std::size_t, 2>> place = {};  ///< of every node: strip and cell
+
+  explicit Rectangles(const FlankPanel& panel) {
+    const std::vector<double> lines = distinct(panel.across);
+    across = ends_around(lines);
+    std::vector<std::vector<double>> places(lines.size());
+    const auto nearest = [](const std::vector<double>& rising, double value) {
+      const auto closer = [value](double a, double b) { return std::abs(a - value) < std::abs(b - value); };
+      return static_cast<std::size_t>(std::ranges::min_element(rising, closer) - rising.begin());
+    };
+    for (std::size_t i = 0; i < panel.values.size(); ++i)
+      places[nearest(lines, panel.across[i])].push_back(panel.along[i]);
+    for (std::vector<double>& of_strip : places) {
+      std::ranges::sort(of_strip);
+      along.push_back(ends_from_edge(of_strip));
+    }
+    for (std::size_t i = 0; i < panel.values.size(); ++i) {
+      const std::size_t strip = nearest(lines, panel.across[i]);
+      place.push_back({strip, nearest(places[strip], panel.along[i])});
+    }
+  }
+};
 
 double largest_value(const FlankMap& map) {
   double most = map.full_scale;
@@ -62,18 +103,20 @@ struct Axis {
   [[nodiscard]] double operator()(double mm) const { return from + (to - from) * (mm - lower) / (upper - lower); }
 };
 
-Axis axis_of(const std::vector<double>& lines, double from, double to) {
-  const double lower = lines.front() / kMillimetre, upper = lines.back() / kMillimetre;
+Axis axis_of(double lower, double upper, double from, double to) {
+  lower /= kMillimetre;
+  upper /= kMillimetre;
   const double widen = upper > lower ? 0 : 0.5;
   return {lower - widen, upper + widen, from, to};
 }
 
-std::string cells(const FlankPanel& panel, const FlankMap& map, double most, const Axis& x, const Axis& y) {
-  const std::vector<double> along = distinct(panel.along), across = distinct(panel.across);
+std::string cells(const FlankPanel& panel, const Rectangles& rectangles, const FlankMap& map, double most,
+                  const Axis& x, const Axis& y) {
   std::string text = "<g shape-rendering=\"crispEdges\">";
   for (std::size_t i = 0; i < panel.values.size(); ++i) {
-    const auto [x0, x1] = cell(across, panel.across[i]);
-    const auto [y0, y1] = cell(along, panel.along[i]);
+    const auto [strip, cell] = rectangles.place[i];
+    const double x0 = rectangles.across[strip], x1 = rectangles.across[strip + 1];
+    const double y0 = rectangles.along[strip][cell], y1 = rectangles.along[strip][cell + 1];
     const double v = panel.values[i];
     text += fmt::format(
         "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\"><title>{} mm, {} mm: {} {}"
@@ -155,9 +198,15 @@ std::string flank_map_svg(const FlankMap& map) {
     const FlankPanel& panel = map.panels[p];
     if (panel.values.empty()) continue;
     const double left = kLeft + static_cast<double>(p) * (width + kGap);
-    const Axis x = axis_of(distinct(panel.across), left, left + width);
-    const Axis y = axis_of(distinct(panel.along), kTop, kTop + kHeight);
-    text += cells(panel, map, most, x, y) + frame(x, y, panel.name, p == 0);
+    const Rectangles rectangles(panel);
+    double first = rectangles.along.front().front(), last = rectangles.along.front().back();
+    for (const std::vector<double>& ends : rectangles.along) {
+      first = std::min(first, ends.front());
+      last = std::max(last, ends.back());
+    }
+    const Axis x = axis_of(rectangles.across.front(), rectangles.across.back(), left, left + width);
+    const Axis y = axis_of(first, last, kTop, kTop + kHeight);
+    text += cells(panel, rectangles, map, most, x, y) + frame(x, y, panel.name, p == 0);
   }
   text += fmt::format(
       "<text class=\"title\" x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"middle\">along the slot, mm</text>"

@@ -7,7 +7,8 @@
 
 namespace dovetail::report {
 
-/// One bearing flank seen from its blade: values at a grid of contact nodes.
+/// One bearing flank seen from its blade: values at contact nodes, which stand in strips across the slot; every strip
+/// has places of its own.
 struct FlankPanel {
   std::string name = {};            ///< "left flank"
   std::vector<double> along = {};   ///< [n] m, along the flank from its neck side

@@ -37,10 +37,8 @@ std::size_t count(const std::string& text, const std::string& part) {
   return found;
 }
 
-TEST(FlankMap, CellsTileEachFlank) {
-  const std::string svg = flank_map_svg(sample());
-  EXPECT_EQ(markup_error(svg), "");
-  EXPECT_EQ(count(svg, "</title></rect>"), 24U);
+/// Areas of the cells of a drawing and of the frames around them, in pixels.
+std::pair<double, double> areas(const std::string& svg) {
   const std::regex sizes("width=\"([0-9.]+)\" height=\"([0-9.]+)\" fill=\"(#[0-9a-f]{6}|none)\"[^>]*>(<title>)?");
   double cells = 0, frames = 0;
   for (std::sregex_iterator it(svg.begin(), svg.end(), sizes), end; it != end; ++it) {
@@ -50,8 +48,37 @@ TEST(FlankMap, CellsTileEachFlank) {
     else if ((*it)[3] == "none")
       frames += area;
   }
-  // Coordinates are written to 0.01.
-  EXPECT_NEAR(cells, frames, 1e-3 * frames);
+  return {cells, frames};
+}
+
+constexpr double kWritten = 1e-3;  // coordinates are written to 0.01
+
+TEST(FlankMap, CellsTileEachFlank) {
+  const std::string svg = flank_map_svg(sample());
+  EXPECT_EQ(markup_error(svg), "");
+  EXPECT_EQ(count(svg, "</title></rect>"), 24U);
+  const auto [cells, frames] = areas(svg);
+  EXPECT_NEAR(cells, frames, kWritten * frames);
+}
+
+TEST(FlankMap, CellsOfStripsThatAreDividedDifferentlyTileEachFlank) {
+  FlankMap map{.title = "Depth", .quantity = "depth", .unit = {.symbol = "um", .si = 1e-6}};
+  FlankPanel panel{.name = "left flank"};
+  const auto add = [&panel](double z, const std::vector<double>& ends) {
+    for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
+      panel.across.push_back(z);
+      panel.along.push_back((ends[k] + ends[k + 1]) / 2);
+      panel.values.push_back(1e-6 * static_cast<double>(panel.values.size()));
+    }
+  };
+  add(-1e-2, {0, 1e-3, 1.3e-3, 5e-3});
+  add(0, {0, 0.2e-3, 2e-3, 3e-3, 5e-3});
+  add(1e-2, {0, 5e-3});
+  map.panels.push_back(panel);
+  const std::string svg = flank_map_svg(map);
+  EXPECT_EQ(count(svg, "</title></rect>"), 8U);
+  const auto [cells, frames] = areas(svg);
+  EXPECT_NEAR(cells, frames, kWritten * frames);
 }
 
 TEST(FlankMap, ShowsNumbersInTheUnit) {

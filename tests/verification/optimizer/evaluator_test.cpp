@@ -13,20 +13,12 @@
 
 #include "optimizer/problem.hpp"
 #include "reduction/accuracy.hpp"
+#include "tests/verification/optimizer/coarse_scene.hpp"
 #include "wear/archard.hpp"
 #include "wear/history.hpp"
 
 namespace dovetail::optimizer {
 namespace {
-
-Scene coarse_scene() {
-  Scene scene;
-  scene.mesh.flank_elements = 12;
-  scene.mesh.fillet_fraction = 0.2;
-  scene.mesh.bulk_size = 4e-3;
-  scene.geometry.left.mismatch = scene.geometry.right.mismatch = 4e-6;
-  return scene;
-}
 
 const SceneEvaluator& evaluator() {
   static const SceneEvaluator instance(coarse_scene());

@@ -5,17 +5,10 @@
 
 #include <cmath>
 
+#include "tests/verification/optimizer/coarse_scene.hpp"
+
 namespace dovetail::optimizer {
 namespace {
-
-Scene coarse_scene() {
-  Scene scene;
-  scene.mesh.flank_elements = 12;
-  scene.mesh.fillet_fraction = 0.2;
-  scene.mesh.bulk_size = 4e-3;
-  scene.geometry.left.mismatch = scene.geometry.right.mismatch = 4e-6;
-  return scene;
-}
 
 TEST(Verification, ThreeAnswersAgreeWithinTheirBars) {
   const Scene scene = coarse_scene();

@@ -101,6 +101,29 @@ TEST(Resonance, IsFoundOnABranchThatLeansOver) {
   EXPECT_LT(peak.amplitude, 1.02 * highest);
 }
 
+TEST(Resonance, IsClimbedWhereStepsInFrequencyFallOffTheBranch) {
+  const auto model = condensed(gap_oscillator(1, 0.02, 0.1));
+  const response::SteadyOptions steady{.harmonics = 7, .samples = 256, .tolerance = 1e-11};
+  const response::Branch branch = continuation(model, 1.4, 0.8, {}, steady);
+  double highest = 0;
+  for (const response::ContinuationPoint& point : branch.points) highest = std::max(highest, point.state.amplitudes(0));
+  int starts = 0;
+  for (const double share : {0.5, 0.7, 0.9}) {
+    for (const response::ContinuationPoint& point : branch.points) {
+      if (point.state.amplitudes(0) < share * highest) continue;
+      const response::Resonance peak =
+          resonance(model, point.state.omega, {}, steady, {.sweep_range = 0}, point.state.displacement);
+      ASSERT_EQ(peak.status, Status::converged) << share;
+      // Near the fold the sampled branch is a saw whose teeth are a few thousandths high.
+      EXPECT_NEAR(peak.amplitude / highest, 1, 0.01);
+      EXPECT_LE(peak.jacobians, 150);
+      ++starts;
+      break;
+    }
+  }
+  EXPECT_EQ(starts, 3);
+}
+
 TEST(Resonance, OfAnUndampedGluedStructureIsFoundBesideItsPole) {
   reduction::ReducedModel model = rod(3);
   model.damping.setZero();
