@@ -240,7 +240,7 @@ CandidateResult SceneEvaluator::evaluate(const Scene& scene, const Purpose& purp
   CandidateResult result = computed(scene, builder_.build(scene), {.contact = {}, .history = purpose.history});
   if (purpose.bars && result.evaluation.converged()) {
     Stopwatch watch;
-    add_error_bars(scene, coarse_, result);
+    add_error_bars(scene, builder_, coarse_, result);
     result.evaluation.timings_s["error_estimates"] = watch.lap();
   }
   result.evaluation.timings_s["total"] = total.lap();
