@@ -74,23 +74,22 @@ class Bars {
  public:
   explicit Bars(CandidateResult& result) : evaluation_(result.evaluation) {}
 
-  /// The largest that the companions which converged say against `reference`, for every response of the evaluation.
+  /// The largest that the companions say against `reference`, for every response of the evaluation; of those that ended
+  /// early, for what they had come to. Where none has an answer it is left open.
   void add(const char* source, const std::vector<Companion>& companions, const Evaluation& reference) {
-    bool known = false;
-    for (const Companion& companion : companions) {
-      if (companion.evaluation->converged() && reference.converged())
-        known = true;
-      else
+    for (const Companion& companion : companions)
+      if (!companion.evaluation->converged())
         evaluation_.messages.push_back(std::string("A design computed for the error by ") + source + " ended with \"" +
-                                       (reference.converged() ? companion.evaluation->status : reference.status) +
-                                       "\".");
-    }
+                                       companion.evaluation->status + "\".");
     for (const auto& [name, value] : evaluation_.responses) {
+      bool known = false;
       double bar = 0;
-      for (const Companion& companion : companions)
-        if (known && companion.evaluation->converged())
-          bar = std::max(bar, companion.factor(name) *
-                                  std::abs(companion.evaluation->responses.at(name) - reference.responses.at(name)));
+      for (const Companion& companion : companions) {
+        const auto other = companion.evaluation->responses.find(name);
+        if (other == companion.evaluation->responses.end()) continue;
+        known = true;
+        bar = std::max(bar, companion.factor(name) * std::abs(other->second - reference.responses.at(name)));
+      }
       known ? add(source, name, bar) : leave_open(name);
     }
   }
@@ -119,10 +118,12 @@ struct Doubt {
 };
 
 /// Whole nodes are worn off or bear: where wear of a history comes to rest the end of a zone lies somewhere within a
-/// node, and a history on shorter ones may end up to that far from it, unlike the direct method's, whose nodes end
+/// node, and a history on shorter ones may end a part of it from there, unlike the direct method's, whose nodes end
 /// where its zones do. Of a zone of width w the depth grows like its power 3/2, the volume like 5/2.
 Doubt within_nodes(const fem::ContactCells& cells, const wear::Asymptote& asymptote) {
-  constexpr double kShare = 0.25;  // of a node: histories on nodes a quarter as long
+  // Of a node, from histories on nodes a quarter as long. Where another order of release ends elsewhere, or nodes that
+  // stick have little to spare, a history depends on its nodes much more than where some touch at times only.
+  const double part = asymptote.doubt == "lift_off" ? 0.05 : 0.25;
   Doubt left;
   std::size_t first = 0;
   for (const fem::FlankCells& flank : cells.flanks)
@@ -135,7 +136,7 @@ Doubt within_nodes(const fem::ContactCells& cells, const wear::Asymptote& asympt
         double open = 0;
         if (from > 0) open += ends[from + 1] - ends[from];
         if (to + 1 < count) open += ends[to + 1] - ends[to];
-        const double share = kShare * open / (ends[to + 1] - ends[from]);
+        const double share = part * open / (ends[to + 1] - ends[from]);
         double volume = 0, depth = 0;
         for (std::size_t k = first + from; k <= first + to; ++k) {
           const auto node = static_cast<Eigen::Index>(k);
@@ -188,6 +189,26 @@ Doubt unseen(const Scene& scene, const CandidateResult& result) {
       first += ends.size() - 1;
     }
   return left;
+}
+
+/// Hardly anything bears, and on other nodes nothing does: that is no worn state.
+void refuse_worn_state(const std::string& status, Evaluation& evaluation) {
+  evaluation.status = status;
+  evaluation.error_sources.clear();
+  for (const char* name : {"asymptotic_wear_volume_m3", "asymptotic_wear_depth_max_m", "resonance_drift",
+                           "worn_resonance_hz", "worn_peak_amplitude_m"})
+    evaluation.responses.erase(name);
+  evaluation.messages.push_back(
+      "A worn state was found in which hardly anything bears; on a coarser mesh or longer contact nodes there is "
+      "none.");
+}
+
+/// A peak of pressure whose bar is more than half of it is one that the mesh does not resolve.
+bool unresolved(const Evaluation& evaluation) {
+  const char* name = "contact_pressure_max_pa";
+  double sum = 0;
+  for (const auto& [source, bar] : evaluation.error_sources.at(name)) sum += bar;
+  return sum > 0.5 * evaluation.responses.at(name);
 }
 
 }  // namespace
@@ -244,6 +265,10 @@ void add_error_bars(const Scene& scene, const ModelBuilder& builder, const Coars
   }
   bars.add("mesh", meshes, result.evaluation);
   const Evaluation longer = companion(scene, result.model, cells(kGridRatio));
+  const std::string slides = "asymptote: " + std::string(to_string(Status::gross_sliding));
+  if (result.asymptote->bearing.doubtful() &&
+      (longer.status == slides || std::ranges::any_of(coarse, [&](const Evaluation& e) { return e.status == slides; })))
+    return refuse_worn_state(slides, result.evaluation);
   bars.add("contact_grid", {{&longer, grid_factor}}, result.evaluation);
   // Worn zones narrower than the contact nodes are not seen.
   if (result.asymptote->worn_volume == 0) {
@@ -312,7 +337,13 @@ void add_error_bars(const Scene& scene, const ModelBuilder& builder, const Coars
     bars.add("history", "asymptotic_wear_depth_max_m", doubt.depth);
     bars.add("history", "resonance_drift", std::min(1.0, doubt.volume / volume) * drift);
   }
-  for (const std::string& name : responses_without_limit(scene)) bars.leave_open(name);
+  const std::vector<std::string> endless = responses_without_limit(scene);
+  for (const std::string& name : endless) bars.leave_open(name);
+  if (endless.empty() && unresolved(result.evaluation)) {
+    bars.leave_open("contact_pressure_max_pa");
+    result.evaluation.messages.push_back(
+        "The mesh does not resolve the pressure at the rounded ends of the flanks: more mesh.flank_elements would.");
+  }
   bars.total();
 }
 

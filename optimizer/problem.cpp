@@ -169,8 +169,11 @@ void annotate(const Problem& problem, double tolerance, Evaluation& evaluation) 
   evaluation.undecided_constraints.clear();
   const std::vector<Limit> all = limits(problem);
   for (std::size_t j = 0; judgement.computed && j < all.size(); ++j) {
-    const auto bar = evaluation.error_estimates.find(all[j].of->response);
-    if (bar != evaluation.error_estimates.end() && std::abs(judgement.constraints[j]) < bar->second / all[j].scale)
+    const std::string& response = all[j].of->response;
+    const auto bar = evaluation.error_estimates.find(response);
+    const bool within =
+        bar != evaluation.error_estimates.end() && std::abs(judgement.constraints[j]) < bar->second / all[j].scale;
+    if (within || std::ranges::find(evaluation.unbounded, response) != evaluation.unbounded.end())
       evaluation.undecided_constraints.push_back(names[j]);
   }
 }

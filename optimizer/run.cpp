@@ -99,6 +99,12 @@ void settle_for_another(EvaluationSession& session, FinerLimits& finer, const Co
   }
 }
 
+std::string describe(Status status, const std::string& message) {
+  if (status == Status::iteration_limit && message.empty()) return "the budget of evaluations is used up";
+  if (status == Status::interrupted) return "interrupted; everything finished is kept";
+  return message;
+}
+
 /// The search with its limits corrected by what finer meshes say, at its start and where it ends. Its best candidate
 /// keeps its limits on them, or there is none.
 SearchOutcome corrected_search(EvaluationSession& session, FinerLimits& finer) {
@@ -132,14 +138,12 @@ SearchOutcome corrected_search(EvaluationSession& session, FinerLimits& finer) {
     static_cast<void>(within_budget([&] { return search_once(session, step, look + 1); }));
     step /= 2;
   }
-  if (finer.active() && !session.best()) outcome.message += "; limits kept on the search's mesh break on finer ones";
+  const bool met = std::ranges::any_of(session.candidates(),
+                                       [](const Candidate& candidate) { return candidate.evaluation.feasible; });
+  if (finer.active() && !session.best() && met)
+    outcome.message =
+        describe(outcome.status, outcome.message) + "; limits kept on the search's mesh break on finer ones";
   return outcome;
-}
-
-std::string describe(Status status, const std::string& message) {
-  if (status == Status::iteration_limit && message.empty()) return "the budget of evaluations is used up";
-  if (status == Status::interrupted) return "interrupted; everything finished is kept";
-  return message;
 }
 
 OptimizationResult result_of(EvaluationSession& session, Status status, const std::string& message) {

@@ -71,6 +71,16 @@ TEST(FinerLimitsOf, NoDesignIsHandedOverThatBreaksThemThere) {
   EXPECT_NE(result.message.find("finer"), std::string::npos) << result.message;
 }
 
+TEST(FinerLimitsOf, ARunThatNeverMetItsLimitsDoesNotBlameFinerMeshes) {
+  Problem problem = low_bowl();
+  problem.constraints.front().upper = -100;
+  const OptimizationResult result = run_optimization(problem, bowl, options(), {.finer = finer_bowl});
+  EXPECT_FALSE(result.best);
+  EXPECT_EQ(result.message.find("finer"), std::string::npos) << result.message;
+  EXPECT_EQ(result.message.find("; ;"), std::string::npos) << result.message;
+  EXPECT_FALSE(result.message.starts_with(";")) << result.message;
+}
+
 TEST(FinerLimitsOf, ADesignThatFailsThereIsPassedOver) {
   const RunHooks hooks{.finer = [](std::span<const double> x, int) { return x[0] > 0.9 ? failed() : bowl(x); }};
   const OptimizationResult result = run_optimization(low_bowl(), bowl, options(), hooks);

@@ -105,6 +105,11 @@ TEST(Problem, NamesConstraintsWithinTheirBars) {
   e.error_estimates["resonance_drift"] = 6e-4;
   annotate(two_terms(), 0, e);
   EXPECT_THAT(e.undecided_constraints, ::testing::ElementsAre("resonance_drift:upper"));
+  // No limit is decided by a response that has no bar.
+  e.error_estimates.erase("resonance_drift");
+  e.unbounded = {"resonance_drift"};
+  annotate(two_terms(), 0, e);
+  EXPECT_THAT(e.undecided_constraints, ::testing::ElementsAre("resonance_drift:upper"));
 }
 
 TEST(Problem, SuggestsTheNearestResponse) {

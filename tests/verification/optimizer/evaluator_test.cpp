@@ -253,6 +253,34 @@ TEST(SectionEvaluation, HistoryDecidesWhereTheDirectWornStateIsInDoubt) {
       << explicit_volume << " " << decided << " " << direct;
 }
 
+// Flanks on which the history ends in the direct worn state, too, but wears off whole nodes. Explicit histories on 80
+// to 256 edges per flank end with 0.619, 0.632, 0.647, 0.658, 0.665 and 0.675 mm^3: 0.705 on infinitely short nodes.
+TEST(SectionEvaluation, NodesOfAConfirmingHistoryAreInTheBar) {
+  Scene scene = coarse_scene();
+  for (geometry::FlankParameters* flank : {&scene.geometry.left, &scene.geometry.right}) {
+    flank->mismatch = 24.429651 * 1e-6;
+    flank->crown = 6.409498 * 1e-6;
+    flank->angle = 50.05622 * std::numbers::pi / 180;
+    flank->length = 5.600917 * 1e-3;
+  }
+  scene.geometry.neck_width = 9.107106 * 1e-3;
+  scene.geometry.neck_fillet_radius = 1.768042 * 1e-3;
+  scene.contact.friction = 0.392378;
+  scene.loading.tip_force = 3.592642;
+  scene.loading.damping_ratio = 0.000789;
+  scene.loading.speed = 11668.783379 * std::numbers::pi / 30;
+  const CandidateResult settled = evaluator().evaluate(scene);
+  ASSERT_TRUE(settled.evaluation.converged()) << settled.evaluation.status;
+  ASSERT_EQ(settled.asymptote->doubt, "lift_off");
+  ASSERT_TRUE(settled.asymptote->confirmed_by_history);
+  ASSERT_EQ(settled.asymptote->decided_by, "release");
+  const char* name = "asymptotic_wear_volume_m3";
+  const double volume = settled.evaluation.responses.at(name), bar = settled.evaluation.error_estimates.at(name);
+  EXPECT_GT(settled.evaluation.error_sources.at(name).at("history"), 0.05 * volume);
+  EXPECT_LT(bar, 0.5 * volume);
+  for (const double ended : {0.619e-9, 0.705e-9}) EXPECT_LT(std::abs(volume - ended), bar) << volume;
+}
+
 TEST(SectionEvaluation, RunsTwiceToTheSameBits) {
   const CandidateResult again = evaluator().evaluate(coarse_scene());
   EXPECT_EQ(again.evaluation.responses, baseline().evaluation.responses);
