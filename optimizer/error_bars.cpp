@@ -271,7 +271,7 @@ void add_error_bars(const Scene& scene, const ModelBuilder& builder, const Coars
     return refuse_worn_state(slides, result.evaluation);
   bars.add("contact_grid", {{&longer, grid_factor}}, result.evaluation);
   // Worn zones narrower than the contact nodes are not seen.
-  if (result.asymptote->worn_volume == 0) {
+  if (result.asymptote->worn_volume == 0 && scene.contact.wear_coefficient > 0) {
     const Evaluation shorter = companion(scene, result.model, cells(0.5));
     bars.add("contact_grid", {{&shorter, share(2)}}, result.evaluation);
     const Doubt zone = unseen(scene, result);

@@ -16,8 +16,12 @@ It is cut into N pieces, each a mass 1/N between springs N. Run it as
 The data sets are those of every model file; replace the matrices by the ones of your own superelement.
 """
 import argparse
+import sys
 
-import h5py
+try:
+    import h5py
+except ImportError:
+    sys.exit("write_model.py: this Python has no h5py; that of Debian, /usr/bin/python3, has it after `bash .setup/install`")
 import numpy as np
 
 

@@ -24,9 +24,9 @@ void define_study_commands(CLI::App& app, Arguments& a) {
 
   CLI::App* evaluate = app.add_subcommand("evaluate", "Compute one design: all responses with error estimates");
   evaluate->footer(
-      "JSON: {\"status\", \"feasible\", \"parameters\", \"responses\", \"constraints\", \"error_estimates\", "
-      "\"model\",\n"
-      "\"timings_s\", \"messages\"}; parameters in the study file's units, all else SI; constraints hold when <= 0.");
+      "JSON: {\"status\", \"feasible\", \"parameters\", \"responses\", \"constraints\", \"error_estimates\",\n"
+      "\"error_sources\", \"unbounded\", \"undecided_constraints\", \"model\", \"timings_s\", \"messages\"};\n"
+      "parameters in the study file's units, all else SI; constraints hold when <= 0.");
   add_study(*evaluate, a.evaluate.study);
   add_set(*evaluate, a);
   add_solver(*evaluate, a);

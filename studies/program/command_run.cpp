@@ -143,6 +143,12 @@ int run_study(const RunOptions& options, const Streams& streams, const RunEngine
                                result.evaluations.size());
     return kNotConverged;
   }
+  for (const report::VerificationRecord& v : verifications) {
+    if (v.evaluation != static_cast<std::int64_t>(*result.best) || v.status == "converged") continue;
+    streams.err << fmt::format("dovetail: the verification of the best design, evaluation {}: {}\n", v.evaluation + 1,
+                               v.status);
+    return kNotConverged;
+  }
   return result.status == Status::converged || result.status == Status::iteration_limit ? kDone : kNotConverged;
 }
 

@@ -134,6 +134,21 @@ ObjectiveScale objective_scale(const RunRecord& record) {
   return {.factor = si / unit.si, .unit = unit.symbol, .label = words(term.response)};
 }
 
+namespace {
+
+/// What speaks against the best design, where its verification does.
+std::string refutation(const RunRecord& record) {
+  for (const VerificationRecord& v : record.verifications) {
+    if (!record.best || v.evaluation != static_cast<std::int64_t>(*record.best) || v.status == "converged") continue;
+    return v.status.starts_with("disagrees")
+               ? "The verification does not confirm the best design: it " + v.status + ". "
+               : "The best design could not be verified (" + v.status + "). ";
+  }
+  return {};
+}
+
+}  // namespace
+
 std::string headline(const RunRecord& record) {
   const EvaluationRecord* base = baseline_of(record);
   const EvaluationRecord* best = best_of(record);
@@ -151,7 +166,8 @@ std::string headline(const RunRecord& record) {
     return fmt::format(
         "The best design reaches {}. The start could not be evaluated ({}), so there is nothing to compare it with.",
         objective_value(record, *best), base ? base->status : "no start");
-  std::string text =
+  std::string text = refutation(record);
+  text +=
       record.problem.objective.size() == 1 ? single_term(record, *base, *best) : several_terms(record, *base, *best);
   if (!base->feasible) text += " The start itself breaks a limit, the best design keeps them all.";
   return text;

@@ -77,6 +77,18 @@ TEST(Report, DoesNotCallAChangeWithinTheErrorAnImprovement) {
   RunRecord record = sample_record();
   for (EvaluationRecord& e : record.evaluations) e.error_estimates["asymptotic_wear_volume_m3"] = 5e-10;
   EXPECT_THAT(headline(record), HasSubstr("may be no improvement"));
+  // A verification that speaks against the best design comes first; that of another design does not count.
+  VerificationRecord verification;
+  verification.evaluation = static_cast<std::int64_t>(*record.best) + 1;
+  verification.status = "disagrees: search 1e-10 m^3, finer mesh 2e-10 m^3, bars 1e-11 m^3";
+  record.verifications = {verification};
+  EXPECT_THAT(headline(record), testing::Not(HasSubstr("does not confirm")));
+  record.verifications.front().evaluation = static_cast<std::int64_t>(*record.best);
+  EXPECT_THAT(headline(record),
+              testing::StartsWith("The verification does not confirm the best design: it disagrees: search"));
+  record.verifications.front().status = "history: budget_spent";
+  EXPECT_THAT(headline(record), testing::StartsWith("The best design could not be verified (history: budget_spent). "));
+  record.verifications.clear();
   for (EvaluationRecord& e : record.evaluations) e.error_estimates.clear();
   EXPECT_THAT(headline(record), HasSubstr("No error bar is known"));
 }
