@@ -167,8 +167,9 @@ Doubt left_in_doubt(const fem::ContactCells& cells, const wear::Asymptote& asymp
   return within_nodes(cells, asymptote);
 }
 
-/// Zones narrower than the nodes at the ends of the contact are not seen. Such a one wears until the load that
-/// compresses it has gone: p l / E under a node of length l.
+/// Zones narrower than half a node at the ends of the contact are not seen. Such a one wears until the load that
+/// compresses it has gone. Its end is as deep as p l / E of a node of length l under the pressure p, as the pressure
+/// peaks there; its volume is that of a wedge half as wide and, in the mean pressure, half as deep.
 Doubt unseen(const Scene& scene, const CandidateResult& result) {
   const fem::ContactCells& cells = result.model.cells;
   const std::vector<response::NodeSummary>& nodes = result.unworn->state.nodes;
@@ -184,7 +185,7 @@ Doubt unseen(const Scene& scene, const CandidateResult& result) {
         const double length = (ends[end + 1] - ends[end]) * scene.geometry.left.length;
         const double depth = nodes[first + end].max_pressure * length / modulus;
         left.depth = std::max(left.depth, depth);
-        left.volume += depth * cells.area[static_cast<Eigen::Index>(first + end)];
+        left.volume += depth * cells.area[static_cast<Eigen::Index>(first + end)] / (2 * 2 * 2);
       }
       first += ends.size() - 1;
     }
