@@ -189,8 +189,8 @@ OptimizationResult run_optimization(const Problem& problem, const Evaluator& eva
     result = result_of(session, outcome.status, outcome.message);
   } catch (const StopSearch& stop) {
     result = result_of(session, stop.reason, {});
-    const auto looks = std::ranges::count_if(
-        finer.checks(), [&](const FinerCheck& check) { return check.candidate == result.best; });
+    const auto looks =
+        std::ranges::count_if(finer.checks(), [&](const FinerCheck& check) { return check.candidate == result.best; });
     if (finer.active() && result.best && looks < options.finer_meshes)
       result.message += "; how the best design so far keeps its limits on finer meshes is not known";
   }
