@@ -243,6 +243,26 @@ PeakStart with_fewer_harmonics(const std::shared_ptr<const CondensedModel>& mode
   return start;
 }
 
+/// A peak that only another pseudo-penalty led to may be one of another branch: it is looked for again from frequencies
+/// beside it. One found with the pseudo-penalty asked for counts where it is no lower.
+void look_again(const std::shared_ptr<const CondensedModel>& model, const ContactCondition& condition,
+                const SteadyOptions& options, const ResonanceOptions& peak, Resonance& found) {
+  constexpr double kBeside = 1e-3;  // of the frequency, the half width of a peak with little damping
+  const double omega = found.omega;
+  for (const double start : {omega * (1 - kBeside), omega * (1 + kBeside)}) {
+    if (found.status != Status::converged || found.state.penalty_ratio == 1) return;
+    Resonance other = PeakSearch(model, condition, options, peak).run(start, {});
+    other.solves += found.solves;
+    other.jacobians += found.jacobians;
+    const bool counts = other.status == Status::converged && other.state.penalty_ratio == 1 &&
+                        other.amplitude >= 0.999 * found.amplitude;
+    if (counts)
+      found = std::move(other);
+    else
+      found.solves = other.solves, found.jacobians = other.jacobians;
+  }
+}
+
 }  // namespace
 
 AmplitudeSlope amplitude_slope(const SteadyState& state, Eigen::Index output) {
@@ -271,6 +291,7 @@ Resonance resonance(const std::shared_ptr<const CondensedModel>& model, double o
   Resonance near = PeakSearch(model, condition, options, resonance_options).run(start.omega, start.guess);
   near.solves += start.solves;
   near.jacobians += start.jacobians;
+  look_again(model, condition, options, resonance_options, near);
   if (near.status == Status::converged || cut_short(near.status) || resonance_options.sweep_range == 0) return near;
   Resonance far = peak_sweep(model, omega_start * (1 + resonance_options.search_range),
                              omega_start * (1 - resonance_options.sweep_range), condition, options, resonance_options);
