@@ -281,25 +281,6 @@ TEST(SectionEvaluation, NodesOfAConfirmingHistoryAreInTheBar) {
   for (const double ended : {0.619e-9, 0.705e-9}) EXPECT_LT(std::abs(volume - ended), bar) << volume;
 }
 
-// The first state of the worn joint needs another pseudo-penalty here and lies on another branch, whose peak at 8.8 mm
-// is none of the joint: on 14 to 20 edges it drifts by 7.6e-4 to 8.0e-4 and reaches 12.3 mm.
-TEST(SectionEvaluation, APeakThatAnotherPseudoPenaltyLedToIsLookedForAgain) {
-  Scene scene;
-  scene.mesh.flank_elements = 16;
-  for (geometry::FlankParameters* flank : {&scene.geometry.left, &scene.geometry.right}) {
-    flank->mismatch = 22e-6;
-    flank->crown = 6e-6;
-    flank->angle = 48 * std::numbers::pi / 180;
-  }
-  scene.contact.friction = 0.6;
-  scene.loading.tip_force = 4;
-  scene.loading.speed = 12000 * std::numbers::pi / 30;
-  const CandidateResult found = SceneEvaluator(scene).evaluate(scene, kSearch);
-  ASSERT_TRUE(found.evaluation.converged()) << found.evaluation.status;
-  EXPECT_NEAR(found.evaluation.responses.at("worn_peak_amplitude_m"), 12.3e-3, 0.2e-3);
-  EXPECT_NEAR(found.evaluation.responses.at("resonance_drift"), -7.8e-4, 0.4e-4);
-}
-
 TEST(SectionEvaluation, RunsTwiceToTheSameBits) {
   const CandidateResult again = evaluator().evaluate(coarse_scene());
   EXPECT_EQ(again.evaluation.responses, baseline().evaluation.responses);
