@@ -237,7 +237,7 @@ ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateMode
   if (peak.status != Status::converged) return fit;
   // What the last grid says of the edges is not known: they may be anywhere near.
   const auto unsettled = [&fit] {
-    fit.settled = false;
+    fit.settled = fit.known = false;
     fit.moved = fit.share = 1;
     return fit;
   };

@@ -41,19 +41,20 @@ double left_over(double order, double ratio) {
 // 1 and 2).
 double mesh_order(const std::string& response) {
   // Forces that follow from equilibrium know of the mesh only through its quadratic arcs.
-  if (response == "contact_pressure_mean_pa" || response == "neck_tension_pa") return 4.3;
+  if (response == "contact_pressure_mean_pa" || response == "neck_tension_pa") return 4.8;
   // Energies of the whole, into which the ends of the flanks enter with the square of their error.
   if (response == "glued_frequency_hz" || response == "resonance_hz" || response == "worn_resonance_hz") return 2.5;
   // Stresses of fillets, for which what the free surface says of them counts besides.
-  if (response.ends_with("_fillet_stress_pa")) return 2.5;
+  if (response.ends_with("_fillet_stress_pa")) return 2.8;
   if (response == "peak_stress_pa") return 2;
   // The worn joint bears on its inner parts.
-  if (response == "worn_peak_amplitude_m") return 1.8;
+  if (response == "worn_peak_amplitude_m") return 2;
   if (response == "resonance_drift") return 1.7;
   // Slip next to the sharp ends of flanks, and the wear that comes of it.
   if (response == "dissipated_energy_j" || response == "initial_wear_rate_m3_per_cycle" ||
       response == "peak_amplitude_m")
-    return 1.15;
+    return 1.4;
+  if (response == "asymptotic_wear_volume_m3" || response == "asymptotic_wear_depth_max_m") return 1.5;
   return 1;
 }
 
@@ -67,7 +68,8 @@ double mesh_factor(const std::string& response, double ratio, bool again) {
 
 /// Nodes 1.5 times as long on the same mesh, which the coarse mesh has as well: what they change is in both.
 double grid_factor(const std::string& response) {
-  return left_over(response == "worn_peak_amplitude_m" ? 7.0 / 3 : 5.0 / 3, kGridRatio);
+  const bool worn = response == "worn_peak_amplitude_m" || response == "resonance_drift";
+  return left_over(worn ? 7.0 / 3 : 5.0 / 3, kGridRatio);
 }
 
 class Bars {
@@ -167,14 +169,19 @@ Doubt left_in_doubt(const fem::ContactCells& cells, const wear::Asymptote& asymp
   return within_nodes(cells, asymptote);
 }
 
-/// Zones narrower than half a node at the ends of the contact are not seen. Such a one wears until the load that
-/// compresses it has gone. Its end is as deep as p l / E of a node of length l under the pressure p, as the pressure
-/// peaks there; its volume is that of a wedge half as wide and, in the mean pressure, half as deep.
-Doubt unseen(const Scene& scene, const CandidateResult& result) {
+struct Unseen {
+  double volume = 0, depth = 0, energy = 0;  ///< m^3, m, J per cycle
+};
+
+/// Zones narrower than half a node at the ends of the contact are not seen. Such a one of width w wears until the load
+/// that compresses it has gone: its end is as deep as p w / E under the pressure p, as the pressure peaks there; its
+/// volume is that of a wedge. Until then it slips by what the change of the pressure in a period compresses it, at its
+/// end there and back, in the mean half of that.
+Unseen unseen(const Scene& scene, const CandidateResult& result) {
   const fem::ContactCells& cells = result.model.cells;
   const std::vector<response::NodeSummary>& nodes = result.unworn->state.nodes;
   const double modulus = std::min(scene.blade.youngs_modulus, scene.disk.youngs_modulus);
-  Doubt left;
+  Unseen left;
   std::size_t first = 0;
   for (const fem::FlankCells& flank : cells.flanks)
     for (const std::vector<double>& ends : flank.across) {
@@ -182,10 +189,14 @@ Doubt unseen(const Scene& scene, const CandidateResult& result) {
       while (low < high && !nodes[first + low].carries_load) ++low;
       while (low < high && !nodes[first + high].carries_load) --high;
       for (const std::size_t end : {low, high}) {
-        const double length = (ends[end + 1] - ends[end]) * scene.geometry.left.length;
-        const double depth = nodes[first + end].max_pressure * length / modulus;
+        const response::NodeSummary& node = nodes[first + end];
+        const double width = (ends[end + 1] - ends[end]) * scene.geometry.left.length / 2;
+        const double area = cells.area[static_cast<Eigen::Index>(first + end)] / 2;
+        const double depth = node.max_pressure * width / modulus;
+        const double slip = (node.max_pressure - node.min_pressure) * width / modulus;
         left.depth = std::max(left.depth, depth);
-        left.volume += depth * cells.area[static_cast<Eigen::Index>(first + end)] / (2 * 2 * 2);
+        left.volume += depth * area / 2;
+        left.energy += scene.contact.friction * node.max_pressure * area * slip;
       }
       first += ends.size() - 1;
     }
@@ -275,9 +286,13 @@ void add_error_bars(const Scene& scene, const ModelBuilder& builder, const Coars
   if (result.asymptote->worn_volume == 0 && scene.contact.wear_coefficient > 0) {
     const Evaluation shorter = companion(scene, result.model, cells(0.5));
     bars.add("contact_grid", {{&shorter, share(2)}}, result.evaluation);
-    const Doubt zone = unseen(scene, result);
+    const Unseen zone = unseen(scene, result);
     bars.add("contact_grid", "asymptotic_wear_volume_m3", zone.volume);
     bars.add("contact_grid", "asymptotic_wear_depth_max_m", zone.depth);
+    bars.add("contact_grid", "dissipated_energy_j", zone.energy);
+    if (scene.contact.friction > 0)
+      bars.add("contact_grid", "initial_wear_rate_m3_per_cycle",
+               scene.contact.wear_coefficient * zone.energy / scene.contact.friction);
   }
 
   // What the other settings leave hardly depends on the mesh: it is asked where a design costs least, and where that

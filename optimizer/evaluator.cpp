@@ -223,8 +223,10 @@ CandidateResult computed(const Scene& scene, CandidateModel model, const Computa
   if (!result.model.converged()) return result;
   if (!fit.settled)
     evaluation.messages.push_back(
-        "The edges of the worn zones did not settle: their contact nodes end beside them, by up to " +
-        shortest(fit.moved) + " of an edge of the mesh.");
+        fit.known ? "The edges of the worn zones did not settle: their contact nodes end beside them, by up to " +
+                        shortest(fit.moved) + " of an edge of the mesh."
+                  : "The edges of the worn zones are not known: the direct method found no worn state from which to "
+                    "take them.");
   static_responses(scene, result.model, evaluation);
   evaluation.status = dynamics(scene, how, fit, result);
   note_penalties(result);

@@ -32,8 +32,8 @@ struct ImplicitHistoryOptions {
   double rate_fraction = 1e-6;
   // Worn out, too, when the largest rate fell below this, m per cycle; negative: from the model, see no_wear_rate.
   double rate_threshold = kFromModel;
-  // > 1. A rate that stays within `level_change` while the depth doubles, beyond this many of those penetrations, has
-  // levelled out: wear goes on for ever.
+  // > 1. Rates of which none falls by more than `level_change` while the depth doubles, beyond this many of those
+  // penetrations, have levelled out: wear goes on for ever.
   double level_depth = kLevelDepth;
   // in (0, 1).
   double level_change = kLevelChange;

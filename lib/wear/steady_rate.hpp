@@ -10,12 +10,14 @@ namespace dovetail::wear {
 
 /// When rates have levelled out, so that wear goes on for ever: they stay within kLevelChange of the largest one while
 /// the joint wears by kLevelDepth of its largest local penetration (largest_penetration), far beyond the depth over
-/// which its pressures change.
+/// which its pressures change. Rates may rise by more than that, as where a joint that slips all over moves out of its
+/// disk and its resonance with it: what rises does not come to rest.
 inline constexpr double kLevelDepth = 300.0;
 inline constexpr double kLevelChange = 1e-3;
+inline constexpr double kLevelRise = 0.05;
 
-/// Whether no rate moved by more than `change` of the largest one while the largest depth doubled to what it is now.
-/// Records have `depth` and `rate` [Nc], in order.
+/// Whether no rate fell by more than `change`, or rose by more than kLevelRise, of the largest one while the largest
+/// depth doubled to what it is now. Records have `depth` and `rate` [Nc], in order.
 template <class Record>
 [[nodiscard]] bool unchanged_while_doubling(const std::vector<Record>& records, double change) {
   const Record& last = records.back();
@@ -24,7 +26,8 @@ template <class Record>
   const auto earlier = std::find_if(records.rbegin(), records.rend(),
                                     [deep](const Record& record) { return record.depth.maxCoeff() <= 0.5 * deep; });
   if (earlier == records.rend() || earlier->depth.maxCoeff() < 0.05 * deep) return false;
-  return (last.rate - earlier->rate).cwiseAbs().maxCoeff() <= change * last.rate.maxCoeff();
+  const Eigen::VectorXd rise = (last.rate - earlier->rate) / last.rate.maxCoeff();
+  return rise.minCoeff() >= -change && rise.maxCoeff() <= std::max(change, kLevelRise);
 }
 
 /// Whether wearing by `depth` (m, of the fastest node) at the rates of `state` moves no rate by more than `change` of

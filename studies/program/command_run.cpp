@@ -66,9 +66,15 @@ std::string limits_kept(const Study& study, const OptimizationResult& result) {
 
 std::string conclusion(const Study& study, const OptimizationResult& result, const fs::path& directory) {
   const optimizer::SearchStatistics& counts = result.statistics;
+  const auto all = static_cast<int>(result.evaluations.size());
+  const auto count = [&](const auto& of) { return static_cast<int>(std::ranges::count_if(result.evaluations, of)); };
+  const int feasible = count([](const optimizer::Candidate& c) { return c.judgement.feasible; });
+  const int failed = count([](const optimizer::Candidate& c) {
+    return c.evaluation.status != "converged" && c.evaluation.status != "infeasible";
+  });
   std::string text =
-      fmt::format("{}: {} evaluations, {} of them stored before; {} infeasible, {} failed; {}\n", study.name,
-                  result.evaluations.size(), counts.replayed, counts.infeasible, counts.failed,
+      fmt::format("{}: {} evaluations, {} of them stored before; {} feasible, {} break a limit or a rule, {} failed; {}\n",
+                  study.name, all, counts.replayed, feasible, all - feasible - failed, failed,
                   result.message.empty() ? std::string(to_string(result.status)) : result.message);
   if (!result.best) return text;
   const optimizer::Candidate& best = result.evaluations[*result.best];

@@ -174,7 +174,8 @@ std::string certificate_words(const wear::Asymptote& asymptote) {
 }
 
 std::string summary(const WearQuestion& question, const WearAnswer& answer) {
-  const auto known = [&](double value) { return answer.known() ? fmt::format("{:.6g}", value) : "not known"; };
+  const char* unknown = answer.status == "no_asymptote" ? "none: wear goes on for ever" : "not known";
+  const auto known = [&](double value) { return answer.known() ? fmt::format("{:.6g}", value) : unknown; };
   const std::string status = answer.status + (answer.reason.empty() ? "" : " (" + answer.reason + ")");
   std::string text = fmt::format("status          {}\nfrequency_hz    {:.9g} ({})\nworn_volume_m3  {}\n", status,
                                  question.frequency_hz, follow_words(question.follow), known(answer.volume));

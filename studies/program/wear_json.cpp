@@ -141,7 +141,7 @@ Json other_states(const wear::Asymptote& asymptote) {
   return list;
 }
 
-/// What an attempt without a verdict knows of the worn state: nothing.
+/// What an attempt without a verdict knows of the worn state: nothing. Of wear without end the last rates are known.
 void add_unknown_asymptote(const wear::Asymptote& asymptote, Json& json) {
   for (const char* key : {"cycles", "worn_volume_m3"}) json[key] = unknown(1);
   for (const char* key : {"depth_m", "final_wear_rate_m_per_cycle"}) json[key] = unknown(asymptote.depth.size());
@@ -150,9 +150,10 @@ void add_unknown_asymptote(const wear::Asymptote& asymptote, Json& json) {
 
 void add_asymptote(const wear::Asymptote& asymptote, Json& json) {
   if (asymptote.verdict == wear::Verdict::not_converged) return add_unknown_asymptote(asymptote, json);
+  const bool rests = asymptote.verdict == wear::Verdict::asymptote;
   json["cycles"] = Json::array({nullptr});
-  json["worn_volume_m3"] = Json::array({number(asymptote.worn_volume)});
-  json["depth_m"] = numbers(asymptote.depth);
+  json["worn_volume_m3"] = rests ? Json::array({number(asymptote.worn_volume)}) : unknown(1);
+  json["depth_m"] = rests ? numbers(asymptote.depth) : unknown(asymptote.depth.size());
   json["final_wear_rate_m_per_cycle"] = numbers(asymptote.rate);
   json["certificate"] = number(asymptote.certificate);
   if (asymptote.finer.harmonics > 0)

@@ -42,9 +42,9 @@ struct WearAnswer {
   Eigen::VectorXd depth;  ///< [Nc] m, of the last state
   int solves = 0;
 
-  /// Whether volume and depth are those of a state, not of an attempt that failed before any.
+  /// Whether volume and depth are those of a state, not of an attempt that failed before any or of wear without end.
   [[nodiscard]] bool known() const {
-    return history ? history->cycles.size() > 0 : asymptote && asymptote->verdict != wear::Verdict::not_converged;
+    return history ? history->cycles.size() > 0 : asymptote && asymptote->verdict == wear::Verdict::asymptote;
   }
   [[nodiscard]] bool worn_out() const { return status == "asymptote"; }
   [[nodiscard]] double largest_depth() const { return depth.size() > 0 ? depth.maxCoeff() : 0; }

@@ -191,6 +191,20 @@ std::vector<std::string> holding(const RunRecord& record) {
   return found;
 }
 
+std::vector<std::string> without_bar(const RunRecord& record) {
+  std::vector<std::string> found;
+  const EvaluationRecord* best = best_of(record);
+  if (!best || best->error_estimates.empty()) return found;
+  const auto ask = [&](const std::string& response) {
+    const std::string name = "the " + words(response);
+    if (!best->error_estimates.contains(response) && std::ranges::find(found, name) == found.end())
+      found.push_back(name);
+  };
+  for (const optimizer::ObjectiveTerm& term : record.problem.objective) ask(term.response);
+  for (const optimizer::ResponseConstraint& limit : record.problem.constraints) ask(limit.response);
+  return found;
+}
+
 std::string ending(const RunRecord& record) {
   std::size_t feasible = 0, failed = 0;
   for (const EvaluationRecord& e : record.evaluations) {

@@ -36,6 +36,9 @@ struct ObjectiveScale {
 /// within 0.5 % of its scale, a bound within 0.5 % of the variable's range.
 [[nodiscard]] std::vector<std::string> holding(const RunRecord& record);
 
+/// What the objective or a limit rests on while its value at the best design has no error bar, though others have one.
+[[nodiscard]] std::vector<std::string> without_bar(const RunRecord& record);
+
 /// How the run ended, and how many candidates it saw.
 [[nodiscard]] std::string ending(const RunRecord& record);
 

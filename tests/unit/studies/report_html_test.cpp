@@ -93,6 +93,18 @@ TEST(Report, DoesNotCallAChangeWithinTheErrorAnImprovement) {
   EXPECT_THAT(headline(record), HasSubstr("No error bar is known"));
 }
 
+TEST(Report, NamesWhatTheBestDesignRestsOnWithoutAnErrorBar) {
+  RunRecord record = sample_record();
+  EXPECT_THAT(without_bar(record), testing::ElementsAre("the peak amplitude"));
+  EXPECT_THAT(report_html(record), HasSubstr("The best design rests on the peak amplitude, of which no error is known"));
+  EvaluationRecord& best = record.evaluations[*record.best];
+  best.error_estimates["peak_amplitude_m"] = 1e-5;
+  EXPECT_THAT(without_bar(record), testing::IsEmpty());
+  EXPECT_THAT(report_html(record), testing::Not(HasSubstr("of which no error is known")));
+  best.error_estimates.clear();  // a run without bars
+  EXPECT_THAT(without_bar(record), testing::IsEmpty());
+}
+
 TEST(Report, ShowsTheHistoryBesideTheDirectMethod) {
   RunRecord record = sample_record();
   const std::string page = report_html(record);
