@@ -96,7 +96,8 @@ TEST(Report, DoesNotCallAChangeWithinTheErrorAnImprovement) {
 TEST(Report, NamesWhatTheBestDesignRestsOnWithoutAnErrorBar) {
   RunRecord record = sample_record();
   EXPECT_THAT(without_bar(record), testing::ElementsAre("the peak amplitude"));
-  EXPECT_THAT(report_html(record), HasSubstr("The best design rests on the peak amplitude, of which no error is known"));
+  EXPECT_THAT(report_html(record),
+              HasSubstr("The best design rests on the peak amplitude, of which no error is known"));
   EvaluationRecord& best = record.evaluations[*record.best];
   best.error_estimates["peak_amplitude_m"] = 1e-5;
   EXPECT_THAT(without_bar(record), testing::IsEmpty());
