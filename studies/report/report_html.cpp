@@ -43,8 +43,9 @@ std::string opening(const RunRecord& record) {
     text += "<p>No limit, rule or bound holds the best design: it lies inside of all of them.</p>\n";
   const std::vector<std::string> open = without_bar(record);
   if (!open.empty())
-    text += "<p>The best design rests on " + escape(listed(open)) + ", of which no error is known: the mesh does not " +
-            "settle it, as at sharp ends of the flanks, where the pressure grows without limit the finer the mesh.</p>\n";
+    text +=
+        "<p>The best design rests on " + escape(listed(open)) + ", of which no error is known: the mesh does not " +
+        "settle it, as at sharp ends of the flanks, where the pressure grows without limit the finer the mesh.</p>\n";
   return text + "<p class=\"soft\">" + escape(ending(record)) + "</p>\n</header>\n";
 }
 
