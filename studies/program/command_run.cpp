@@ -72,10 +72,10 @@ std::string conclusion(const Study& study, const OptimizationResult& result, con
   const int failed = count([](const optimizer::Candidate& c) {
     return c.evaluation.status != "converged" && c.evaluation.status != "infeasible";
   });
-  std::string text =
-      fmt::format("{}: {} evaluations, {} of them stored before; {} feasible, {} break a limit or a rule, {} failed; {}\n",
-                  study.name, all, counts.replayed, feasible, all - feasible - failed, failed,
-                  result.message.empty() ? std::string(to_string(result.status)) : result.message);
+  std::string text = fmt::format(
+      "{}: {} evaluations, {} of them stored before; {} feasible, {} break a limit or a rule, {} failed; {}\n",
+      study.name, all, counts.replayed, feasible, all - feasible - failed, failed,
+      result.message.empty() ? std::string(to_string(result.status)) : result.message);
   if (!result.best) return text;
   const optimizer::Candidate& best = result.evaluations[*result.best];
   text += fmt::format("best objective {:.6g} (evaluation {}), start {:.6g}\n", best.judgement.objective,
