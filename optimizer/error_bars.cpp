@@ -125,7 +125,7 @@ struct Doubt {
 Doubt within_nodes(const fem::ContactCells& cells, const wear::Asymptote& asymptote) {
   // Of a node, from histories on nodes a quarter as long. Where another order of release ends elsewhere, or nodes that
   // stick have little to spare, a history depends on its nodes much more than where some touch at times only.
-  const double part = asymptote.doubt == "lift_off" ? 0.05 : 0.25;
+  const double part = asymptote.doubt == "lift_off" ? 0.055 : 0.25;
   Doubt left;
   std::size_t first = 0;
   for (const fem::FlankCells& flank : cells.flanks)

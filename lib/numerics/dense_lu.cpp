@@ -1,15 +1,10 @@
 #include "numerics/dense_lu.hpp"
 
-#include <cblas.h>
 #include <lapacke.h>
 
 #include <cassert>
 
 namespace dovetail::numerics {
-
-void set_blas_threads(int threads) {
-  openblas_set_num_threads(threads);
-}
 
 void DenseLu::factorise(Eigen::MatrixXd matrix) {
   assert(matrix.rows() == matrix.cols());

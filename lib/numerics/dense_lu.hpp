@@ -7,10 +7,6 @@
 
 namespace dovetail::numerics {
 
-/// Sets the number of OpenBLAS threads of this process. Call with 1 in worker processes that solve several
-/// candidates at once: threads of threads slow each other down. [1, number of cores]
-void set_blas_threads(int threads);
-
 /// LU factors of a square matrix, P A = L U with row pivoting (LAPACK dgetrf on OpenBLAS). 2/3 n^3 operations.
 class DenseLu {
  public:

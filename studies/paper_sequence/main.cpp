@@ -5,12 +5,13 @@
 #include <string>
 
 #include "core/errors.hpp"
-#include "numerics/dense_lu.hpp"
+#include "numerics/blas.hpp"
 #include "studies/paper_sequence/compute.hpp"
 #include "studies/paper_sequence/page.hpp"
 #include "studies/program/study.hpp"
 
 int main(int argc, char** argv) {
+  dovetail::numerics::prepare_blas(argv);
   using namespace dovetail;
   CLI::App app{"Vibration and fretting wear of a bladed disk, in a plane section or in space, figure by figure."};
   std::string folder, study_file, commit = "unknown";
@@ -29,7 +30,6 @@ int main(int argc, char** argv) {
     std::fflush(stdout);
   };
   try {
-    numerics::set_blas_threads(1);
     studies::Study study = studies::load_study(study_file);
     if (study.scene.in_space()) {
       // Each point and each diameter costs a hundred times those of a section.

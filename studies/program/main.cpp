@@ -2,14 +2,12 @@
 
 #include <iostream>
 
-#include "numerics/dense_lu.hpp"
+#include "numerics/blas.hpp"
 #include "studies/program/command_line.hpp"
 #include "studies/program/interrupt.hpp"
 
 int main(int argc, char** argv) {
-  // Candidates are evaluated side by side: threads of OpenBLAS within each would only compete with the others, and one
-  // thread gives the same digits whatever the machine.
-  dovetail::numerics::set_blas_threads(1);
+  dovetail::numerics::prepare_blas(argv);
   // Jacobians of tens of megabytes come and go in every iteration: memory given back to the system each time would have
   // to be mapped page by page again, which takes longer than filling it.
   constexpr int kKept = 1 << 30;

@@ -5,11 +5,12 @@
 #include <string>
 
 #include "core/errors.hpp"
-#include "numerics/dense_lu.hpp"
+#include "numerics/blas.hpp"
 #include "studies/program/study.hpp"
 #include "studies/skewed_slot/compute.hpp"
 
 int main(int argc, char** argv) {
+  dovetail::numerics::prepare_blas(argv);
   using namespace dovetail;
   CLI::App app{"Pressure and slip in a straight and in a skewed dovetail slot."};
   std::string folder, study_file, commit = "unknown";
@@ -27,7 +28,6 @@ int main(int argc, char** argv) {
     std::fflush(stdout);
   };
   try {
-    numerics::set_blas_threads(1);
     studies::Study study = studies::load_study(study_file);
     if (quick) {
       study.scene.mesh.flank_elements = 6;

@@ -5,11 +5,12 @@
 #include <string>
 
 #include "core/errors.hpp"
-#include "numerics/dense_lu.hpp"
+#include "numerics/blas.hpp"
 #include "studies/work_precision/diagrams.hpp"
 #include "studies/work_precision/results.hpp"
 
 int main(int argc, char** argv) {
+  dovetail::numerics::prepare_blas(argv);
   using namespace dovetail;
   using namespace dovetail::work_precision;
   CLI::App app{"Seconds on one core against true error of the contact engine."};
@@ -27,7 +28,6 @@ int main(int argc, char** argv) {
     std::fflush(stdout);
   };
   try {
-    numerics::set_blas_threads(1);
     Results results;
     results.made = circumstances();
     results.made.commit = commit;

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "numerics/dense_lu.hpp"
+#include "numerics/blas.hpp"
 #include "response/frequency_response.hpp"
 #include "response/linearisation.hpp"
 #include "studies/work_precision/newton_step.hpp"
@@ -205,7 +205,7 @@ void table(const Medians& median) {
 }  // namespace dovetail
 
 int main(int argc, char** argv) {
-  dovetail::numerics::set_blas_threads(1);
+  dovetail::numerics::prepare_blas(argv);
   // Interleaving lets the figures that are compared meet the same state of the machine.
   std::vector<std::string> defaults{"--benchmark_repetitions=7", "--benchmark_report_aggregates_only=true",
                                     "--benchmark_enable_random_interleaving=true", "--benchmark_min_time=0.2"};

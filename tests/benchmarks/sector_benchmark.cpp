@@ -2,7 +2,7 @@
 // the memory on four meshes of the same geometry and contact grid. Each in a process of its own, so that peak memory is
 // its own; `load` is that of the machine before the run, `cpu` the process's time whatever that is. Mesh to model holds
 // the preload without geometric stiffness and the geometric stiffness, not only the reduction.
-//   OPENBLAS_NUM_THREADS=1 build/tests/benchmarks/sector_benchmark [evaluation | growth]
+//   build/tests/benchmarks/sector_benchmark [evaluation | growth]
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -16,6 +16,7 @@
 #include <string_view>
 #include <vector>
 
+#include "numerics/blas.hpp"
 #include "optimizer/evaluator.hpp"
 #include "studies/program/study.hpp"
 
@@ -163,6 +164,7 @@ void growth() {
 }  // namespace
 
 int main(int count, char** arguments) {
+  dovetail::numerics::prepare_blas(arguments);
   const std::string_view part = count > 1 ? arguments[1] : "";
   print_load();
   if (part != "growth") in_own_process(evaluate);

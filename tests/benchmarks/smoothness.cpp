@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/errors.hpp"
-#include "numerics/dense_lu.hpp"
+#include "numerics/blas.hpp"
 #include "optimizer/evaluator.hpp"
 #include "studies/program/engine.hpp"
 #include "studies/program/study.hpp"
@@ -88,7 +88,7 @@ int main(int argc, char** argv) {
     std::cerr << "usage: smoothness STUDY.toml [POINTS] [PAGE.html]\n";
     return 2;
   }
-  dovetail::numerics::set_blas_threads(1);
+  dovetail::numerics::prepare_blas(argv);
   try {
     return dovetail::run(argv[1], argc > 2 ? std::max(4, std::atoi(argv[2])) : 41,
                          argc > 3 ? argv[3] : "smoothness.html");

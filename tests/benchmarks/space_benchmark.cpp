@@ -1,7 +1,7 @@
 // The linear chain in space on structured toothed sectors of growing size: assembly, one factorisation, back-solves,
 // glued modes, and the reduction to contact dofs against the factorisation and back-solves it cannot do without. Times
 // of one run, seconds; growth is the slope of log time over log dofs between the two largest meshes.
-//   OPENBLAS_NUM_THREADS=1 build/tests/benchmarks/space_benchmark [largest = 9]
+//   build/tests/benchmarks/space_benchmark [largest = 9]
 #include <sys/resource.h>
 
 #include <chrono>
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "fem/glued_modes.hpp"
+#include "numerics/blas.hpp"
 #include "reduction/massless_boundary.hpp"
 #include "tests/unit/fem/extruded_mesh.hpp"
 #include "tests/unit/fem/structured_mesh.hpp"
@@ -101,6 +102,7 @@ Row measure(int size) {
 }  // namespace
 
 int main(int count, char** arguments) {
+  dovetail::numerics::prepare_blas(arguments);
   const int largest = count > 1 ? std::atoi(arguments[1]) : 9;
   std::printf(
       "    dofs  nodes L(1e6) pattrn assemb constr factor  solve1 solveC  modes reduce (stages) "

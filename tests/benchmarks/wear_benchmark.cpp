@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "numerics/dense_lu.hpp"
+#include "numerics/blas.hpp"
 #include "response/frequency_response.hpp"
 #include "response/resonance.hpp"
 #include "studies/program/engine.hpp"
@@ -167,7 +167,7 @@ void times() {
 int main(int count, char** arguments) {
   std::vector<std::string> names(arguments + 1, arguments + count);
   if (names.empty()) names = {"section", "crowned", "mismatch", "block", "punch", "lift_off", "space", "times"};
-  dovetail::numerics::set_blas_threads(1);
+  dovetail::numerics::prepare_blas(arguments);
   std::printf(
       "scene     nodes decided  doubt       profile    volume      step | Jacobians: released, answer, 0.5 %% history, "
       "ratio | "

@@ -23,6 +23,8 @@ struct Claim {
 /// truncation T L to H harmonics. At an instant it may therefore miss the exact force by the truncation error
 /// E = L - T L there, a number known from P alone, and no more: lambda + E is the force, and P - lambda - E = eps X the
 /// slip and the opening, that have to obey the law. The laws of normal contact need no march, L_N = max(0, P_N).
+/// Of a claim that passes `march` the five laws from tension to stick hold as well, if the oracle's own march obeys
+/// them: they judge that march, too, and the three of normal contact do so without it.
 enum class Check {
   equilibrium,      ///< |F - Z U - lambda|
   march,            ///< |lambda - T L| for L marched on the claim's samples

@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "numerics/dense_lu.hpp"
 #include "studies/work_precision/diagrams.hpp"
 #include "studies/work_precision/results.hpp"
 
@@ -17,7 +16,6 @@ namespace {
 
 const Results& quick_results() {
   static const Results results = [] {
-    numerics::set_blas_threads(1);
     const DiagramOptions options{.study_file = QUICKSTART, .quick = true};
     Results made;
     made.made = circumstances();

@@ -1,0 +1,33 @@
+#include "numerics/blas.hpp"
+
+#include <cblas.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <string_view>
+
+namespace dovetail::numerics {
+
+namespace {
+
+/// Better kernels than those OpenBLAS took, or null.
+const char* better_kernels() {
+#if defined(__x86_64__)
+  if (std::string_view(openblas_get_corename()) != "Prescott") return nullptr;
+  if (__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq")) return "SkylakeX";
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return "Haswell";
+#endif
+  return nullptr;
+}
+
+}  // namespace
+
+void prepare_blas(char** arguments) {
+  constexpr const char* kVariable = "OPENBLAS_CORETYPE";
+  const char* kernels = std::getenv(kVariable) == nullptr ? better_kernels() : nullptr;
+  // Where that fails the slow kernels do.
+  if (kernels != nullptr && ::setenv(kVariable, kernels, 0) == 0) ::execv("/proc/self/exe", arguments);
+  openblas_set_num_threads(1);
+}
+
+}  // namespace dovetail::numerics
