@@ -158,10 +158,7 @@ Doubt within_nodes(const fem::ContactCells& cells, const wear::Asymptote& asympt
 /// ends it may be anything.
 Doubt left_in_doubt(const fem::ContactCells& cells, const wear::Asymptote& asymptote) {
   if (asymptote.doubt.empty()) return {};
-  if (!asymptote.confirmed_by_history) {
-    if (asymptote.doubt == "finer_settings") return {};
-    return {.volume = asymptote.worn_volume, .depth = asymptote.largest_depth};
-  }
+  if (!asymptote.confirmed_by_history) return {.volume = asymptote.worn_volume, .depth = asymptote.largest_depth};
   for (const wear::OtherState& other : asymptote.other_states)
     if (asymptote.decided_by == "history" && other.found_by == "release")
       return {.volume = std::abs(other.worn_volume - asymptote.worn_volume),

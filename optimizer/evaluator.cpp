@@ -91,6 +91,7 @@ WornState worn_state(const Scene& scene, const CandidateModel& model, const resp
                      const response::SteadyOptions& steady, const char* arbitration) {
   wear::AsymptoteOptions options;
   options.arbitration = arbitration;
+  options.certify_finer = false;  // more harmonics and samples have their bars
   if (scene.loading.follow != "resonance")
     return {.asymptote = wear::asymptote(model.condensed, unworn.omega, {}, steady, options, &unworn.state),
             .held = {},
@@ -123,8 +124,6 @@ void note_doubt(const reduction::ContactNodes& contact, const wear::Asymptote& a
     outcome = "the wear history decided";
   else if (asked)
     outcome = "the wear history ends in it, too";
-  else if (asymptote.doubt == "finer_settings")
-    outcome = "twice the harmonics and samples let it wear a little further, which is in their bars";
   for (const wear::OtherState& other : asymptote.other_states)
     if (other.found_by == "release")
       outcome += fmt::format(" and ends with {:.4g} m^3, the direct method with {:.4g} m^3",

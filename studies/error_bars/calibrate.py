@@ -63,9 +63,9 @@ SPACE = {
         "scene.speed_rpm": (8000, 12000),
     },
     "fine": {
-        "mesh.flank_elements": 14,
-        "mesh.slot_elements": 13,
-        "mesh.contact_slot_elements": 10,
+        "mesh.flank_elements": 12,
+        "mesh.slot_elements": 12,
+        "mesh.contact_slot_elements": 9,
         "mesh.aerofoil_elements": 17,
         "mesh.bulk_size_mm": 6,
         "mesh.fillet_fraction": 0.3,
