@@ -94,6 +94,22 @@ TEST(WearJson, AnAsymptoteHasOneStateAndNoNumberOfCycles) {
   EXPECT_FALSE(json.contains("band"));
 }
 
+TEST(WearJson, WearWithoutEndHasRatesAndNoVolume) {
+  WearAnswer answer;
+  answer.status = "no_asymptote";
+  answer.asymptote = wear::Asymptote{};
+  answer.asymptote->verdict = wear::Verdict::no_asymptote;
+  answer.asymptote->depth = Eigen::Vector2d(1e-3, 1e-3);  // where the history was left
+  answer.asymptote->rate = Eigen::Vector2d(2e-12, 2e-12);
+  answer.asymptote->worn_volume = 3e-10;
+  const Json json = Json::parse(wear_json({.frequency_hz = 490}, answer));
+  EXPECT_EQ(json["status"], "no_asymptote");
+  EXPECT_EQ(json["worn_volume_m3"], Json({nullptr}));
+  EXPECT_EQ(json["depth_m"], Json({nullptr, nullptr}));
+  EXPECT_EQ(json["final_wear_rate_m_per_cycle"], Json({2e-12, 2e-12}));
+  EXPECT_FALSE(answer.known());
+}
+
 TEST(WearJson, ASpreadNamesEveryMemberEvenTheFailedOnes) {
   wear::Spread spread;
   spread.nominal = {.verdict = wear::Verdict::asymptote, .volume = 2, .depth = Eigen::Vector2d(1, 0)};
