@@ -101,6 +101,31 @@ WornState worn_state(const Scene& scene, const CandidateModel& model, const resp
   return {.asymptote = std::move(found.asymptote), .held = std::move(found.held), .omega = found.omegas.back()};
 }
 
+/// Whether two worn shapes differ by a node at the ends of their zones, and no more. A history wears off whole nodes:
+/// it cannot tell such shapes apart, and on other nodes it ends in the other one, while the direct method's zones end
+/// where friction just holds.
+bool a_node_apart(const fem::ContactCells& cells, const Eigen::VectorXd& one, const Eigen::VectorXd& other) {
+  constexpr double kWorn = 0.02;  // of the largest depth: less is a trace of the way there
+  bool apart = false;
+  Eigen::Index first = 0;
+  for (const fem::FlankCells& flank : cells.flanks)
+    for (const std::vector<double>& ends : flank.across) {
+      const auto count = static_cast<Eigen::Index>(ends.size()) - 1;
+      const auto in = [&](const Eigen::VectorXd& depth, Eigen::Index k) {
+        return k >= 0 && k < count && depth[first + k] > kWorn * depth.maxCoeff();
+      };
+      const auto differs = [&](Eigen::Index k) { return in(one, k) != in(other, k); };
+      const auto worn = [&](Eigen::Index k) { return in(one, k) && in(other, k); };
+      for (Eigen::Index k = 0; k < count; ++k) {
+        if (!differs(k)) continue;
+        if (differs(k + 1) || !(worn(k - 1) || worn(k + 1))) return false;
+        apart = true;
+      }
+      first += count;
+    }
+  return apart;
+}
+
 /// Looks for doubt in a worn state that was found directly and asks the wear history, on a budget of its own. Where
 /// that does not come to an end the direct one stays, in doubt.
 void settle(const Scene& scene, const CandidateModel& model, const response::Resonance& unworn,
@@ -109,7 +134,16 @@ void settle(const Scene& scene, const CandidateModel& model, const response::Res
   WornState asked = worn_state(scene, model, unworn, steady, "auto");
   if (asked.asymptote.verdict == wear::Verdict::not_converged)
     worn.asymptote.doubt = asked.asymptote.doubt.empty() ? "unfinished" : asked.asymptote.doubt;
-  else
+  else if (asked.asymptote.decided_by == "history" && worn.asymptote.decided_by == "release" && !worn.held &&
+           asked.asymptote.verdict == wear::Verdict::asymptote &&
+           a_node_apart(model.cells, asked.asymptote.depth, worn.asymptote.depth)) {
+    worn.asymptote.doubt = asked.asymptote.doubt;
+    worn.asymptote.confirmed_by_history = true;
+    worn.asymptote.other_states = {{.found_by = "history",
+                                    .depth = asked.asymptote.depth,
+                                    .worn_volume = asked.asymptote.worn_volume,
+                                    .largest_depth = asked.asymptote.largest_depth}};
+  } else
     worn = std::move(asked);
 }
 
@@ -125,7 +159,10 @@ void note_doubt(const reduction::ContactNodes& contact, const wear::Asymptote& a
   else if (asked)
     outcome = "the wear history ends in it, too";
   for (const wear::OtherState& other : asymptote.other_states)
-    if (other.found_by == "release")
+    if (other.found_by == "history")
+      outcome = fmt::format("the wear history, which wears off whole nodes, ends within one of it, with {:.4g} m^3",
+                            other.worn_volume);
+    else if (other.found_by == "release")
       outcome += fmt::format(" and ends with {:.4g} m^3, the direct method with {:.4g} m^3",
                              wear::worn_volume(contact, asymptote.depth), other.worn_volume);
   evaluation.messages.push_back("The worn state was in doubt (" + asymptote.doubt + "): " + outcome + ".");

@@ -61,8 +61,16 @@ bool FinerLimits::holds(std::size_t candidate) {
   std::vector<double> shifts(session_.shifts().size(), 0.0);
   for (int level = 1; level <= session_.options().finer_meshes; ++level) {
     const FinerCheck& check = look(candidate, level);
-    if (check.evaluation.converged()) make_up(check, kMore, shifts);
-    if (check.held) continue;
+    if (check.held) {
+      make_up(check, kMore, shifts);
+      continue;
+    }
+    // Without an answer there nothing is learned, and what was known stays.
+    if (check.evaluation.converged())
+      make_up(check, kMore, shifts);
+    else
+      std::ranges::transform(shifts, session_.shifts(), shifts.begin(),
+                             [](double a, double b) { return std::max(a, b); });
     session_.reject(candidate);
     session_.shift_constraints(std::move(shifts));
     return false;

@@ -7,8 +7,8 @@
 
 namespace dovetail::optimizer {
 
-/// Limits of a search as finer meshes see them. The objective needs no correction: a change that is the same for all
-/// designs does not move its minimum.
+/// Limits of a search as finer meshes see them. The objective is not corrected: a change that is the same for all
+/// designs does not move its minimum, and how large it is the error bar of what is handed over has to say.
 class FinerLimits {
  public:
   FinerLimits(EvaluationSession& session, const RunHooks& hooks);

@@ -155,11 +155,7 @@ void arbitrate(const std::shared_ptr<const response::CondensedModel>& model, dou
   result.status = Status::converged;
   const VectorXd depth = past.depth.row(last).transpose();
   const VectorXd rate = past.rate.row(last).transpose();
-  if (past.end == HistoryEnd::worn_out && certified && same_depth(depth, result.depth, options.state_tolerance)) {
-    // Edges between nodes have no history that confirms them.
-    if (direct.doubt == "gross_sliding") set_depth(contact, result.depth, result);
-    return;
-  }
+  if (past.end == HistoryEnd::worn_out && certified && same_depth(depth, result.depth, options.state_tolerance)) return;
   std::erase_if(result.other_states,
                 [&](const OtherState& state) { return same_depth(state.depth, depth, options.state_tolerance); });
   if (certified) result.other_states.insert(result.other_states.begin(), other_state("release", contact, result.depth));

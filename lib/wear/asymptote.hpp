@@ -57,7 +57,7 @@ struct AsymptoteOptions {
 
 /// Another state in which nothing wears.
 struct OtherState {
-  std::string found_by;        ///< release | worst_first
+  std::string found_by;        ///< release | worst_first | history
   Eigen::VectorXd depth;       ///< [Nc] m
   double worn_volume = 0.0;    ///< m^3
   double largest_depth = 0.0;  ///< m

@@ -33,9 +33,10 @@ void define_study_commands(CLI::App& app, Arguments& a) {
   add_json(*evaluate, a.evaluate.json);
   evaluate->add_flag("--no-bars", a.evaluate.no_bars,
                      "Responses alone, without their error bars: in a fraction of the time");
-  evaluate->add_flag(
-      "--no-history", a.evaluate.no_history,
-      "The direct worn state stands where it is in doubt, as in a search; the wear history is not asked");
+  evaluate->add_flag("--no-history", a.evaluate.no_history,
+                     "The direct worn state stands where it is in doubt, as in a search: the wear history is asked "
+                     "only where the direct "
+                     "method finds none");
   evaluate->callback([&a] {
     a.command = [&a](const Streams& s) {
       a.evaluate.overrides = a.overrides();

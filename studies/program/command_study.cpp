@@ -53,6 +53,14 @@ int run_new(const NewOptions& options, const Streams& streams) {
 
 namespace {
 
+/// What the error bar of a constraint's response says of it, where that leaves it open.
+const char* sureness(const optimizer::Evaluation& evaluation, const std::string& constraint) {
+  if (std::ranges::count(evaluation.undecided_constraints, constraint) == 0) return "";
+  const bool none = std::ranges::any_of(evaluation.unbounded,
+                                        [&](const std::string& name) { return constraint.starts_with(name + ":"); });
+  return none ? "  its response has no error bar" : "  within its error bar";
+}
+
 std::string evaluation_table(const optimizer::Evaluation& evaluation) {
   std::string text = fmt::format("status    {}\nfeasible  {}\n", evaluation.status, evaluation.feasible ? "yes" : "no");
   if (!evaluation.responses.empty()) text += "\nresponses\n";
@@ -68,9 +76,7 @@ std::string evaluation_table(const optimizer::Evaluation& evaluation) {
   if (!evaluation.constraints.empty()) text += "\nconstraints, satisfied when <= 0\n";
   for (const auto& [name, value] : evaluation.constraints)
     if (!name.starts_with(optimizer::kRulePrefix) || value > 0)
-      text +=
-          fmt::format("  {:<44} {:>12.5g}{}\n", name, value,
-                      std::ranges::count(evaluation.undecided_constraints, name) > 0 ? "  within its error bar" : "");
+      text += fmt::format("  {:<44} {:>12.5g}{}\n", name, value, sureness(evaluation, name));
   for (const std::string& name : evaluation.unbounded) text += fmt::format("\n{} has no error bar", name);
   return evaluation.unbounded.empty() ? text : text + "\n";
 }
@@ -95,7 +101,10 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
   if (evaluation.status == "infeasible") throw infeasible(options.study, evaluation.messages);
   for (const std::string& message : evaluation.messages) streams.err << "dovetail: " << message << "\n";
   if (evaluation.converged()) return automatic && *automatic != Status::converged ? kNotConverged : kDone;
-  streams.err << "dovetail: " << options.study << ": not converged: " << evaluation.status << "\n";
+  const char* what = evaluation.status.ends_with("no_asymptote")    ? "wear has no end"
+                     : evaluation.status.ends_with("gross_sliding") ? "the joint slides"
+                                                                    : "not converged";
+  streams.err << fmt::format("dovetail: {}: {}: {}\n", options.study, what, evaluation.status);
   return kNotConverged;
 }
 

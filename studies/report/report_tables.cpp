@@ -156,7 +156,8 @@ std::string limit_table(const RunRecord& record) {
   for (const FinerRecord* check : finer) columns.push_back(fmt::format("on {} edges (%)", check->flank_elements));
   std::string text =
       "<p>How far the best design stays from its limits, in per cent of each, on the mesh of the search "
-      "and on finer ones.</p>\n<div class=\"scroll\"><table>" +
+      "and on finer ones. Where the room is within its error bar the limit is undecided: the finer meshes say "
+      "more.</p>\n<div class=\"scroll\"><table>" +
       header(columns) + "<tbody>\n";
   for (std::size_t j = 0; j < names.size(); ++j) {
     const std::size_t colon = names[j].rfind(':');
@@ -164,9 +165,10 @@ std::string limit_table(const RunRecord& record) {
     double scale = 1;
     for (const optimizer::ResponseConstraint& c : record.problem.constraints)
       if (c.response == limited) scale = c.scale_at((side == "upper" ? c.upper : c.lower).value_or(1));
-    text +=
-        fmt::format("<tr><th scope=\"row\" class=\"text\">{}, {}</th><td>{}</td>", escape(words(limited)), side,
-                    with_error(-best->constraints[j], error_bar(*best, limited) / scale, {.symbol = "", .si = 0.01}));
+    const double bar = error_bar(*best, limited) / scale;
+    text += fmt::format("<tr><th scope=\"row\" class=\"text\">{}, {}</th><td>{}{}</td>", escape(words(limited)), side,
+                        with_error(-best->constraints[j], bar, {.symbol = "", .si = 0.01}),
+                        std::abs(best->constraints[j]) < bar ? " undecided" : "");
     for (const FinerRecord* check : finer)
       text += fmt::format("<td>{}</td>", j < check->constraints.size() && std::isfinite(check->constraints[j])
                                              ? significant(-100 * check->constraints[j], 3)
