@@ -88,8 +88,7 @@ class Bars {
         add(source, name, bar);
       } else {
         leave_open(name);
-        missing_ =
-            companions.empty() ? std::string(to_string(Status::no_bracket)) : companions.back().evaluation->status;
+        missing_ = companions.back().evaluation->status;
       }
     }
   }

@@ -134,7 +134,7 @@ void settle(const Scene& scene, const CandidateModel& model, const response::Res
   WornState asked = worn_state(scene, model, unworn, steady, "auto");
   if (asked.asymptote.verdict == wear::Verdict::not_converged)
     worn.asymptote.doubt = asked.asymptote.doubt.empty() ? "unfinished" : asked.asymptote.doubt;
-  else if (asked.asymptote.decided_by == "history" && worn.asymptote.decided_by == "release" && !worn.held &&
+  else if (asked.asymptote.decided_by == "history" && worn.asymptote.decided_by == "release" &&
            asked.asymptote.verdict == wear::Verdict::asymptote &&
            a_node_apart(model.cells, asked.asymptote.depth, worn.asymptote.depth)) {
     worn.asymptote.doubt = asked.asymptote.doubt;

@@ -10,8 +10,8 @@ namespace dovetail::wear {
 
 /// When rates have levelled out, so that wear goes on for ever: they stay within kLevelChange of the largest one while
 /// the joint wears by kLevelDepth of its largest local penetration (largest_penetration), far beyond the depth over
-/// which its pressures change. Rates may rise by more than that, as where a joint that slips all over moves out of its
-/// disk and its resonance with it: what rises does not come to rest.
+/// which its pressures change. Rates may rise by more than that, as where a joint that slips all over
+/// moves outwards and its centrifugal load grows with the radius: what rises does not come to rest.
 inline constexpr double kLevelDepth = 300.0;
 inline constexpr double kLevelChange = 1e-3;
 inline constexpr double kLevelRise = 0.05;

@@ -37,5 +37,14 @@ TEST(HardDesigns, NearGrossSlidingAWornStateOfOneMeshIsNone) {
   EXPECT_TRUE(result.evaluation.error_sources.empty());
 }
 
+// Enough for the answer itself, not for every companion of its error bars.
+TEST(HardDesigns, WithoutItsErrorBarsAnAnswerIsNotConverged) {
+  const optimizer::Evaluation evaluation =
+      evaluated({{"loading.tip_force_n", 0.5}, {"solver.max_jacobians", 9}}, true).evaluation;
+  EXPECT_EQ(evaluation.status, "error_estimates: budget_spent");
+  EXPECT_TRUE(evaluation.responses.contains("worn_peak_amplitude_m"));
+  EXPECT_FALSE(evaluation.error_estimates.contains("worn_peak_amplitude_m"));
+}
+
 }  // namespace
 }  // namespace dovetail::studies
