@@ -12,6 +12,7 @@
 #include "optimizer/evaluator.hpp"
 #include "optimizer/responses.hpp"
 #include "response/resonance.hpp"
+#include "wear/archard.hpp"
 
 namespace dovetail::optimizer {
 
@@ -125,6 +126,9 @@ Doubt within_nodes(const fem::ContactCells& cells, const wear::Asymptote& asympt
   // Of a node, from histories on nodes a quarter as long. Where another order of release ends elsewhere, or nodes that
   // stick have little to spare, a history depends on its nodes much more than where some touch at times only.
   const double part = asymptote.doubt == "lift_off" ? 0.055 : 0.25;
+  // Of a history that decided nodes may touch that it has worn: they carry what is left there.
+  const std::vector<bool> worn =
+      asymptote.decided_by == "history" ? wear::worn_nodes(asymptote.depth) : asymptote.released;
   Doubt left;
   std::size_t first = 0;
   for (const fem::FlankCells& flank : cells.flanks)
@@ -132,8 +136,8 @@ Doubt within_nodes(const fem::ContactCells& cells, const wear::Asymptote& asympt
       const std::size_t count = ends.size() - 1;
       for (std::size_t from = 0, to = 0; from < count; from = to + 1) {
         to = from;
-        if (!asymptote.released[first + from]) continue;
-        while (to + 1 < count && asymptote.released[first + to + 1]) ++to;
+        if (!worn[first + from]) continue;
+        while (to + 1 < count && worn[first + to + 1]) ++to;
         double open = 0;
         if (from > 0) open += ends[from + 1] - ends[from];
         if (to + 1 < count) open += ends[to + 1] - ends[to];
@@ -181,14 +185,16 @@ Unseen unseen(const Scene& scene, const CandidateResult& result) {
   const double modulus = std::min(scene.blade.youngs_modulus, scene.disk.youngs_modulus);
   Unseen left;
   std::size_t first = 0;
-  for (const fem::FlankCells& flank : cells.flanks)
+  for (const fem::FlankCells& flank : cells.flanks) {
+    const bool on_the_left = &flank == &cells.flanks.front();
+    const double length = on_the_left ? scene.geometry.left.length : scene.geometry.right.length;
     for (const std::vector<double>& ends : flank.across) {
       std::size_t low = 0, high = ends.size() - 2;
       while (low < high && !nodes[first + low].carries_load) ++low;
       while (low < high && !nodes[first + high].carries_load) --high;
       for (const std::size_t end : {low, high}) {
         const response::NodeSummary& node = nodes[first + end];
-        const double width = (ends[end + 1] - ends[end]) * scene.geometry.left.length / 2;
+        const double width = (ends[end + 1] - ends[end]) * length / 2;
         const double area = cells.area[static_cast<Eigen::Index>(first + end)] / 2;
         const double depth = node.max_pressure * width / modulus;
         const double slip = (node.max_pressure - node.min_pressure) * width / modulus;
@@ -198,6 +204,7 @@ Unseen unseen(const Scene& scene, const CandidateResult& result) {
       }
       first += ends.size() - 1;
     }
+  }
   return left;
 }
 

@@ -105,18 +105,18 @@ WornState worn_state(const Scene& scene, const CandidateModel& model, const resp
 /// it cannot tell such shapes apart, and on other nodes it ends in the other one, while the direct method's zones end
 /// where friction just holds.
 bool a_node_apart(const fem::ContactCells& cells, const Eigen::VectorXd& one, const Eigen::VectorXd& other) {
-  constexpr double kWorn = 0.02;  // of the largest depth: less is a trace of the way there
+  const std::vector<bool> worn_one = wear::worn_nodes(one), worn_other = wear::worn_nodes(other);
   bool apart = false;
-  Eigen::Index first = 0;
+  std::ptrdiff_t first = 0;
   for (const fem::FlankCells& flank : cells.flanks)
     for (const std::vector<double>& ends : flank.across) {
-      const auto count = static_cast<Eigen::Index>(ends.size()) - 1;
-      const auto in = [&](const Eigen::VectorXd& depth, Eigen::Index k) {
-        return k >= 0 && k < count && depth[first + k] > kWorn * depth.maxCoeff();
+      const auto count = static_cast<std::ptrdiff_t>(ends.size()) - 1;
+      const auto in = [&](const std::vector<bool>& nodes, std::ptrdiff_t k) {
+        return k >= 0 && k < count && nodes[static_cast<std::size_t>(first + k)];
       };
-      const auto differs = [&](Eigen::Index k) { return in(one, k) != in(other, k); };
-      const auto worn = [&](Eigen::Index k) { return in(one, k) && in(other, k); };
-      for (Eigen::Index k = 0; k < count; ++k) {
+      const auto differs = [&](std::ptrdiff_t k) { return in(worn_one, k) != in(worn_other, k); };
+      const auto worn = [&](std::ptrdiff_t k) { return in(worn_one, k) && in(worn_other, k); };
+      for (std::ptrdiff_t k = 0; k < count; ++k) {
         if (!differs(k)) continue;
         if (differs(k + 1) || !(worn(k - 1) || worn(k + 1))) return false;
         apart = true;

@@ -9,6 +9,13 @@ double worn_volume(const reduction::ContactNodes& contact, const Eigen::VectorXd
   return depth.size() == 0 ? 0.0 : contact.area.dot(depth);
 }
 
+std::vector<bool> worn_nodes(const Eigen::VectorXd& depth) {
+  std::vector<bool> worn(static_cast<std::size_t>(depth.size()));
+  for (Eigen::Index i = 0; i < depth.size(); ++i)
+    worn[static_cast<std::size_t>(i)] = depth[i] > 0.02 * depth.maxCoeff();
+  return worn;
+}
+
 reduction::ReducedModel worn_model(const reduction::ReducedModel& model, const Eigen::VectorXd& depth) {
   reduction::ReducedModel worn = model;
   if (depth.size() != 0) worn.contact.gap += depth;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "reduction/reduced_model.hpp"
 #include "response/steady_state.hpp"
@@ -10,6 +11,9 @@ namespace dovetail::wear {
 /// Volume removed by nodal depths W: V = sum_i A_i W_i, m^3 (per metre of thickness where areas are).
 /// `depth` is [Nc] m, both surfaces together.
 [[nodiscard]] double worn_volume(const reduction::ContactNodes& contact, const Eigen::VectorXd& depth);
+
+/// Nodes worn by more than 2 % of the largest depth: less is a trace of the way there.
+[[nodiscard]] std::vector<bool> worn_nodes(const Eigen::VectorXd& depth);
 
 /// Contact nodes with the depth added to the initial gap: what a separate computation of the worn state starts from.
 [[nodiscard]] reduction::ReducedModel worn_model(const reduction::ReducedModel& model, const Eigen::VectorXd& depth);

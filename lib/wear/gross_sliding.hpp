@@ -12,7 +12,7 @@ namespace dovetail::wear {
 /// a negative gap) wear may well take all the load away, and nothing is judged.
 struct Bearing {
   bool needed = false;   ///< nothing but the contact holds the body
-  double share = 1.0;    ///< of the area that carried load before wear, what still does
+  double share = 1.0;    ///< area over which the load is spread, of that before wear; above 1 where wear evens it out
   double closing = 0.0;  ///< largest depth over the compression of the unworn flank, see flank_compression
 
   /// So little bears, or the flanks have closed so far on what does, that only the history can confirm the state.

@@ -118,7 +118,7 @@ std::string verification_section(const RunRecord& record) {
           "evaluation and how its answers agree; worn volume as the search saw it, directly and by the history at the "
           "finer settings, and the "
           "change from direct to history; largest depth of both; largest difference of their profiles by the largest "
-          "depth; steady states either took.</p>\n" +
+          "depth.</p>\n" +
           verification_table(record);
   std::vector<Plot> plots;
   for (const VerificationRecord& verification : record.verifications) plots.push_back(verification_plot(verification));

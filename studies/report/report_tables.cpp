@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "optimizer/responses.hpp"
+#include "optimizer/verification.hpp"
 #include "studies/report/html.hpp"
 #include "studies/report/report_words.hpp"
 
@@ -41,7 +42,10 @@ std::vector<std::string> names_of(const EvaluationRecord* first, const Evaluatio
 std::string shown_response(const EvaluationRecord* evaluation, const std::string& name, const Unit& unit) {
   if (!evaluation) return "\u2013";
   const double value = response(*evaluation, name);
-  return std::isnan(value) ? "\u2013" : with_error(value, error_bar(*evaluation, name), unit);
+  if (std::isnan(value)) return "\u2013";
+  const bool open = !evaluation->error_estimates.empty() && !evaluation->error_estimates.contains(name);
+  return with_error(value, error_bar(*evaluation, name), unit) +
+         (open ? " <span class=\"soft\">without a bar</span>" : "");
 }
 
 /// Change in per cent, of quantities that may change sign in their own unit; with "within the error" where it is.
@@ -156,8 +160,8 @@ std::string limit_table(const RunRecord& record) {
   for (const FinerRecord* check : finer) columns.push_back(fmt::format("on {} edges (%)", check->flank_elements));
   std::string text =
       "<p>How far the best design stays from its limits, in per cent of each, on the mesh of the search "
-      "and on finer ones. Where the room is within its error bar the limit is undecided: the finer meshes say "
-      "more.</p>\n<div class=\"scroll\"><table>" +
+      "and on finer ones, whose bars are at most half as long. Where the room is within its bar the limit is "
+      "undecided.</p>\n<div class=\"scroll\"><table>" +
       header(columns) + "<tbody>\n";
   for (std::size_t j = 0; j < names.size(); ++j) {
     const std::size_t colon = names[j].rfind(':');
@@ -166,12 +170,15 @@ std::string limit_table(const RunRecord& record) {
     for (const optimizer::ResponseConstraint& c : record.problem.constraints)
       if (c.response == limited) scale = c.scale_at((side == "upper" ? c.upper : c.lower).value_or(1));
     const double bar = error_bar(*best, limited) / scale;
-    text += fmt::format("<tr><th scope=\"row\" class=\"text\">{}, {}</th><td>{}{}</td>", escape(words(limited)), side,
-                        with_error(-best->constraints[j], bar, {.symbol = "", .si = 0.01}),
-                        std::abs(best->constraints[j]) < bar ? " undecided" : "");
+    const auto room = [](double constraint, double within) {
+      return with_error(-constraint, within, {.symbol = "", .si = 0.01}) +
+             (std::abs(constraint) < within ? " undecided" : "");
+    };
+    text += fmt::format("<tr><th scope=\"row\" class=\"text\">{}, {}</th><td>{}</td>", escape(words(limited)), side,
+                        room(best->constraints[j], bar));
     for (const FinerRecord* check : finer)
       text += fmt::format("<td>{}</td>", j < check->constraints.size() && std::isfinite(check->constraints[j])
-                                             ? significant(-100 * check->constraints[j], 3)
+                                             ? room(check->constraints[j], optimizer::kBarOnFiner * bar)
                                              : escape(check->status));
     text += "</tr>\n";
   }

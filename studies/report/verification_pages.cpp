@@ -69,7 +69,7 @@ std::string verification_table(const RunRecord& record) {
   for (const std::string& column :
        {"search (" + volume.symbol + ")", "direct (" + volume.symbol + ")", "history (" + volume.symbol + ")",
         std::string("change"), "depth, direct (" + depth.symbol + ")", "history (" + depth.symbol + ")",
-        std::string("profiles differ by"), std::string("states, direct"), std::string("history")})
+        std::string("profiles differ by")})
     text += "<th scope=\"col\">" + escape(column) + "</th>";
   text += "</tr></thead><tbody>\n";
   for (const VerificationRecord& v : record.verifications) {
@@ -80,8 +80,7 @@ std::string verification_table(const RunRecord& record) {
         with_error(v.search_volume_m3, v.search_bar_m3, bare), significant(v.direct_volume_m3 / volume.si, 4),
         with_error(v.history_volume_m3, v.history_bar_m3, bare), per_cent(v.history_volume_m3, v.direct_volume_m3),
         significant(v.direct_depth_m / depth.si, 4), significant(v.history_depth_m / depth.si, 4));
-    text += fmt::format("<td>{}\u00a0%</td><td>{}</td><td>{}</td></tr>\n", significant(100 * v.profile_difference, 2),
-                        v.direct_solves, v.history_solves);
+    text += fmt::format("<td>{}\u00a0%</td></tr>\n", significant(100 * v.profile_difference, 2));
   }
   return text + "</tbody></table></div>\n";
 }
