@@ -271,14 +271,14 @@ CandidateResult computed(const Scene& scene, CandidateModel model, const Computa
 }
 
 SceneEvaluator::SceneEvaluator(const Scene& reference)
-    : reference_(reference), builder_(reference), coarse_(reference) {}
+    : reference_(reference), builder_(reference), others_(reference) {}
 
 CandidateResult SceneEvaluator::evaluate(const Scene& scene, const Purpose& purpose) const {
   Stopwatch total;
   CandidateResult result = computed(scene, builder_.build(scene), {.contact = {}, .history = purpose.history});
   if (purpose.bars && result.evaluation.converged()) {
     Stopwatch watch;
-    add_error_bars(scene, builder_, coarse_, result);
+    add_error_bars(scene, builder_, others_, result);
     result.evaluation.timings_s["error_estimates"] = watch.lap();
   }
   result.evaluation.timings_s["total"] = total.lap();

@@ -54,7 +54,7 @@ class SceneEvaluator {
  private:
   Scene reference_;
   ModelBuilder builder_;
-  CoarseBuilders coarse_;
+  OtherMeshes others_;
 };
 
 /// The physics on a model that converged: contact nodes fitted to the worn zones, then all responses, without bars.
