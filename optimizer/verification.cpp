@@ -87,7 +87,8 @@ std::string judged(const Verification& v) {
     return words("search", v.search_volume, "finer mesh", v.direct_volume, v.search_bar);
   if (apart(v.history_volume, v.search_volume, v.search_bar + v.history_bar))
     return words("search", v.search_volume, "history", v.history_volume, v.search_bar + v.history_bar);
-  const double direct_bar = kBarOnFiner * v.search_bar;
+  // Twice the edges, harmonics and samples ought to leave no more than half of the search's bar.
+  const double direct_bar = v.search_bar / 2;
   if (apart(v.history_volume, v.direct_volume, direct_bar + v.history_bar))
     return words("finer mesh", v.direct_volume, "history on it", v.history_volume, direct_bar + v.history_bar);
   return "converged";

@@ -47,9 +47,6 @@ struct Verification {
   [[nodiscard]] bool converged() const { return status == "converged"; }
 };
 
-/// Of twice the edges, harmonics and samples at most this part of an evaluation's error bar is left.
-constexpr double kBarOnFiner = 0.5;
-
 /// The scene on a mesh with 2^level times the edges along the flanks; with 2H+1 harmonics and 2N samples.
 [[nodiscard]] Scene finer(Scene scene, int level);
 

@@ -4,8 +4,8 @@
     python3 studies/error_bars/calibrate.py build/dovetail --designs 200 --seed 2 --lines section.jsonl
 
 Every design is evaluated as users do, with bars, and held against its responses at fine settings, which count as the
-truth. Truths that are known stand in section.csv and space.csv beside this program; missing ones are computed (a
-minute each) and added. One line per design goes to the file of lines as soon as it is there; the same command goes on
+truth. Truths that are known stand in section.csv and space.csv beside this program; missing ones are computed
+(two or three minutes each) and added. One line per design goes to the file of lines as soon as it is there; the same command goes on
 where it was stopped. Then a table says for each response how many of the true errors lie inside their bars, and how
 large both are in the median. --table makes the table of such a file alone. --space takes a slice of a bladed disk.
 """

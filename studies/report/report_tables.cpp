@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "optimizer/responses.hpp"
-#include "optimizer/verification.hpp"
 #include "studies/report/html.hpp"
 #include "studies/report/report_words.hpp"
 
@@ -160,7 +159,7 @@ std::string limit_table(const RunRecord& record) {
   for (const FinerRecord* check : finer) columns.push_back(fmt::format("on {} edges (%)", check->flank_elements));
   std::string text =
       "<p>How far the best design stays from its limits, in per cent of each, on the mesh of the search "
-      "and on finer ones, whose bars are at most half as long. Where the room is within its bar the limit is "
+      "and on finer ones. Where the room is within the error bar on the mesh of the search the limit is "
       "undecided.</p>\n<div class=\"scroll\"><table>" +
       header(columns) + "<tbody>\n";
   for (std::size_t j = 0; j < names.size(); ++j) {
@@ -170,16 +169,15 @@ std::string limit_table(const RunRecord& record) {
     for (const optimizer::ResponseConstraint& c : record.problem.constraints)
       if (c.response == limited) scale = c.scale_at((side == "upper" ? c.upper : c.lower).value_or(1));
     const double bar = error_bar(*best, limited) / scale;
-    const auto room = [](double constraint, double within) {
-      return with_error(-constraint, within, {.symbol = "", .si = 0.01}) +
-             (std::abs(constraint) < within ? " undecided" : "");
-    };
-    text += fmt::format("<tr><th scope=\"row\" class=\"text\">{}, {}</th><td>{}</td>", escape(words(limited)), side,
-                        room(best->constraints[j], bar));
+    const auto undecided = [bar](double constraint) { return std::abs(constraint) < bar ? " undecided" : ""; };
+    text += fmt::format("<tr><th scope=\"row\" class=\"text\">{}, {}</th><td>{}{}</td>", escape(words(limited)), side,
+                        with_error(-best->constraints[j], bar, {.symbol = "", .si = 0.01}),
+                        undecided(best->constraints[j]));
     for (const FinerRecord* check : finer)
-      text += fmt::format("<td>{}</td>", j < check->constraints.size() && std::isfinite(check->constraints[j])
-                                             ? room(check->constraints[j], optimizer::kBarOnFiner * bar)
-                                             : escape(check->status));
+      text += fmt::format("<td>{}</td>",
+                          j < check->constraints.size() && std::isfinite(check->constraints[j])
+                              ? significant(-100 * check->constraints[j], 3) + undecided(check->constraints[j])
+                              : escape(check->status));
     text += "</tr>\n";
   }
   return text + "</tbody></table></div>\n";
