@@ -38,18 +38,30 @@ std::vector<Zone> zones(const ProfileParameters& reference, double grading) {
   return found;
 }
 
-double size(const std::vector<Zone>& zones, double s) {
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const Zone& z : zones) smallest = std::min(smallest, z.core + std::max({0.0, z.from - s, s - z.to}));
-  return smallest;
+/// Edges in the middle of rounded flanks are at most so many times as long as equal ones: worn zones end there. So they
+/// are on sharp flanks of the usual grading.
+constexpr double kLongest = 2.4;
+
+/// [kSamples + 1] integral of 1/h from 0 to i/(2 kSamples), no h above `largest`.
+std::vector<double> integral(const std::vector<Zone>& zones, double largest) {
+  std::vector<double> sum{0};
+  for (int i = 0; i < kSamples; ++i) {
+    const double s = 0.5 * (i + 0.5) / kSamples;
+    double h = largest;
+    for (const Zone& z : zones) h = std::min(h, z.core + std::max({0.0, z.from - s, s - z.to}));
+    sum.push_back(sum.back() + 0.5 / kSamples / h);
+  }
+  return sum;
 }
 
-/// [kSamples + 1] integral of 1/h from 0 to i/(2 kSamples).
-std::vector<double> integral(const std::vector<Zone>& zones) {
-  std::vector<double> sum{0};
-  for (int i = 0; i < kSamples; ++i)
-    sum.push_back(sum.back() + 0.5 / kSamples / size(zones, 0.5 * (i + 0.5) / kSamples));
-  return sum;
+/// The same with the largest h there may be. Edges are 2 sum h times as long as equal ones.
+std::vector<double> bounded_integral(const std::vector<Zone>& zones) {
+  double low = 0, high = 1;
+  for (int k = 0; k < 30; ++k) {
+    const double middle = (low + high) / 2;
+    (middle > 0 && 2 * integral(zones, middle).back() * middle > kLongest ? high : low) = middle;
+  }
+  return integral(zones, high);
 }
 
 }  // namespace
@@ -59,10 +71,13 @@ std::vector<double> flank_fractions(const ProfileParameters& reference, const Me
   const bool rounded = reference.left.edge_radius > 0 || reference.right.edge_radius > 0;
   if (!rounded && sizes.flank_grading == 1) return equal_fractions(parts);
   std::vector<Zone> wanted = zones(reference, sizes.flank_grading);
-  std::vector<double> sum = integral(wanted);
+  const auto integrated = [&] {
+    return rounded ? bounded_integral(wanted) : integral(wanted, std::numeric_limits<double>::infinity());
+  };
+  std::vector<double> sum = integrated();
   while (2 * sum.back() > kSteepest * parts) {
     for (Zone& z : wanted) z.core *= 1.1;
-    sum = integral(wanted);
+    sum = integrated();
   }
   std::vector<double> fractions(static_cast<std::size_t>(parts) + 1);
   fractions.back() = 1;

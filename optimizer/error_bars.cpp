@@ -11,6 +11,7 @@
 
 #include "optimizer/evaluator.hpp"
 #include "optimizer/responses.hpp"
+#include "optimizer/worn_zones.hpp"
 #include "response/resonance.hpp"
 #include "wear/archard.hpp"
 
@@ -115,51 +116,22 @@ class Bars {
   std::string missing_;  ///< how the companion ended that has no answer for a response
 };
 
-struct Doubt {
-  double volume = 0, depth = 0;  ///< m^3, m
-};
-
 /// Whole nodes are worn off or bear: where wear of a history comes to rest the end of a zone lies somewhere within a
-/// node, and a history on shorter ones may end a part of it from there, unlike the direct method's, whose nodes end
-/// where its zones do. Of a zone of width w the depth grows like its power 3/2, the volume like 5/2.
-Doubt within_nodes(const fem::ContactCells& cells, const wear::Asymptote& asymptote) {
+/// node, and a history on shorter ones may end a part of it from there.
+WornChange within_nodes(const fem::ContactCells& cells, const wear::Asymptote& asymptote) {
   // Of a node, from histories on nodes a quarter as long. Where another order of release ends elsewhere, or nodes that
   // stick have little to spare, a history depends on its nodes much more than where some touch at times only.
   const double part = asymptote.doubt == "lift_off" ? 0.055 : 0.25;
   // Of a history that decided nodes may touch that it has worn: they carry what is left there.
   const std::vector<bool> worn =
       asymptote.decided_by == "history" ? wear::worn_nodes(asymptote.depth) : asymptote.released;
-  Doubt left;
-  std::size_t first = 0;
-  for (const fem::FlankCells& flank : cells.flanks)
-    for (const std::vector<double>& ends : flank.across) {
-      const std::size_t count = ends.size() - 1;
-      for (std::size_t from = 0, to = 0; from < count; from = to + 1) {
-        to = from;
-        if (!worn[first + from]) continue;
-        while (to + 1 < count && worn[first + to + 1]) ++to;
-        double open = 0;
-        if (from > 0) open += ends[from + 1] - ends[from];
-        if (to + 1 < count) open += ends[to + 1] - ends[to];
-        const double share = part * open / (ends[to + 1] - ends[from]);
-        double volume = 0, depth = 0;
-        for (std::size_t k = first + from; k <= first + to; ++k) {
-          const auto node = static_cast<Eigen::Index>(k);
-          volume += cells.area[node] * asymptote.depth[node];
-          depth = std::max(depth, asymptote.depth[node]);
-        }
-        left.volume += std::min(1.0, 2.5 * share) * volume;
-        left.depth = std::max(left.depth, std::min(1.0, 1.5 * share) * depth);
-      }
-      first += count;
-    }
-  return left;
+  return ends_moved_by(part, cells, worn, asymptote.depth);
 }
 
 /// What a doubt of the direct worn state leaves open: by how much a history that decided ends elsewhere; where it ends
 /// in the same state, or nothing else was there to compare with, what its nodes leave open; and without a history that
 /// ends it may be anything.
-Doubt left_in_doubt(const fem::ContactCells& cells, const wear::Asymptote& asymptote) {
+WornChange left_in_doubt(const fem::ContactCells& cells, const wear::Asymptote& asymptote) {
   if (asymptote.doubt.empty()) return {};
   if (!asymptote.confirmed_by_history) return {.volume = asymptote.worn_volume, .depth = asymptote.largest_depth};
   for (const wear::OtherState& other : asymptote.other_states)
@@ -365,7 +337,7 @@ void add_error_bars(const Scene& scene, const ModelBuilder& builder, const Other
   const std::map<std::string, double>& responses = result.evaluation.responses;
   const double volume = responses.at("asymptotic_wear_volume_m3");
   // What wear changes, it changes in proportion to the volume.
-  const auto worn_otherwise = [&](const char* source, const Doubt& doubt, bool ends_alone) {
+  const auto worn_otherwise = [&](const char* source, const WornChange& doubt, bool ends_alone) {
     bars.add(source, "asymptotic_wear_volume_m3", doubt.volume);
     bars.add(source, "asymptotic_wear_depth_max_m", doubt.depth);
     const double share = volume > 0 ? doubt.volume / volume : 0;
@@ -383,7 +355,7 @@ void add_error_bars(const Scene& scene, const ModelBuilder& builder, const Other
                    {.volume = std::min(1.0, 2.5 * moved) * volume,
                     .depth = std::min(1.0, 1.5 * moved) * responses.at("asymptotic_wear_depth_max_m")},
                    result.evaluation.model.at("contact_edges_moved_share") < 1);
-  if (const Doubt doubt = left_in_doubt(result.model.cells, *result.asymptote); doubt.volume > 0)
+  if (const WornChange doubt = left_in_doubt(result.model.cells, *result.asymptote); doubt.volume > 0)
     worn_otherwise("history", doubt, result.asymptote->confirmed_by_history);
   const std::vector<std::string> endless = responses_without_limit(scene);
   for (const std::string& name : endless) bars.leave_open(name);

@@ -14,6 +14,7 @@
 #include "optimizer/error_bars.hpp"
 #include "optimizer/problem.hpp"
 #include "optimizer/stopwatch.hpp"
+#include "optimizer/worn_zones.hpp"
 #include "wear/archard.hpp"
 #include "wear/follow.hpp"
 
@@ -101,33 +102,9 @@ WornState worn_state(const Scene& scene, const CandidateModel& model, const resp
   return {.asymptote = std::move(found.asymptote), .held = std::move(found.held), .omega = found.omegas.back()};
 }
 
-/// Whether two worn shapes differ by a node at the ends of their zones, and no more. A history wears off whole nodes:
-/// it cannot tell such shapes apart, and on other nodes it ends in the other one, while the direct method's zones end
-/// where friction just holds.
-bool a_node_apart(const fem::ContactCells& cells, const Eigen::VectorXd& one, const Eigen::VectorXd& other) {
-  const std::vector<bool> worn_one = wear::worn_nodes(one), worn_other = wear::worn_nodes(other);
-  bool apart = false;
-  std::ptrdiff_t first = 0;
-  for (const fem::FlankCells& flank : cells.flanks)
-    for (const std::vector<double>& ends : flank.across) {
-      const auto count = static_cast<std::ptrdiff_t>(ends.size()) - 1;
-      const auto in = [&](const std::vector<bool>& nodes, std::ptrdiff_t k) {
-        return k >= 0 && k < count && nodes[static_cast<std::size_t>(first + k)];
-      };
-      const auto differs = [&](std::ptrdiff_t k) { return in(worn_one, k) != in(worn_other, k); };
-      const auto worn = [&](std::ptrdiff_t k) { return in(worn_one, k) && in(worn_other, k); };
-      for (std::ptrdiff_t k = 0; k < count; ++k) {
-        if (!differs(k)) continue;
-        if (differs(k + 1) || !(worn(k - 1) || worn(k + 1))) return false;
-        apart = true;
-      }
-      first += count;
-    }
-  return apart;
-}
-
 /// Looks for doubt in a worn state that was found directly and asks the wear history, on a budget of its own. Where
-/// that does not come to an end the direct one stays, in doubt.
+/// that does not come to an end the direct one stays, in doubt; where it ends within a node of the direct one that
+/// stays, too: on other nodes the history may well end in it.
 void settle(const Scene& scene, const CandidateModel& model, const response::Resonance& unworn,
             response::SteadyOptions steady, WornState& worn) {
   steady.budget = new_budget(scene.solver, model);

@@ -1,0 +1,28 @@
+#pragma once
+
+/// How much of a worn state hangs on where, within a contact node, its zones end. A wear history wears off whole nodes,
+/// the direct method ends zones where friction just holds.
+
+#include <Eigen/Core>
+
+#include <vector>
+
+#include "fem/contact_cells.hpp"
+
+namespace dovetail::optimizer {
+
+struct WornChange {
+  double volume = 0, depth = 0;  ///< m^3, m
+};
+
+/// What a part of a node at the end of every zone of `worn` nodes changes at most. The ends of a flank are no ends of a
+/// zone: nothing is beyond them.
+[[nodiscard]] WornChange ends_moved_by(double part, const fem::ContactCells& cells, const std::vector<bool>& worn,
+                                       const Eigen::VectorXd& depth);
+
+/// Whether two worn shapes differ by a node at the ends of their zones, and by no more wear than such nodes explain: a
+/// history cannot tell such shapes apart.
+[[nodiscard]] bool a_node_apart(const fem::ContactCells& cells, const Eigen::VectorXd& one,
+                                const Eigen::VectorXd& other);
+
+}  // namespace dovetail::optimizer
