@@ -9,10 +9,12 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/flank_form.hpp"
 #include "optimizer/evaluator.hpp"
 #include "optimizer/responses.hpp"
 #include "optimizer/worn_zones.hpp"
 #include "response/resonance.hpp"
+#include "response/truncation.hpp"
 #include "wear/archard.hpp"
 
 namespace dovetail::optimizer {
@@ -192,32 +194,56 @@ void refuse_worn_state(const std::string& status, Evaluation& evaluation) {
       "none.");
 }
 
-/// A peak of pressure whose bar is more than half of it is one that the mesh does not resolve.
-bool unresolved(const Evaluation& evaluation) {
+/// Whether the mesh does not resolve the peak of pressure at the rounded end of a flank. A sharp end has p = K/sqrt(x);
+/// a radius R takes the peak off over the length d at which the flank has fallen behind by what that pressure
+/// compresses, d^(3/2) = K R/E* (2 E* = E/(1 - nu^2) of equal bodies). Of a node of length c beside it, p = 2
+/// K/sqrt(c): it is longer than d where c > R p/(2 E*). A peak whose bar is more than half of it is not resolved,
+/// either.
+bool unresolved(const Scene& scene, const CandidateResult& result) {
   const char* name = "contact_pressure_max_pa";
   double sum = 0;
-  for (const auto& [source, bar] : evaluation.error_sources.at(name)) sum += bar;
-  return sum > 0.5 * evaluation.responses.at(name);
+  for (const auto& [source, bar] : result.evaluation.error_sources.at(name)) sum += bar;
+  if (sum > 0.5 * result.evaluation.responses.at(name)) return true;
+  const auto plane = [](const fem::Material& of) {
+    return (1 - of.poisson_ratio * of.poisson_ratio) / of.youngs_modulus;
+  };
+  const double compliance = plane(scene.blade) + plane(scene.disk);  // 1/E*
+  constexpr double kBeside = 1.5;  // the peak is no farther from the end of the flank, by the length of its rounding
+  Eigen::Index node = 0;
+  const double peak = result.model.preload.pressure.maxCoeff(&node);
+  Eigen::Index first = 0;
+  for (const fem::FlankCells& flank : result.model.cells.flanks) {
+    const geometry::FlankParameters& form =
+        &flank == &result.model.cells.flanks.front() ? scene.geometry.left : scene.geometry.right;
+    const double beside = kBeside * geometry::rounded_length(form.edge_radius) / form.length;
+    for (const std::vector<double>& ends : flank.across)
+      for (std::size_t k = 0; k + 1 < ends.size(); ++k, ++first) {
+        if (first != node || (ends[k] > beside && ends[k + 1] < 1 - beside)) continue;
+        return (ends[k + 1] - ends[k]) * form.length > form.edge_radius * peak * compliance / 2;
+      }
+  }
+  return false;
 }
 
 }  // namespace
 
 Scene resized(Scene scene, double ratio) {
-  const auto fewer = [ratio](int count, int least) {
-    return std::max(least, static_cast<int>(std::lround(count / ratio)));
+  const auto set = [&scene](const char* key, double value) {
+    const Range& range = find_parameter(key)->range;
+    set_parameter(scene, key, std::clamp(value, range.lower, range.upper));
   };
-  scene.mesh.flank_elements = fewer(scene.mesh.flank_elements, 2);
-  scene.mesh.aerofoil_elements = fewer(scene.mesh.aerofoil_elements, 2);
-  if (!scene.in_space()) {
-    scene.mesh.fillet_fraction = std::min(1.0, ratio * scene.mesh.fillet_fraction);
-    scene.mesh.blend_fraction = std::min(2.0, ratio * scene.mesh.blend_fraction);
-    scene.mesh.bulk_size = std::min(0.1, ratio * scene.mesh.bulk_size);
-  }
-  scene.solid_mesh.slot_elements = fewer(scene.solid_mesh.slot_elements, 2);
-  if (scene.solid_mesh.contact_slot_elements > 0)
-    scene.solid_mesh.contact_slot_elements = fewer(scene.solid_mesh.contact_slot_elements, 2);
-  if (scene.solid_mesh.contact_flank_elements > 0)
-    scene.solid_mesh.contact_flank_elements = fewer(scene.solid_mesh.contact_flank_elements, 2);
+  const auto fewer = [&](const char* key) {
+    const double count = parameter(scene, key);
+    if (count > 0) set(key, std::max(2.0, std::round(count / ratio)));  // 0: as many as the mesh has
+  };
+  fewer("mesh.flank_elements");
+  fewer("mesh.aerofoil_elements");
+  if (!scene.in_space())
+    for (const char* key : {"mesh.fillet_fraction", "mesh.blend_fraction", "mesh.bulk_size_mm"})
+      set(key, ratio * parameter(scene, key));
+  else
+    for (const char* key : {"mesh.slot_elements", "mesh.contact_slot_elements", "mesh.contact_flank_elements"})
+      fewer(key);
   return scene;
 }
 
@@ -253,7 +279,7 @@ void add_error_bars(const Scene& scene, const ModelBuilder& builder, const Other
     // The coarsest meshes there are end the way down.
     const double ratio = static_cast<double>(scene.mesh.flank_elements) / resized_scene.mesh.flank_elements;
     answers.push_back(companion(resized_scene, on_it.build(resized_scene), as_here));
-    if (finer) continue;
+    if (finer || ratio == 1) continue;  // 1: a mesh that is as large as meshes may be
     meshes.push_back(
         {&answers.back(), [ratio](const std::string& response) { return left_over(mesh_order(response), ratio); }});
     finer = ratio < 1 && answers.back().converged();
@@ -314,12 +340,14 @@ void add_error_bars(const Scene& scene, const ModelBuilder& builder, const Other
     bars.add(source, {{&answer, share(factor)}}, result.evaluation);
   };
   const int harmonics = scene.solver.harmonics, more_harmonics = 2 * harmonics + 1;
-  ask("harmonics", left_over(1, static_cast<double>(harmonics) / more_harmonics), {[&](Scene& changed, Computation&) {
+  // Contact nodes of a study have no mass.
+  const response::TruncationFactors factors = response::truncation_factors(true);
+  ask("harmonics", factors.harmonics, {[&](Scene& changed, Computation&) {
         changed.solver.harmonics = more_harmonics;
         while (changed.solver.samples < 4 * changed.solver.harmonics + 4) changed.solver.samples *= 2;
       }});
-  ask("samples", 2, {[](Scene& changed, Computation&) { changed.solver.samples *= 2; }});
-  ask("pseudo_penalty", 0.5,
+  ask("samples", factors.samples, {[](Scene& changed, Computation&) { changed.solver.samples *= 2; }});
+  ask("pseudo_penalty", factors.penalty,
       {[](Scene&, Computation& how) { how.penalty_scale = 0.5; },
        [](Scene&, Computation& how) { how.penalty_scale = 2; }});
   ask("modes", 1.5, {[](Scene& changed, Computation&) {
@@ -359,7 +387,7 @@ void add_error_bars(const Scene& scene, const ModelBuilder& builder, const Other
     worn_otherwise("history", doubt, result.asymptote->confirmed_by_history);
   const std::vector<std::string> endless = responses_without_limit(scene);
   for (const std::string& name : endless) bars.leave_open(name);
-  if (endless.empty() && unresolved(result.evaluation)) {
+  if (endless.empty() && unresolved(scene, result)) {
     bars.leave_open("contact_pressure_max_pa");
     result.evaluation.messages.push_back(
         "The mesh does not resolve the pressure at the rounded ends of the flanks: more mesh.flank_elements would.");

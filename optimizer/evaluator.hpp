@@ -45,7 +45,7 @@ class SceneEvaluator {
 
   /// All responses. Never throws for what a candidate is like: an impossible geometry is "infeasible" with its rules in
   /// `constraints`, a stage that did not converge is named in `status`. Throws InputError for a scene that violates the
-  /// ranges of its keys. Cost: about a second at the default sizes, and three times as much for the bars.
+  /// ranges of its keys. Cost: about a second at the default sizes, and eight times as much for the bars.
   [[nodiscard]] CandidateResult evaluate(const Scene& scene, const Purpose& purpose = {}) const;
 
   [[nodiscard]] const ModelBuilder& builder() const { return builder_; }

@@ -151,6 +151,18 @@ Judgement judge(const Problem& problem, const Evaluation& evaluation, double tol
   return judgement;
 }
 
+JudgementBars judgement_bars(const Problem& problem, const std::map<std::string, double>& error_estimates) {
+  const auto bar = [&](const std::string& response) {
+    const auto found = error_estimates.find(response);
+    return found == error_estimates.end() ? kNaN : found->second;
+  };
+  JudgementBars bars;
+  for (const ObjectiveTerm& term : problem.objective)
+    bars.objective += std::abs(term.weight) * bar(term.response) / scale_of(term);
+  for (const Limit& limit : limits(problem)) bars.constraints.push_back(bar(limit.of->response) / limit.scale);
+  return bars;
+}
+
 void annotate(const Problem& problem, double tolerance, Evaluation& evaluation) {
   if (evaluation.converged()) {
     for (const std::string& name : responses_of(problem)) {
@@ -168,14 +180,11 @@ void annotate(const Problem& problem, double tolerance, Evaluation& evaluation) 
   evaluation.feasible = judgement.feasible;
   evaluation.undecided_constraints.clear();
   const std::vector<Limit> all = limits(problem);
-  for (std::size_t j = 0; judgement.computed && j < all.size(); ++j) {
-    const std::string& response = all[j].of->response;
-    const auto bar = evaluation.error_estimates.find(response);
-    const bool within =
-        bar != evaluation.error_estimates.end() && std::abs(judgement.constraints[j]) < bar->second / all[j].scale;
-    if (within || std::ranges::find(evaluation.unbounded, response) != evaluation.unbounded.end())
+  const JudgementBars bars = judgement_bars(problem, evaluation.error_estimates);
+  for (std::size_t j = 0; judgement.computed && j < all.size(); ++j)
+    if (std::abs(judgement.constraints[j]) < bars.constraints[j] ||
+        std::ranges::find(evaluation.unbounded, all[j].of->response) != evaluation.unbounded.end())
       evaluation.undecided_constraints.push_back(names[j]);
-  }
 }
 
 void require_responses(const Problem& problem, const Evaluation& evaluation) {

@@ -120,11 +120,19 @@ SearchOutcome corrected_search(EvaluationSession& session, FinerLimits& finer) {
   SearchOutcome outcome = only_scan ? SearchOutcome{.status = Status::converged, .message = "scan: complete"}
                                     : within_budget([&] { return search(session); });
   double step = kSettings.step * options.initial_step;
+  // What was kept for a look at finer meshes serves to find something to look at.
+  if (finer.active() && !session.best() && !only_scan && outcome.status == Status::iteration_limit) {
+    session.limit(all);
+    outcome = within_budget([&] { return search_once(session, options.initial_step, kSettings.looks); });
+  }
   std::optional<std::size_t> held;
   for (int look = 0; finer.active() && session.best(); ++look) {
     const std::size_t left = all - session.candidates().size();
     if (finer.holds(*session.best())) {
       const bool unfinished = outcome.status == Status::iteration_limit && left > 0;
+      if (unfinished && session.best() == held)
+        outcome.message = "going on from the best design brought nothing better; " + std::to_string(left) +
+                          " evaluations of the budget are left";
       if (!unfinished || session.best() == held) return outcome;
       held = session.best();
     }

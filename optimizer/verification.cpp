@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -113,9 +114,12 @@ std::string compare(const Scene& scene, const CandidateResult& fine, const Verif
 }  // namespace
 
 Scene finer(Scene scene, int level) {
-  scene.mesh.flank_elements <<= level;
-  scene.solver.harmonics = 2 * scene.solver.harmonics + 1;
-  scene.solver.samples *= 2;
+  const auto raise = [&scene](const char* key, double value) {
+    set_parameter(scene, key, std::min(value, find_parameter(key)->range.upper));
+  };
+  raise("mesh.flank_elements", std::ldexp(scene.mesh.flank_elements, level));
+  raise("solver.harmonics", 2 * scene.solver.harmonics + 1);
+  raise("solver.samples", 2 * scene.solver.samples);
   return scene;
 }
 

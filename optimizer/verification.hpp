@@ -47,7 +47,8 @@ struct Verification {
   [[nodiscard]] bool converged() const { return status == "converged"; }
 };
 
-/// The scene on a mesh with 2^level times the edges along the flanks; with 2H+1 harmonics and 2N samples.
+/// The scene on a mesh with 2^level times the edges along the flanks; with 2H+1 harmonics and 2N samples. No more of
+/// each than its key allows.
 [[nodiscard]] Scene finer(Scene scene, int level);
 
 /// All responses of a design on such a mesh, without bars.

@@ -43,21 +43,6 @@ struct ErrorBars {
                                    const ContactCondition& condition, const SteadyOptions& options,
                                    const ErrorBarOptions& bar_options = {});
 
-/// Bars of a resonance.
-struct ResonanceBars {
-  Status status = Status::iteration_limit;  ///< as of ErrorBars
-  double omega = 0;                         ///< bar of the resonance frequency, rad/s, with the tolerance of the search
-  double amplitude = 0;                     ///< bar of the peak amplitude
-  ErrorBars state;                          ///< of the state at the resonance found, at fixed frequency
-};
-
-/// How far the peak moves at each of the settings above (see PeakShift); the same factors make bars of the moves.
-/// Cost: three to four times that of the bars of a state.
-[[nodiscard]] ResonanceBars error_bars(const std::shared_ptr<const CondensedModel>& model, const Resonance& resonance,
-                                       const ContactCondition& condition, const SteadyOptions& options,
-                                       const ResonanceOptions& resonance_options,
-                                       const ErrorBarOptions& bar_options = {});
-
 }  // namespace dovetail::response
 
 namespace dovetail {

@@ -11,11 +11,11 @@ namespace {
 
 constexpr double kHarmonics = 2, kHarmonicsWithMass = 4, kSamples = 3, kPenalty = 0.25;
 
-double harmonics_factor(bool massless) {
-  return massless ? kHarmonics : kHarmonicsWithMass;
-}
-
 }  // namespace
+
+TruncationFactors truncation_factors(bool massless) {
+  return {.harmonics = massless ? kHarmonics : kHarmonicsWithMass, .samples = kSamples, .penalty = kPenalty};
+}
 
 SteadyOptions more_harmonics(SteadyOptions options) {
   options.harmonics = 2 * options.harmonics + 1;
@@ -55,20 +55,22 @@ Refinements refine(const std::shared_ptr<const CondensedModel>& model, const Ste
 }
 
 double bar_from(const ScalarChanges& changes, bool massless) {
-  return harmonics_factor(massless) * changes.harmonics + kSamples * changes.samples +
-         kPenalty * std::max(changes.softer, changes.stiffer);
+  const TruncationFactors factors = truncation_factors(massless);
+  return factors.harmonics * changes.harmonics + factors.samples * changes.samples +
+         factors.penalty * std::max(changes.softer, changes.stiffer);
 }
 
 ErrorBars bars_from(const Quantities& value, const TruncationChanges& changes, double tolerance, double safety,
                     bool massless) {
+  const TruncationFactors factors = truncation_factors(massless);
   const auto times = [safety](double factor) { return [factor, safety](double x) { return safety * factor * x; }; };
   const auto larger = [](double a, double b) { return std::max(a, b); };
   const auto sum = [](double a, double b) { return a + b; };
   ErrorBars bars{.status = Status::converged,
                  .value = value,
-                 .harmonics = transform(changes.harmonics, times(harmonics_factor(massless))),
-                 .samples = transform(changes.samples, times(kSamples)),
-                 .penalty = transform(combine(changes.softer, changes.stiffer, larger), times(kPenalty))};
+                 .harmonics = transform(changes.harmonics, times(factors.harmonics)),
+                 .samples = transform(changes.samples, times(factors.samples)),
+                 .penalty = transform(combine(changes.softer, changes.stiffer, larger), times(factors.penalty))};
   const Quantities rest = transform(value, [=](double x) { return safety * tolerance * std::abs(x); });
   bars.total = combine(combine(combine(bars.harmonics, bars.samples, sum), bars.penalty, sum), rest, sum);
   return bars;

@@ -38,6 +38,12 @@ struct TruncationChanges {
 [[nodiscard]] ErrorBars bars_from(const CondensedModel& model, const SteadyState& state, const Refinements& refinements,
                                   const SteadyOptions& options, const ErrorBarOptions& bar_options);
 
+/// What of a change counts, see error_bars.
+struct TruncationFactors {
+  double harmonics, samples, penalty;
+};
+[[nodiscard]] TruncationFactors truncation_factors(bool massless);
+
 /// Bar of one number from its changes.
 struct ScalarChanges {
   double harmonics = 0, samples = 0, softer = 0, stiffer = 0;

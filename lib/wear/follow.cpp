@@ -1,6 +1,8 @@
 #include "wear/follow.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace dovetail::wear {
 
@@ -9,6 +11,22 @@ namespace {
 /// Successive asymptotes at most, and the change of frequency that ends them.
 constexpr int kPasses = 30;
 constexpr double kTolerance = 1e-7;
+
+/// What an earlier pass left in doubt, the way to the last one leaves in doubt, too.
+void keep_doubt(const Asymptote& earlier, Asymptote& last) {
+  last.bearing.needed = last.bearing.needed || earlier.bearing.needed;
+  last.bearing.share = std::min(last.bearing.share, earlier.bearing.share);
+  last.bearing.closing = std::max(last.bearing.closing, earlier.bearing.closing);
+  if (!last.doubt.empty() || earlier.doubt.empty()) return;
+  last.doubt = earlier.doubt;
+  last.decided_by = earlier.decided_by;
+  last.confirmed_by_history = earlier.confirmed_by_history;
+  last.other_states = earlier.other_states;
+  for (OtherState& other : last.other_states) {
+    other.worn_volume += last.worn_volume - earlier.worn_volume;
+    other.largest_depth += last.largest_depth - earlier.largest_depth;
+  }
+}
 
 }  // namespace
 
@@ -39,7 +57,6 @@ FollowedAsymptote followed_asymptote(const std::shared_ptr<const response::Conde
     if (pass == kPasses) return fail(Status::iteration_limit);
     if (control.stopped()) return fail(Status::interrupted);
     response::ContactCondition condition = start;
-    // Whole nodes: edges that bear in part would wear anew at every frequency.
     condition.wear_depth = last.depth;
     const response::Resonance worn =
         response::resonance(model, omega, condition, steady, near, last.steady.displacement);
@@ -49,7 +66,9 @@ FollowedAsymptote followed_asymptote(const std::shared_ptr<const response::Conde
     const bool stays = std::abs(worn.omega / omega - 1) < kTolerance;
     omega = worn.omega;
     if (stays) return result;
+    const Asymptote earlier = std::move(last);
     last = asymptote(model, omega, condition, steady, onwards, nullptr, control);
+    if (last.verdict == Verdict::asymptote) keep_doubt(earlier, last);
     result.omegas.push_back(omega);
     result.solves += last.solves;
     result.jacobians += last.jacobians;

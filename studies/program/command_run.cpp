@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <ostream>
 
@@ -49,22 +51,31 @@ fs::path prepare_directory(const RunOptions& options, const Study& study) {
   return directory;
 }
 
+std::string with_bar(double value, double bar, const char* unit = "") {
+  return std::isfinite(bar) ? fmt::format("{:.4g} +- {:.2g}{}", value, bar, unit)
+                            : fmt::format("{:.6g}{}", value, unit);
+}
+
 /// How far the best design stays from its limits, in per cent of them, here and on finer meshes.
-std::string limits_kept(const Study& study, const OptimizationResult& result) {
+std::string limits_kept(const report::RunRecord& record) {
   std::string text;
-  const std::vector<std::string> names = constraint_names(study.problem);
+  const std::vector<std::string> names = constraint_names(record.problem);
+  const report::EvaluationRecord& best = record.evaluations[*record.best];
+  const optimizer::JudgementBars bars = judgement_bars(record.problem, best.error_estimates);
   for (std::size_t j = 0; j < names.size(); ++j) {
     std::string finer;
-    for (const optimizer::FinerCheck& check : result.finer)
-      if (check.candidate == *result.best)
-        finer += fmt::format(", {:.3g} % on {} edges", -100 * check.constraints[j], check.flank_elements());
-    text += fmt::format("  {} kept by {:.3g} % of its limit{}\n", names[j],
-                        -100 * result.evaluations[*result.best].judgement.constraints[j], finer);
+    for (const report::FinerRecord& check : record.finer)
+      if (check.evaluation == static_cast<std::int64_t>(*record.best))
+        finer += fmt::format(", {:.3g} % on {} edges", -100 * check.constraints[j], check.flank_elements);
+    const double room = -100 * best.constraints[j], bar = 100 * bars.constraints[j];
+    text += fmt::format("  {} {} by {} of its limit{}{}\n", names[j], room < 0 ? "broken" : "kept",
+                        with_bar(std::abs(room), bar, " %"), finer, std::abs(room) < bar ? ": undecided" : "");
   }
   return text;
 }
 
-std::string conclusion(const Study& study, const OptimizationResult& result, const fs::path& directory) {
+std::string conclusion(const Study& study, const OptimizationResult& result, const report::RunRecord& record,
+                       const fs::path& directory) {
   const optimizer::SearchStatistics& counts = result.statistics;
   const auto all = static_cast<int>(result.evaluations.size());
   const auto count = [&](const auto& of) { return static_cast<int>(std::ranges::count_if(result.evaluations, of)); };
@@ -77,11 +88,14 @@ std::string conclusion(const Study& study, const OptimizationResult& result, con
       study.name, all, counts.replayed, feasible, all - feasible - failed, failed,
       result.message.empty() ? std::string(to_string(result.status)) : result.message);
   if (!result.best) return text;
-  const optimizer::Candidate& best = result.evaluations[*result.best];
-  text += fmt::format("best objective {:.6g} (evaluation {}), start {:.6g}\n", best.judgement.objective,
-                      *result.best + 1, result.evaluations.front().judgement.objective);
-  for (const auto& [key, value] : variable_values(study, best)) text += fmt::format("  {} = {:.6g}\n", key, value);
-  return text + limits_kept(study, result) + fmt::format("written to {}\n", directory.string());
+  const auto objective = [&](const report::EvaluationRecord& of) {
+    return with_bar(of.objective, judgement_bars(record.problem, of.error_estimates).objective);
+  };
+  text += fmt::format("best objective {} (evaluation {}), start {}\n", objective(record.evaluations[*record.best]),
+                      *result.best + 1, objective(record.evaluations.front()));
+  for (const auto& [key, value] : variable_values(study, result.evaluations[*result.best]))
+    text += fmt::format("  {} = {:.6g}\n", key, value);
+  return text + limits_kept(record) + fmt::format("written to {}\n", directory.string());
 }
 
 std::string verified(const std::vector<report::VerificationRecord>& verifications) {
@@ -138,8 +152,8 @@ int run_study(const RunOptions& options, const Streams& streams, const RunEngine
   if (interrupt.requested())
     streams.err << "dovetail: interrupted; writing what is finished (Ctrl-C again ends at once)" << std::endl;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  write_run(study, result, engine, seconds, verifications, directory, streams.err);
-  streams.out << conclusion(study, result, directory) << verified(verifications);
+  const report::RunRecord record = write_run(study, result, engine, seconds, verifications, directory, streams.err);
+  streams.out << conclusion(study, result, record, directory) << verified(verifications);
   if (interrupt.requested()) {
     streams.err << "dovetail: everything finished is kept; go on with --resume\n";
     return kInterrupted;

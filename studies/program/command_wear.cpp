@@ -105,16 +105,12 @@ WearBars worn_bars(const LoadedModel& loaded, const WornState& nominal,
   return {.worn_volume = bar(&WornState::volume), .largest_depth = bar(&WornState::depth)};
 }
 
-/// What the spread and the bars see of an answer: the edges of worn zones between nodes where they are placed.
+/// What the spread and the bars see of an answer.
 wear::WornEnd worn_end(const WearAnswer& answer) {
   wear::WornEnd end{.status = answer.solver, .volume = answer.volume, .depth = answer.depth, .solves = answer.solves};
   end.verdict = answer.worn_out()                 ? wear::Verdict::asymptote
                 : answer.status == "no_asymptote" ? wear::Verdict::no_asymptote
                                                   : wear::Verdict::not_converged;
-  if (answer.asymptote && answer.worn_out()) {
-    end.volume = answer.volume;
-    end.depth = answer.depth;
-  }
   return end;
 }
 

@@ -43,7 +43,8 @@ RunEngine study_engine(const Study& study) {
     return optimizer::evaluated_finer(*evaluator, scene_at(x), level).evaluation;
   };
   engine.describe = [evaluator](const Scene& scene) {
-    return report::make_design_record(scene, evaluator->evaluate(scene));
+    const optimizer::CandidateResult result = evaluator->evaluate(scene);
+    return DescribedDesign{.evaluation = result.evaluation, .record = report::make_design_record(scene, result)};
   };
   engine.verify = [evaluator](const Scene& scene, const wear::Control& control) {
     const optimizer::Verification verification = optimizer::verify(*evaluator, scene, {}, control);

@@ -10,13 +10,20 @@
 
 namespace dovetail::studies {
 
+/// A design looked at more closely than a search does.
+struct DescribedDesign {
+  optimizer::Evaluation evaluation;
+  report::DesignRecord record;
+};
+
 /// What a run computes with.
 struct RunEngine {
   optimizer::Evaluator evaluate;  ///< design variables in, evaluation out
   /// The same on finer meshes; empty: limits are kept on one mesh.
   optimizer::FinerEvaluator finer = {};
-  /// The design with the curves and fields its results and report show; empty: they show none.
-  std::function<report::DesignRecord(const optimizer::Scene&)> describe;
+  /// The design with bars and what the wear history decides, and with the curves and fields that results and report
+  /// show; empty: they show none.
+  std::function<DescribedDesign(const optimizer::Scene&)> describe;
   /// The design's wear by the full history; empty: designs are not verified.
   std::function<report::VerificationRecord(const optimizer::Scene&, const wear::Control&)> verify = {};
 };

@@ -1,5 +1,7 @@
 #include "studies/program/run_output.hpp"
 
+#include <fmt/format.h>
+
 #include <optional>
 #include <ostream>
 #include <utility>
@@ -33,8 +35,42 @@ Scene scene_of(const Study& study, const optimizer::Candidate& candidate) {
 
 namespace {
 
-report::RunRecord record_of(const Study& study, const OptimizationResult& result, const RunEngine& engine,
-                            double seconds) {
+/// What the closer look says of a candidate. A search takes the direct worn state and no bars.
+void take_over(const Study& study, optimizer::Evaluation seen, optimizer::Candidate& candidate) {
+  const double tolerance = study.optimizer.constraint_tolerance, before = candidate.judgement.objective;
+  annotate(study.problem, tolerance, seen);
+  const optimizer::Judgement now = judge(study.problem, seen, tolerance);
+  if (!now.computed) {
+    candidate.evaluation.error_estimates = seen.error_estimates;
+    candidate.evaluation.messages = seen.messages;
+    candidate.evaluation.messages.push_back("Looked at more closely it ends with \"" + seen.status +
+                                            "\"; its values are those of the search.");
+    return;
+  }
+  if (now.objective != before)
+    seen.messages.push_back(
+        fmt::format("The search, which takes the direct worn state, had an objective of {:.4g}, now {:.4g}.", before,
+                    now.objective));
+  candidate.evaluation = std::move(seen);
+  candidate.judgement = now;
+}
+
+report::RunRecord record_of(const Study& study, OptimizationResult result, const RunEngine& engine, double seconds) {
+  std::optional<report::DesignRecord> best, baseline;
+  const auto look = [&](std::size_t index, std::optional<report::DesignRecord>& design) {
+    optimizer::Candidate& candidate = result.evaluations[index];
+    DescribedDesign seen = engine.describe(scene_of(study, candidate));
+    const auto known = static_cast<std::ptrdiff_t>(seen.evaluation.messages.size());
+    take_over(study, std::move(seen.evaluation), candidate);
+    design = std::move(seen.record);
+    const std::vector<std::string>& messages = candidate.evaluation.messages;
+    design->notes.insert(design->notes.begin() + known, messages.begin() + known, messages.end());
+  };
+  if (engine.describe && result.best) look(*result.best, best);
+  if (engine.describe && result.best == std::size_t{0})
+    baseline = best;
+  else if (engine.describe && !result.evaluations.empty())
+    look(0, baseline);
   report::RunRecord record = report::record_run(study.problem, study.optimizer, result);
   record.name = study.name;
   record.title = study.title;
@@ -42,21 +78,16 @@ report::RunRecord record_of(const Study& study, const OptimizationResult& result
   record.provenance.program_version = version();
   record.provenance.study_file = study.file;
   record.provenance.study_text = study.text;
-  if (!engine.describe) return record;
-  if (result.best) record.best_design = engine.describe(scene_of(study, result.evaluations[*result.best]));
-  if (record.baseline) record.baseline_design = engine.describe(scene_of(study, result.evaluations[*record.baseline]));
-  // A search computes no bars; those of the designs described are those of their evaluations.
-  for (const auto& [index, design] :
-       {std::pair{result.best, &record.best_design}, std::pair{record.baseline, &record.baseline_design}})
-    if (index && *design) record.evaluations[*index].error_estimates = (*design)->error_estimates;
+  record.best_design = std::move(best);
+  record.baseline_design = std::move(baseline);
   return record;
 }
 
 }  // namespace
 
-void write_run(const Study& study, const OptimizationResult& result, const RunEngine& engine, double seconds,
-               const std::vector<report::VerificationRecord>& verifications, const std::filesystem::path& directory,
-               std::ostream& err) {
+report::RunRecord write_run(const Study& study, const OptimizationResult& result, const RunEngine& engine,
+                            double seconds, const std::vector<report::VerificationRecord>& verifications,
+                            const std::filesystem::path& directory, std::ostream& err) {
   // The design first: it costs nothing and must not be lost when describing it is cut short.
   if (result.best) {
     const optimizer::Candidate& best = result.evaluations[*result.best];
@@ -67,7 +98,7 @@ void write_run(const Study& study, const OptimizationResult& result, const RunEn
   record.verifications = verifications;
   report::write_results(directory / "results.h5", record);
   report::write_report(directory / "report.html", record);
-  if (!result.best) return;
+  if (!result.best) return record;
   const Scene best = scene_of(study, result.evaluations[*result.best]);
   for (const std::string& format : study.exports) {
     const std::filesystem::path file = directory / ("best." + format);
@@ -80,6 +111,7 @@ void write_run(const Study& study, const OptimizationResult& result, const RunEn
     else
       err << "dovetail: " << file.string() << ": not written: the best design has no fields\n";
   }
+  return record;
 }
 
 }  // namespace dovetail::studies

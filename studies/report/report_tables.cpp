@@ -157,6 +157,7 @@ std::string limit_table(const RunRecord& record) {
   if (best == nullptr || finer.empty() || best->constraints.size() != names.size()) return {};
   std::vector<std::string> columns{"limit", "room left (%)"};
   for (const FinerRecord* check : finer) columns.push_back(fmt::format("on {} edges (%)", check->flank_elements));
+  const optimizer::JudgementBars bars = judgement_bars(record.problem, best->error_estimates);
   std::string text =
       "<p>How far the best design stays from its limits, in per cent of each, on the mesh of the search "
       "and on finer ones. Where the room is within the error bar on the mesh of the search the limit is "
@@ -165,10 +166,7 @@ std::string limit_table(const RunRecord& record) {
   for (std::size_t j = 0; j < names.size(); ++j) {
     const std::size_t colon = names[j].rfind(':');
     const std::string limited = names[j].substr(0, colon), side = names[j].substr(colon + 1);
-    double scale = 1;
-    for (const optimizer::ResponseConstraint& c : record.problem.constraints)
-      if (c.response == limited) scale = c.scale_at((side == "upper" ? c.upper : c.lower).value_or(1));
-    const double bar = error_bar(*best, limited) / scale;
+    const double bar = bars.constraints[j];
     const auto undecided = [bar](double constraint) { return std::abs(constraint) < bar ? " undecided" : ""; };
     text += fmt::format("<tr><th scope=\"row\" class=\"text\">{}, {}</th><td>{}{}</td>", escape(words(limited)), side,
                         with_error(-best->constraints[j], bar, {.symbol = "", .si = 0.01}),

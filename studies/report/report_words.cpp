@@ -138,6 +138,12 @@ namespace {
 
 /// What speaks against the best design, where its verification does.
 std::string refutation(const RunRecord& record) {
+  const EvaluationRecord* best = best_of(record);
+  if (best != nullptr && !best->feasible)
+    return "Looked at with its wear history the best design does not keep every limit. ";
+  if (record.best_design && record.best_design->status != "converged")
+    return "Looked at with bars and its wear history the best design ends with \u201c" + record.best_design->status +
+           "\u201d. ";
   for (const VerificationRecord& v : record.verifications) {
     if (!record.best || v.evaluation != static_cast<std::int64_t>(*record.best) || v.status == "converged") continue;
     return v.status.starts_with("disagrees")
@@ -159,14 +165,16 @@ std::string headline(const RunRecord& record) {
       text += fmt::format(" The nearest is candidate {}.", *record.least_broken + 1);
     return text;
   }
+  const std::string doubt = refutation(record);
   if (record.best == record.baseline)
-    return "No candidate was better than the start: it stays the best feasible design, with " +
+    return doubt + "No candidate was better than the start: it stays the best feasible design, with " +
            objective_value(record, *best) + ".";
   if (!base || !std::isfinite(base->objective))
-    return fmt::format(
-        "The best design reaches {}. The start could not be evaluated ({}), so there is nothing to compare it with.",
-        objective_value(record, *best), base ? base->status : "no start");
-  std::string text = refutation(record);
+    return doubt + fmt::format(
+                       "The best design reaches {}. The start could not be evaluated ({}), so there is nothing to "
+                       "compare it with.",
+                       objective_value(record, *best), base ? base->status : "no start");
+  std::string text = doubt;
   text +=
       record.problem.objective.size() == 1 ? single_term(record, *base, *best) : several_terms(record, *base, *best);
   if (!base->feasible) text += " The start itself breaks a limit, the best design keeps them all.";

@@ -73,35 +73,6 @@ TEST(ErrorBars, HoldTheTrueErrorsOfRandomStructures) {
   }
 }
 
-// References of 15 harmonics: about (3/15)^1.5 = 9 % of the error judged.
-TEST(ErrorBars, HoldTheTrueErrorsOfResonances) {
-  Comparison frequency{"resonance"}, amplitude{"peak amplitude"};
-  const response::ResonanceOptions search;
-  for (unsigned seed = 101; seed <= 130; ++seed) {
-    const RandomContact contact = random_contact(seed);
-    if (contact.model.contact.count() > 4) continue;  // for the time the references take
-    const auto model = condensed(contact.model);
-    const SteadyOptions options;
-    const response::Resonance peak = resonance(model, contact.omega, {}, options, search);
-    if (peak.status != Status::converged) continue;  // no peak near this frequency
-    const response::ResonanceBars bars = error_bars(model, peak, {}, options, search);
-    const SteadyOptions fine{.harmonics = 15, .samples = 1024, .slip_return = "second_order"};
-    const response::Resonance exact =
-        resonance(model, peak.omega, {}, fine, search, response::padded(peak.state.displacement, 15));
-    if (exact.status != Status::converged) continue;
-    // Both searches end within their tolerance.
-    frequency.add(std::abs(peak.omega - exact.omega), bars.omega, exact.omega * 10);
-    amplitude.add(std::abs(peak.amplitude - exact.amplitude), bars.amplitude, exact.amplitude);
-    EXPECT_EQ(bars.status == Status::converged, std::isfinite(bars.omega)) << seed;
-  }
-  for (Comparison* one : {&frequency, &amplitude}) {
-    one->report();
-    EXPECT_GE(one->cases, 18) << one->name;
-    EXPECT_GE(one->fraction(), 0.9) << one->name;
-    EXPECT_LE(one->median(), 20) << one->name;
-  }
-}
-
 // Rigid friction with mass on the contact: errors fall like H^-0.5 to H^-1 against Den Hartog's closed form.
 TEST(ErrorBars, HoldWhereContactHasMass) {
   for (const double omega : {0.8, 2.0}) {
