@@ -56,12 +56,18 @@ std::vector<double> integral(const std::vector<Zone>& zones, double largest) {
 
 /// The same with the largest h there may be. Edges are 2 sum h times as long as equal ones.
 std::vector<double> bounded_integral(const std::vector<Zone>& zones) {
-  double low = 0, high = 1;
-  for (int k = 0; k < 30; ++k) {
+  double high = std::numeric_limits<double>::infinity();
+  for (const Zone& z : zones) high = std::min(high, z.core + std::max(0.0, 0.5 - z.to));  // in the middle
+  std::vector<double> sum = integral(zones, high);
+  if (2 * sum.back() * high <= kLongest) return sum;
+  constexpr int kHalvings = 10;  // to a thousandth
+  double low = 0;
+  for (int k = 0; k < kHalvings; ++k) {
     const double middle = (low + high) / 2;
-    (middle > 0 && 2 * integral(zones, middle).back() * middle > kLongest ? high : low) = middle;
+    sum = integral(zones, middle);
+    (2 * sum.back() * middle > kLongest ? high : low) = middle;
   }
-  return integral(zones, high);
+  return sum;
 }
 
 }  // namespace

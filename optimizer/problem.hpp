@@ -68,13 +68,14 @@ struct Judgement {
 [[nodiscard]] Judgement judge(const Problem& problem, const Evaluation& evaluation, double tolerance,
                               std::span<const double> shifts = {});
 
-/// Error bars of responses as the objective and the constraints have them, order of constraint_names; NaN where there is
-/// none.
+/// Error bars of responses as the objective and the constraints have them, order of constraint_names; NaN where there
+/// is none.
 struct JudgementBars {
   double objective = 0;
   std::vector<double> constraints = {};
 };
-[[nodiscard]] JudgementBars judgement_bars(const Problem& problem, const std::map<std::string, double>& error_estimates);
+[[nodiscard]] JudgementBars judgement_bars(const Problem& problem,
+                                           const std::map<std::string, double>& error_estimates);
 
 /// Writes what the problem makes of it into the evaluation: its constraints by name, `feasible` as the values say,
 /// which constraints their bars leave undecided, and a failing status

@@ -29,7 +29,7 @@ bool ends_differ(const fem::ContactCells& cells, const std::vector<bool>& one, c
       const auto worn = [&](std::ptrdiff_t k) { return in(one, k) && in(other, k); };
       for (std::ptrdiff_t k = 0; k < count; ++k) {
         if (!differs(k)) continue;
-        if (differs(k + 1) || !(worn(k - 1) || worn(k + 1))) return false;
+        if (differs(k + 1) || worn(k - 1) == worn(k + 1)) return false;
         apart = true;
       }
       first += count;

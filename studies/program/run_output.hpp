@@ -13,9 +13,9 @@ namespace dovetail::studies {
 /// Writes what a run came to into its directory, finished or interrupted: best.toml and the exports the study asks for
 /// (when there is a feasible design), results.h5 and report.html. Each file whole or not at all. The start and the best
 /// design are recorded as evaluations with bars and the wear history have them; returns the record.
-report::RunRecord write_run(const Study& study, const optimizer::OptimizationResult& result, const RunEngine& engine, double seconds,
-               const std::vector<report::VerificationRecord>& verifications, const std::filesystem::path& directory,
-               std::ostream& err);
+report::RunRecord write_run(const Study& study, const optimizer::OptimizationResult& result, const RunEngine& engine,
+                            double seconds, const std::vector<report::VerificationRecord>& verifications,
+                            const std::filesystem::path& directory, std::ostream& err);
 
 /// The study's scene with the candidate's variables.
 [[nodiscard]] optimizer::Scene scene_of(const Study& study, const optimizer::Candidate& candidate);

@@ -68,7 +68,10 @@ std::string objective_value(const RunRecord& record, const EvaluationRecord& bes
   if (record.problem.objective.size() != 1) return fmt::format("an objective of {}", significant(best.objective, 3));
   const std::string& name = record.problem.objective.front().response;
   const double value = response(best, name);
-  return fmt::format("a {} of {}", words(name), with_error(value, error_bar(best, name), response_unit(name, value)));
+  const std::string said = words(name);
+  const char* article = std::string_view("aeiou").find(said.front()) == std::string_view::npos ? "a" : "an";
+  return fmt::format("{} {} of {}", article, said,
+                     with_error(value, error_bar(best, name), response_unit(name, value)));
 }
 
 /// "peak_amplitude_m:upper" -> "upper limit of the peak amplitude (8.0 mm)".

@@ -74,6 +74,22 @@ TEST(FlankFractions, AreFineWhereARoundingBegins) {
   }
 }
 
+// Worn zones end in the middle, too.
+TEST(FlankFractions, LeaveTheMiddleOfARoundedFlankAsFineAsOfASharpOne) {
+  for (const double radius : {1e-3, 20e-3, 50e-3})
+    for (const int parts : {24, 64, 128}) {
+      ProfileParameters reference;
+      reference.left.edge_radius = reference.right.edge_radius = radius;
+      MeshSizes sizes;
+      sizes.flank_elements = parts;
+      const std::vector<double> s = flank_fractions(reference, sizes);
+      double longest = 0;
+      for (std::size_t k = 0; k + 1 < s.size(); ++k) longest = std::max(longest, s[k + 1] - s[k]);
+      EXPECT_LE(longest * parts, 2.5) << radius << " " << parts;
+      EXPECT_GE(longest * parts, 1.5) << radius << " " << parts;
+    }
+}
+
 TEST(FlankFractions, OfFewEdgesStayGentle) {
   // e^0.35 = 1.42 per edge in the continuum; the edges in the corner of the size function are cut across it.
   for (const int parts : {12, 16, 24, 48})

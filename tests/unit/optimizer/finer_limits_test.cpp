@@ -81,6 +81,17 @@ TEST(FinerLimitsOf, ARunThatNeverMetItsLimitsDoesNotBlameFinerMeshes) {
   EXPECT_FALSE(result.message.starts_with(";")) << result.message;
 }
 
+// What is kept for a look at finer meshes is no use without a design to look at.
+TEST(FinerLimitsOf, ARunThatNeverMeetsItsLimitsSpendsItsWholeBudget) {
+  Problem problem = low_bowl();
+  problem.constraints[0].upper = -100;
+  OptimizerOptions few = options();
+  few.max_evaluations = 10;
+  const OptimizationResult result = run_optimization(problem, bowl, few, {.finer = finer_bowl});
+  EXPECT_FALSE(result.best);
+  EXPECT_EQ(result.evaluations.size(), 10U);
+}
+
 TEST(FinerLimitsOf, ADesignThatFailsThereIsPassedOver) {
   const RunHooks hooks{.finer = [](std::span<const double> x, int) { return x[0] > 0.9 ? failed() : bowl(x); }};
   const OptimizationResult result = run_optimization(low_bowl(), bowl, options(), hooks);

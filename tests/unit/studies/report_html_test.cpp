@@ -162,7 +162,15 @@ TEST(Report, SurvivesWhateverIsMissing) {
 TEST(Report, SaysWhenTheStartStaysTheBest) {
   RunRecord record = sample_record();
   record.best = record.baseline;
+  EXPECT_THAT(headline(record), testing::StartsWith("No candidate was better than the start"));
+  // What speaks against it comes first here, too.
+  record.verifications = {{.evaluation = 0, .status = "disagrees: finer mesh 2, history on it 1, bars 0.5"}};
+  EXPECT_THAT(headline(record), testing::StartsWith("The verification does not confirm the best design"));
   EXPECT_THAT(headline(record), HasSubstr("No candidate was better than the start"));
+  record.verifications.clear();
+  record.best_design->status = "asymptote: gross_sliding";
+  EXPECT_THAT(headline(record), testing::StartsWith("Looked at with bars and its wear history"));
+  record.best_design->status = "converged";
   record.best = 3;
   record.evaluations[0].objective = std::numeric_limits<double>::quiet_NaN();
   record.evaluations[0].status = "preload: stalled";

@@ -90,6 +90,39 @@ TEST_F(Run, WritesAStudyThatEvaluatesToTheBestDesign) {
   EXPECT_THAT(err_.str(), HasSubstr(" to go"));
 }
 
+// The wear history may say something else of the best design than the search, which does not ask it.
+TEST_F(Run, RecordsTheBestDesignAsTheCloserLookHasIt) {
+  const RunEngineFactory closer = [](const Study& study) {
+    RunEngine engine{.evaluate = bowl, .describe = {}};
+    engine.describe = [keys = study.problem.space.keys()](const optimizer::Scene& scene) {
+      std::vector<double> x;
+      for (const std::string& key : keys) x.push_back(optimizer::parameter(scene, key));
+      DescribedDesign seen{.evaluation = bowl(x), .record = {}};
+      for (auto& [name, value] : seen.evaluation.responses) value *= name == "asymptotic_wear_volume_m3" ? 3 : 1;
+      seen.evaluation.error_estimates = {{"asymptotic_wear_volume_m3", 1e-11}, {"contact_pressure_mean_pa", 1e6}};
+      seen.evaluation.messages = {"The worn state was in doubt."};
+      seen.record.status = "converged";
+      seen.record.notes = seen.evaluation.messages;
+      return seen;
+    };
+    return engine;
+  };
+  ASSERT_EQ(run(false, closer), kDone) << err_.str();
+  const report::RunRecord record = report::read_results(results() / "results.h5");
+  const report::EvaluationRecord& best = record.evaluations[*record.best];
+  const double found = 3 * bowl(best.x).responses.at("asymptotic_wear_volume_m3");
+  EXPECT_DOUBLE_EQ(best.responses.at("asymptotic_wear_volume_m3"), found);
+  EXPECT_EQ(best.error_estimates.at("asymptotic_wear_volume_m3"), 1e-11);
+  EXPECT_DOUBLE_EQ(record.evaluations.front().responses.at("asymptotic_wear_volume_m3"),
+                   3 * bowl(record.evaluations.front().x).responses.at("asymptotic_wear_volume_m3"));
+  ASSERT_EQ(record.best_design->notes.size(), 2U);
+  EXPECT_THAT(record.best_design->notes[1], HasSubstr("The search, which takes the direct worn state"));
+  EXPECT_THAT(out_.str(), HasSubstr(" +- 1e-11 (evaluation"));
+  // The search went by its own values: the journal has them.
+  for (const auto& line : optimizer::read_journal(results() / "journal.jsonl").records)
+    EXPECT_EQ(line.evaluation.responses, bowl(line.x).responses);
+}
+
 TEST_F(Run, RefusesAnExistingDirectory) {
   fs::create_directories(results());
   replace_file(results() / "notes.txt", "mine");

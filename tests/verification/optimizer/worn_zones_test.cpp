@@ -1,0 +1,62 @@
+#include "optimizer/worn_zones.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace dovetail::optimizer {
+namespace {
+
+/// A flank of ten cells of one square millimetre.
+fem::ContactCells ten_cells() {
+  fem::ContactCells cells;
+  fem::FlankCells flank{.along = {0, 1}, .across = {{}}};
+  for (int k = 0; k <= 10; ++k) flank.across[0].push_back(k / 10.0);
+  cells.flanks = {flank};
+  cells.area = Eigen::VectorXd::Constant(10, 1e-6);
+  return cells;
+}
+
+/// Depths of a zone of `width` cells from the beginning of the flank, W ~ (w - x)^(3/2).
+Eigen::VectorXd zone(double width, double deepest = 1e-6) {
+  Eigen::VectorXd depth = Eigen::VectorXd::Zero(10);
+  for (int k = 0; k < 10; ++k) depth(k) = deepest * std::pow(std::max(0.0, (width - k - 0.5) / width), 1.5);
+  return depth;
+}
+
+std::vector<bool> worn(int cells) {
+  std::vector<bool> result(10, false);
+  std::fill_n(result.begin(), cells, true);
+  return result;
+}
+
+TEST(WornZones, ChangeByWhatTheirOpenEndsAllow) {
+  const Eigen::VectorXd depth = zone(8);
+  // Twice the part, twice the change; the end of the flank is no end.
+  const WornChange quarter = ends_moved_by(0.25, ten_cells(), worn(8), depth);
+  EXPECT_NEAR(quarter.volume, 2.5 * 0.25 / 8 * 1e-6 * depth.sum(), 1e-18);
+  EXPECT_NEAR(quarter.depth, 1.5 * 0.25 / 8 * depth(0), 1e-12);
+  EXPECT_NEAR(ends_moved_by(0.5, ten_cells(), worn(8), depth).volume, 2 * quarter.volume, 1e-18);
+  EXPECT_EQ(ends_moved_by(1, ten_cells(), worn(10), depth).volume, 0);
+  // No more than there is.
+  EXPECT_NEAR(ends_moved_by(1, ten_cells(), worn(1), zone(1)).volume, 1e-6 * zone(1).sum(), 1e-18);
+}
+
+TEST(WornZones, ANodeApartDifferByWhatANodeExplains) {
+  const fem::ContactCells cells = ten_cells();
+  EXPECT_TRUE(a_node_apart(cells, zone(9.5), zone(8.9)));
+  EXPECT_TRUE(a_node_apart(cells, zone(8.9), zone(9.5)));
+  // Alike, two nodes, or a node in the middle.
+  EXPECT_FALSE(a_node_apart(cells, zone(9), zone(9)));
+  EXPECT_FALSE(a_node_apart(cells, zone(9.5), zone(7.6)));
+  Eigen::VectorXd with_a_hole = zone(9);
+  with_a_hole(4) = 0;
+  EXPECT_FALSE(a_node_apart(cells, zone(9), with_a_hole));
+  // The same nodes, but far more wear than a node at the end explains; and zones so narrow that a node is most of them.
+  EXPECT_FALSE(a_node_apart(cells, zone(9.5), zone(8.9, 0.5e-6)));
+  EXPECT_FALSE(a_node_apart(cells, zone(3), zone(2.4)));
+}
+
+}  // namespace
+}  // namespace dovetail::optimizer
