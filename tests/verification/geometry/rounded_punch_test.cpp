@@ -208,7 +208,7 @@ TEST_P(RoundedFlank, HasThePressureOfThePunchWithRoundedEdges) {
   RecordProperty("half_width_um", std::to_string((width - kHalfFlat) * 1e6));
   RecordProperty("exact_half_width_um", std::to_string((exact.half_width() - kHalfFlat) * 1e6));
   // Blocks of 40 half-widths bend the half-plane's pressures by (1/40)^2. The rest is the edges at the peak, a tenth (R
-  // = 1 mm) to a twentieth of the rounded strip that bears: 0.1 to 0.5 %; as many equal edges miss the peak of R = 1 mm
+  // = 1 mm) to a twentieth of the rounded strip that bears: 0.1 to 0.9 %; as many equal edges miss the peak of R = 1 mm
   // by 37 %.
   EXPECT_NEAR(preload.pressure.maxCoeff(), exact.largest(), 0.02 * exact.largest());
   // The last node that bears is within one edge of the end of the contact.
