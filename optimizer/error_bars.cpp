@@ -312,7 +312,8 @@ void add_error_bars(const Scene& scene, const ModelBuilder& builder, const Other
   }
 
   // What the other settings leave hardly depends on the mesh: it is asked where a design costs least, and where that
-  // has no answer on a finer one.
+  // has no answer on a finer one. In space a coarser mesh has two or three cells in a worn zone, which come and go with
+  // the harmonics.
   struct Base {
     const ModelBuilder* builder;
     Scene scene;
@@ -321,7 +322,7 @@ void add_error_bars(const Scene& scene, const ModelBuilder& builder, const Other
   };
   std::vector<Base> bases;
   for (std::size_t i = 0; i < answers.size(); ++i)
-    if (const auto& [ratio, on_it] = others.meshes()[i]; ratio > 1 && answers[i].converged())
+    if (const auto& [ratio, on_it] = others.meshes()[i]; ratio > 1 && answers[i].converged() && !scene.in_space())
       bases.push_back({&on_it, resized(scene, ratio), &answers[i], {}});
   bases.push_back({&builder, scene, &result.evaluation, result.model});
   using Change = std::function<void(Scene&, Computation&)>;

@@ -17,6 +17,7 @@ import json
 import os
 import pathlib
 import random
+import re
 import statistics
 import subprocess
 import sys
@@ -176,6 +177,13 @@ def table(rows):
         states[key] = states.get(key, 0) + 1
     lines = [f"{count} designs: {state}" for state, count in sorted(states.items(), key=lambda s: -s[1])]
     both = [row for row in rows if row["status"] == row["fine_status"] == "converged"]
+    doubts = [message for row in both for message in row["messages"] if "was in doubt" in message]
+    decided = [re.search(r"ends with (\S+) m\^3, the direct method with (\S+) m\^3", message) for message in doubts]
+    changes = sorted(abs(float(m[1]) / float(m[2]) - 1) for m in decided if m)
+    lines.append(f"{len(doubts)} of {len(both)} worn states were in doubt; the wear history ended elsewhere in {len(changes)}")
+    if changes:
+        low, middle, high = (f"{100 * x:.2g}" for x in (changes[0], statistics.median(changes), changes[-1]))
+        lines[-1] += f", by {low} to {high} %, {middle} % in the median"
     lines += ["", "| response | designs | inside | without a bar | median bar, % | median error, % | bar / error |",
               "|---|---|---|---|---|---|---|"]
     for name in [key[:-5] for key in (both[0] if both else {}) if key.endswith(":fine")]:
