@@ -12,7 +12,8 @@ namespace dovetail::geometry {
 /// - at sharp ends the zones are the two ends and the core follows from flank_grading, the ratio of the sizes in the
 ///   middle and at the ends;
 /// - with an edge radius they are the strips around the beginnings of the roundings in which the contact ends and the
-///   pressure peaks, whose extent and core are fixed parts of the rounding's length (flank_form.hpp).
+///   pressure peaks, whose extent and core are fixed parts of the rounding's length (flank_form.hpp). No edge in the
+///   middle is longer than 2.4 equal ones, whatever the grading.
 ///
 /// Where edges are few the cores grow until neighbouring edges do not differ by more than a factor of about 1.4, so
 /// that the elements stay good. Depends on the reference design only: all designs of a study share their fractions.

@@ -163,6 +163,13 @@ int run_study(const RunOptions& options, const Streams& streams, const RunEngine
                                result.evaluations.size());
     return kNotConverged;
   }
+  const bool stands = !record.best_design || record.best_design->status == "converged";
+  if (!stands || !record.evaluations[*result.best].feasible) {
+    streams.err << fmt::format(
+        "dovetail: the best design, evaluation {}, looked at with bars and its wear history: {}\n", *result.best + 1,
+        stands ? "breaks a limit" : record.best_design->status);
+    return kNotConverged;
+  }
   for (const report::VerificationRecord& v : verifications) {
     if (v.evaluation != static_cast<std::int64_t>(*result.best) || v.status == "converged") continue;
     streams.err << fmt::format("dovetail: the verification of the best design, evaluation {}: {}\n", v.evaluation + 1,

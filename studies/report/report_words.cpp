@@ -139,21 +139,22 @@ ObjectiveScale objective_scale(const RunRecord& record) {
 
 namespace {
 
-/// What speaks against the best design, where its verification does.
+/// What speaks against the best design: what the closer look at it came to, and its verification.
 std::string refutation(const RunRecord& record) {
+  std::string text;
   const EvaluationRecord* best = best_of(record);
   if (best != nullptr && !best->feasible)
-    return "Looked at with its wear history the best design does not keep every limit. ";
+    text += "Looked at with its wear history the best design does not keep every limit. ";
   if (record.best_design && record.best_design->status != "converged")
-    return "Looked at with bars and its wear history the best design ends with \u201c" + record.best_design->status +
-           "\u201d. ";
+    text += "Looked at with bars and its wear history the best design ends with \u201c" + record.best_design->status +
+            "\u201d. ";
   for (const VerificationRecord& v : record.verifications) {
     if (!record.best || v.evaluation != static_cast<std::int64_t>(*record.best) || v.status == "converged") continue;
-    return v.status.starts_with("disagrees")
-               ? "The verification does not confirm the best design: it " + v.status + ". "
-               : "The best design could not be verified (" + v.status + "). ";
+    text += v.status.starts_with("disagrees")
+                ? "The verification does not confirm the best design: it " + v.status + ". "
+                : "The best design could not be verified (" + v.status + "). ";
   }
-  return {};
+  return text;
 }
 
 }  // namespace
@@ -180,7 +181,7 @@ std::string headline(const RunRecord& record) {
   std::string text = doubt;
   text +=
       record.problem.objective.size() == 1 ? single_term(record, *base, *best) : several_terms(record, *base, *best);
-  if (!base->feasible) text += " The start itself breaks a limit, the best design keeps them all.";
+  if (!base->feasible && best->feasible) text += " The start itself breaks a limit, the best design keeps them all.";
   return text;
 }
 

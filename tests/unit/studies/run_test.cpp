@@ -123,6 +123,29 @@ TEST_F(Run, RecordsTheBestDesignAsTheCloserLookHasIt) {
     EXPECT_EQ(line.evaluation.responses, bowl(line.x).responses);
 }
 
+// An answer that the closer look does not confirm is told, and the exit status says so.
+TEST_F(Run, FailsWhereTheCloserLookDoesNotConfirmTheBestDesign) {
+  const auto look = [](const std::string& status, double pressure) {
+    return [=](const Study&) {
+      RunEngine engine{.evaluate = bowl, .describe = {}};
+      engine.describe = [=](const optimizer::Scene&) {
+        DescribedDesign seen{.evaluation = bowl(std::vector<double>{10, 3, 9}), .record = {}};
+        seen.evaluation.status = seen.record.status = status;
+        seen.evaluation.responses["contact_pressure_mean_pa"] = pressure;
+        return seen;
+      };
+      return engine;
+    };
+  };
+  EXPECT_EQ(run(false, look("converged", 100e6)), kDone) << err_.str();
+  fs::remove_all(results());
+  EXPECT_EQ(run(false, look("asymptote: gross_sliding", 100e6)), kNotConverged);
+  EXPECT_THAT(err_.str(), HasSubstr("looked at with bars and its wear history: asymptote: gross_sliding"));
+  fs::remove_all(results());
+  EXPECT_EQ(run(false, look("converged", 1e12)), kNotConverged);
+  EXPECT_THAT(err_.str(), HasSubstr("looked at with bars and its wear history: breaks a limit"));
+}
+
 TEST_F(Run, RefusesAnExistingDirectory) {
   fs::create_directories(results());
   replace_file(results() / "notes.txt", "mine");
