@@ -266,7 +266,9 @@ ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateMode
     if (vanished || !best.misfit.less_than(misfit))
       best = {
           .misfit = misfit, .grid = fit.grids, .flanks = candidate.cells.flanks, .displacement = unworn.displacement};
-    if (vanished || fit.moved <= options.aim) {
+    // Edges that happen to lie at ends of cells of the first grid have no short cells beside them yet.
+    const bool laid_for = fit.grids > 0 || fit.edges == 0;
+    if (vanished || (laid_for && fit.moved <= options.aim)) {
       // Where nodes beyond an edge hardly stick, do they at the resonance of this grid?
       if (!search.holds() || at_resonance || vanished) return fit;
       peak = response::resonance(candidate.condensed, peak.omega, {}, steady);

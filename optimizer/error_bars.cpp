@@ -182,6 +182,17 @@ Unseen unseen(const Scene& scene, const CandidateResult& result) {
   return left;
 }
 
+double slip_at_zone_ends(const CandidateResult& result) {
+  const std::vector<response::NodeSummary>& nodes = result.unworn->state.nodes;
+  Eigen::VectorXd energy(static_cast<Eigen::Index>(nodes.size()));
+  std::vector<bool> loaded(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    energy[static_cast<Eigen::Index>(i)] = nodes[i].dissipated_energy;
+    loaded[i] = nodes[i].carries_load;
+  }
+  return energy_left_open(result.model.cells, energy, loaded);
+}
+
 /// Hardly anything bears, and on other nodes nothing does: that is no worn state.
 void refuse_worn_state(const std::string& status, Evaluation& evaluation) {
   evaluation.status = status;
@@ -294,6 +305,7 @@ void add_error_bars(const Scene& scene, const ModelBuilder& builder, const Other
   // A finer mesh has shorter nodes, too; a part remains, as two meshes may by accident agree.
   constexpr double kAgain = 0.25;
   bars.add("contact_grid", {{&longer, grid_factor(finer ? kAgain : 1)}}, result.evaluation);
+  double slip_left_open = slip_at_zone_ends(result);  // J per cycle
   // Worn zones narrower than the contact nodes are not seen.
   if (result.asymptote->worn_volume == 0 && scene.contact.wear_coefficient > 0) {
     const Evaluation shorter = companion(scene, result.model, cells(0.5));
@@ -301,15 +313,16 @@ void add_error_bars(const Scene& scene, const ModelBuilder& builder, const Other
     const Unseen zone = unseen(scene, result);
     bars.add("contact_grid", "asymptotic_wear_volume_m3", zone.volume);
     bars.add("contact_grid", "asymptotic_wear_depth_max_m", zone.depth);
-    bars.add("contact_grid", "dissipated_energy_j", zone.energy);
+    slip_left_open += zone.energy;
     if (zone.energy > result.evaluation.responses.at("dissipated_energy_j"))
       result.evaluation.messages.push_back(
           "Slip at the ends of the flanks in zones narrower than half a contact node is not seen: the energy may be as "
           "large as its error bar.");
-    if (scene.contact.friction > 0)
-      bars.add("contact_grid", "initial_wear_rate_m3_per_cycle",
-               scene.contact.wear_coefficient * zone.energy / scene.contact.friction);
   }
+  bars.add("contact_grid", "dissipated_energy_j", slip_left_open);
+  if (scene.contact.friction > 0)
+    bars.add("contact_grid", "initial_wear_rate_m3_per_cycle",
+             scene.contact.wear_coefficient * slip_left_open / scene.contact.friction);
 
   // What the other settings leave hardly depends on the mesh: it is asked where a design costs least, and where that
   // has no answer on a finer one. In space a coarser mesh has two or three cells in a worn zone, which come and go with

@@ -1,7 +1,8 @@
 #pragma once
 
-/// How much of a worn state hangs on where, within a contact node, its zones end. A wear history wears off whole nodes,
-/// the direct method ends zones where friction just holds.
+/// How much of an answer hangs on where, within a contact node, its zones end. A wear history wears off whole nodes,
+/// the direct method ends worn zones where friction just holds; before any wear, zones that slip end somewhere in a
+/// node.
 
 #include <Eigen/Core>
 
@@ -24,5 +25,10 @@ struct WornChange {
 /// history cannot tell such shapes apart.
 [[nodiscard]] bool a_node_apart(const fem::ContactCells& cells, const Eigen::VectorXd& one,
                                 const Eigen::VectorXd& other);
+
+/// What the nodes at the ends of slipping zones leave open of the energy (J per cycle, by node) where such a zone is a
+/// node or two wide. `loaded`: whether a node carries load; a zone that ends at an open node ends there on any nodes.
+[[nodiscard]] double energy_left_open(const fem::ContactCells& cells, const Eigen::VectorXd& energy,
+                                      const std::vector<bool>& loaded);
 
 }  // namespace dovetail::optimizer

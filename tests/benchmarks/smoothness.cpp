@@ -1,9 +1,7 @@
 // How smooth the responses are along each design variable of a study, through its start design:
 //   build/tests/benchmarks/smoothness STUDY.toml [POINTS=41] [PAGE.html]
-// Prints, per variable and response, the largest jump, and writes the lines as a page of plots. The jump is
-// max |third difference| / 2 relative to the largest value on the line: a step of height s gives s, a smooth curve
-// something that falls with the third power of the spacing.
-#include <cmath>
+// Prints, per variable and response, the largest jump, and writes the lines as a page of plots.
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -18,6 +16,7 @@
 #include "studies/program/study.hpp"
 #include "studies/report/html.hpp"
 #include "studies/report/svg_plot.hpp"
+#include "tests/benchmarks/largest_jump.hpp"
 
 namespace dovetail {
 namespace {
@@ -31,15 +30,6 @@ const std::vector<std::string> kResponses{"resonance_hz",
                                           "asymptotic_wear_volume_m3",
                                           "asymptotic_wear_depth_max_m",
                                           "resonance_drift"};
-
-double largest_jump(const std::vector<double>& y) {
-  double jump = 0, size = 0;
-  for (std::size_t i = 0; i < y.size(); ++i) {
-    size = std::max(size, std::abs(y[i]));
-    if (i >= 3) jump = std::max(jump, std::abs(y[i] - 3 * y[i - 1] + 3 * y[i - 2] - y[i - 3]) / 2);
-  }
-  return size > 0 ? jump / size : 0;
-}
 
 int run(const std::string& file, int points, const std::string& page) {
   const studies::Study study = studies::load_study(file);

@@ -58,5 +58,29 @@ TEST(WornZones, ANodeApartDifferByWhatANodeExplains) {
   EXPECT_FALSE(a_node_apart(cells, zone(3), zone(2.4)));
 }
 
+TEST(WornZones, EnergyIsOpenWhereASlippingZoneIsANodeOrTwoWide) {
+  const fem::ContactCells cells = ten_cells();
+  const std::vector<bool> loaded(10, true);
+  // Slip is largest at the inner end.
+  const auto zone_of = [](int nodes) {
+    Eigen::VectorXd energy = Eigen::VectorXd::Zero(10);
+    for (int k = 0; k < nodes; ++k) energy(k) = 1e-6 * (k + 1) * 2 / (nodes * (nodes + 1.0));
+    return energy;
+  };
+  EXPECT_DOUBLE_EQ(energy_left_open(cells, zone_of(1), loaded), 0.4e-6);
+  EXPECT_DOUBLE_EQ(energy_left_open(cells, zone_of(2), loaded), 0.4e-6 * std::pow(2.0 / 3, 3));
+  EXPECT_LT(energy_left_open(cells, zone_of(6), loaded), 0.01e-6);
+  // The other way round, and with creep where it sticks.
+  Eigen::VectorXd turned = zone_of(2).reverse();
+  turned(7) = 1e-10;
+  EXPECT_NEAR(energy_left_open(cells, turned, loaded), 0.4e-6 * std::pow(2.0 / 3, 3), 1e-12);
+  // No node beyond, or none that bears: there it ends on other nodes, too.
+  EXPECT_EQ(energy_left_open(cells, zone_of(10), loaded), 0);
+  std::vector<bool> open_beyond = loaded;
+  open_beyond[2] = false;
+  EXPECT_EQ(energy_left_open(cells, zone_of(2), open_beyond), 0);
+  EXPECT_EQ(energy_left_open(cells, Eigen::VectorXd::Zero(10), loaded), 0);
+}
+
 }  // namespace
 }  // namespace dovetail::optimizer

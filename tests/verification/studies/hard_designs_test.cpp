@@ -67,12 +67,15 @@ TEST(HardDesigns, ADoubtIsKeptWhereTheResonanceIsFollowed) {
   EXPECT_LE(followed.asymptote->bearing.share, held.asymptote->bearing.share);
 }
 
-// 128 edges say 832 MPa, 24 say 333: a length of 0.8 um at which the rounding takes the peak off is not seen.
+// A radius of 0.3 mm takes the peak off over 0.8 um: 128 edges say 832 MPa, 24 say 340. With one of 0.05 mm
+// 24 edges say 399, 36 say 460 and 128 say 1054 MPa: the change from mesh to mesh does not tell how far it is.
 TEST(HardDesigns, APeakThatTheMeshDoesNotResolveHasNoBar) {
-  const optimizer::Evaluation evaluation = evaluated({{"geometry.flank_edge_radius_mm", 0.3}}, true).evaluation;
-  ASSERT_TRUE(evaluation.converged()) << evaluation.status;
-  EXPECT_EQ(evaluation.unbounded, std::vector<std::string>{"contact_pressure_max_pa"});
-  EXPECT_FALSE(evaluation.error_estimates.contains("contact_pressure_max_pa"));
+  for (const double radius : {0.3, 0.05}) {
+    const optimizer::Evaluation evaluation = evaluated({{"geometry.flank_edge_radius_mm", radius}}, true).evaluation;
+    ASSERT_TRUE(evaluation.converged()) << evaluation.status;
+    EXPECT_EQ(evaluation.unbounded, std::vector<std::string>{"contact_pressure_max_pa"}) << radius;
+    EXPECT_FALSE(evaluation.error_estimates.contains("contact_pressure_max_pa")) << radius;
+  }
 }
 
 // The finer companion of the bars stays within the ranges that keys have.
