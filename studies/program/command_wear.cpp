@@ -171,11 +171,19 @@ std::string certificate_words(const wear::Asymptote& asymptote) {
 
 std::string summary(const WearQuestion& question, const WearAnswer& answer) {
   const char* unknown = answer.status == "no_asymptote" ? "none: wear goes on for ever" : "not known";
-  const auto known = [&](double value) { return answer.known() ? fmt::format("{:.6g}", value) : unknown; };
+  const auto known = [&](double value, double WearBars::*bar) {
+    if (!answer.known()) return std::string(unknown);
+    std::string text = fmt::format("{:.6g}", value);
+    if (!question.bars) return text;
+    const double size = *question.bars.*bar;
+    return text + (std::isfinite(size) ? fmt::format(" +- {:.2g}", size) : " +- not known");
+  };
   const std::string status = answer.status + (answer.reason.empty() ? "" : " (" + answer.reason + ")");
-  std::string text = fmt::format("status          {}\nfrequency_hz    {:.9g} ({})\nworn_volume_m3  {}\n", status,
-                                 question.frequency_hz, follow_words(question.follow), known(answer.volume));
-  text += fmt::format("largest_depth_m {}\nsolves          {}\n", known(answer.largest_depth()), answer.solves);
+  std::string text =
+      fmt::format("status          {}\nfrequency_hz    {:.9g} ({})\nworn_volume_m3  {}\n", status,
+                  question.frequency_hz, follow_words(question.follow), known(answer.volume, &WearBars::worn_volume));
+  text += fmt::format("largest_depth_m {}\nsolves          {}\n",
+                      known(answer.largest_depth(), &WearBars::largest_depth), answer.solves);
   if (answer.asymptote && answer.worn_out()) text += certificate_words(*answer.asymptote);
   if (!question.spread) return text;
   for (const wear::SpreadRange& range : question.spread->ranges)

@@ -47,6 +47,16 @@ class WearFiles(unittest.TestCase):
         with open(path) as stream:
             return json.load(stream)
 
+    def test_console_has_the_bars_of_the_answer(self):
+        asked = ("rod.h5", "--method", "asymptote", *AT, "--error-bars")
+        bars = self.wear(*asked)["error_bars"]
+        done = subprocess.run([DOVETAIL, "wear", *asked], capture_output=True, text=True, cwd=self.folder.name,
+                              env={**os.environ, "OPENBLAS_NUM_THREADS": "1"}, timeout=120)
+        for key in ("worn_volume_m3", "largest_depth_m"):
+            line = next(line for line in done.stdout.splitlines() if line.startswith(key))
+            said = float(line.split(" +- ")[1])
+            self.assertLessEqual(abs(said - bars[key]), 0.06 * bars[key], line)
+
     def refusal(self, model, *options):
         self.wear(model, *HISTORY, *options, file="refused.json", status=2)
         self.assertFalse(os.path.exists(os.path.join(self.folder.name, "refused.json")))

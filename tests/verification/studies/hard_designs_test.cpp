@@ -78,6 +78,17 @@ TEST(HardDesigns, APeakThatTheMeshDoesNotResolveHasNoBar) {
   }
 }
 
+// 128 edges say 157.9 MPa.
+TEST(HardDesigns, APeakThatTheMeshResolvesHasABarThatHolds) {
+  const optimizer::Evaluation evaluation =
+      evaluated({{"geometry.flank_edge_radius_mm", 100}, {"mesh.flank_elements", 48}}, true).evaluation;
+  ASSERT_TRUE(evaluation.converged()) << evaluation.status;
+  EXPECT_TRUE(evaluation.unbounded.empty());
+  const double bar = evaluation.error_estimates.at("contact_pressure_max_pa");
+  EXPECT_NEAR(evaluation.responses.at("contact_pressure_max_pa"), 157.9e6, bar);
+  EXPECT_LT(bar, 12e6);
+}
+
 // The finer companion of the bars stays within the ranges that keys have.
 TEST(HardDesigns, BarsOfAMeshNextToTheFinestThereIs) {
   optimizer::Scene scene = load_study(QUICKSTART, {}).scene;
