@@ -164,7 +164,7 @@ TEST(Report, SaysWhenTheStartStaysTheBest) {
   record.best = record.baseline;
   EXPECT_THAT(headline(record), testing::StartsWith("No candidate was better than the start"));
   // What speaks against it comes first here, too.
-  record.verifications.resize(1);
+  record.verifications.assign(1, {});
   record.verifications[0].status = "disagrees: finer mesh 2, history on it 1, bars 0.5";
   EXPECT_THAT(headline(record), testing::StartsWith("The verification does not confirm the best design"));
   EXPECT_THAT(headline(record), HasSubstr("No candidate was better than the start"));
