@@ -323,6 +323,9 @@ void add_error_bars(const Scene& scene, const ModelBuilder& builder, const Other
           "large as its error bar.");
   }
   bars.add("contact_grid", "dissipated_energy_j", slip_left_open);
+  // What friction takes from a vibration is a part of what the load brings, and the amplitude changes by that part.
+  bars.add("contact_grid", "peak_amplitude_m",
+           result.unworn->amplitude * slip_left_open / result.unworn->state.input_energy);
   if (scene.contact.friction > 0)
     bars.add("contact_grid", "initial_wear_rate_m3_per_cycle",
              scene.contact.wear_coefficient * slip_left_open / scene.contact.friction);
