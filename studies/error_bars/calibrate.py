@@ -212,7 +212,7 @@ def main():
     parser.add_argument("program", nargs="?", help="build/dovetail")
     parser.add_argument("--designs", type=int, default=200)
     parser.add_argument("--first", type=int, default=0, help="index of the first design")
-    parser.add_argument("--seed", type=int, default=1, help="1 and 2 were used while the bars were built, 3 to judge them")
+    parser.add_argument("--seed", type=int, default=1, help="1 to 4 have been looked at while the bars were built: see README.md")
     parser.add_argument("--space", action="store_true")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--lines", default="error_bars.jsonl", help="one line per design, kept and gone on with")

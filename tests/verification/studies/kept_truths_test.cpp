@@ -1,6 +1,5 @@
-// Error bars of random designs against responses at settings four times as fine, which studies/error_bars keeps: some
-// designs at which nobody looked while the bars were built. The study judges all of them; this tells when bars stop
-// holding.
+// Error bars of a few random designs against responses at settings four times as fine, which studies/error_bars keeps.
+// The study judges many more; this tells when bars stop holding.
 #include <gtest/gtest.h>
 
 #include <cmath>
