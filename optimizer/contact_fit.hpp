@@ -17,6 +17,7 @@ struct Computation {
   ContactFitOptions contact = {};
   double penalty_scale = 1;  ///< of the pseudo-penalty
   bool history = false;      ///< where the direct worn state is in doubt the wear history decides
+  bool wear = true;          ///< else the unworn joint alone
 };
 
 struct ContactFit {

@@ -164,8 +164,11 @@ std::string dynamics(const Scene& scene, const Computation& how, const ContactFi
   responses["resonance_hz"] = hertz(result.unworn->omega);
   responses["peak_amplitude_m"] = result.unworn->amplitude;
   responses["dissipated_energy_j"] = result.unworn->state.friction_energy;
+  responses["initial_wear_rate_m3_per_cycle"] =
+      wear::worn_volume(model.reduction.model.contact, result.unworn->state.wear_rate);
   fillet_responses(scene, result);
   evaluation.timings_s["stress"] = watch.lap();
+  if (!how.wear) return "converged";
 
   WornState state = worn_state(scene, model, *result.unworn, steady, "unsettled");
   if (how.history && state.asymptote.verdict == wear::Verdict::asymptote)
@@ -183,8 +186,6 @@ std::string dynamics(const Scene& scene, const Computation& how, const ContactFi
   evaluation.model["wear_bearing_share"] = asymptote.bearing.share;
   evaluation.model["wear_depth_over_compression"] = asymptote.bearing.closing;
   note_doubt(model.reduction.model.contact, asymptote, evaluation);
-  responses["initial_wear_rate_m3_per_cycle"] =
-      wear::worn_volume(model.reduction.model.contact, result.held ? result.held->unworn_rate : asymptote.unworn_rate);
   responses["asymptotic_wear_volume_m3"] = asymptote.worn_volume;
   responses["asymptotic_wear_depth_max_m"] = asymptote.largest_depth;
 
@@ -252,8 +253,9 @@ SceneEvaluator::SceneEvaluator(const Scene& reference)
 
 CandidateResult SceneEvaluator::evaluate(const Scene& scene, const Purpose& purpose) const {
   Stopwatch total;
-  CandidateResult result = computed(scene, builder_.build(scene), {.contact = {}, .history = purpose.history});
-  if (purpose.bars && result.evaluation.converged()) {
+  CandidateResult result =
+      computed(scene, builder_.build(scene), {.contact = {}, .history = purpose.history, .wear = purpose.wear});
+  if (purpose.bars && purpose.wear && result.evaluation.converged()) {
     Stopwatch watch;
     add_error_bars(scene, builder_, others_, result);
     result.evaluation.timings_s["error_estimates"] = watch.lap();

@@ -30,6 +30,7 @@ struct CandidateResult {
 struct Purpose {
   bool bars = true;     ///< error bars of all responses
   bool history = true;  ///< where the direct worn state is in doubt, the wear history decides
+  bool wear = true;     ///< else the responses of the unworn joint alone, and no bars
 };
 inline constexpr Purpose kSearch{.bars = false, .history = false};
 

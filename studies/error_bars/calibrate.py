@@ -107,7 +107,7 @@ def draw(program, scene, seed, index):
 
 def true_values(program, scene, settings):
     """A row of the file of truths: settings and the responses at fine settings, the wear history asked where in doubt."""
-    fine = evaluate(program, scene["study"], settings | scene["fine"], ["--no-bars"])
+    fine = evaluate(program, scene["study"], settings | scene["fine"], ["--no-bars", *scene.get("extra", ())])
     return {"status": fine["status"], "seconds": round(fine["timings_s"]["total"], 1)} | {
         key: repr(value) for key, value in settings.items()} | {
         name: f"{value:.9g}" for name, value in fine["responses"].items()}
@@ -189,6 +189,8 @@ def table(rows):
     for name in [key[:-5] for key in (both[0] if both else {}) if key.endswith(":fine")]:
         bars, errors, scales, inside, without = [], [], [], 0, 0
         for row in both:
+            if row[name + ":fine"] == "":
+                continue
             if row[name + ":bar"] == "":
                 without += 1
                 continue
@@ -198,7 +200,8 @@ def table(rows):
             # What both settings compute to the last digits (a mass) has no error; truths are kept with nine.
             inside += errors[-1] <= bars[-1] + 1e-8 * scales[-1]
         if not bars:
-            lines.append(f"| {name} | 0 |  | {without} |  |  |  |")
+            if without:
+                lines.append(f"| {name} | 0 |  | {without} |  |  |  |")
             continue
         scale = statistics.median(scales) or 1
         bar, error = statistics.median(bars), statistics.median(errors)
@@ -214,6 +217,7 @@ def main():
     parser.add_argument("--first", type=int, default=0, help="index of the first design")
     parser.add_argument("--seed", type=int, default=1, help="1 to 4 have been looked at while the bars were built: see README.md")
     parser.add_argument("--space", action="store_true")
+    parser.add_argument("--unworn", action="store_true", help="only responses of the unworn joint")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--lines", default="error_bars.jsonl", help="one line per design, kept and gone on with")
     parser.add_argument("--table", action="store_true", help="the table of --lines alone")
@@ -224,7 +228,10 @@ def main():
         if not given.program:
             sys.exit("calibrate.py: the program is missing: build/dovetail")
         scene, done = SPACE if given.space else SECTION, {row["design"] for row in rows}
-        truths = Truths(HERE / ("space.csv" if given.space else "section.csv"), scene)
+        file = "space.csv" if given.space else "section.csv"
+        if given.unworn:
+            scene, file = scene | {"extra": ["--unworn"]}, "unworn_" + file
+        truths = Truths(HERE / file, scene)
         indices = range(given.first, given.first + given.designs)
         if given.truths:
             done = {index for seed, index in truths.rows if seed == given.seed}

@@ -35,8 +35,9 @@ void define_study_commands(CLI::App& app, Arguments& a) {
                      "Responses alone, without their error bars: in a fraction of the time");
   evaluate->add_flag("--no-history", a.evaluate.no_history,
                      "The direct worn state stands where it is in doubt, as in a search: the wear history is asked "
-                     "only where the direct "
-                     "method finds none");
+                     "only where the direct method finds none");
+  evaluate->add_flag("--unworn", a.evaluate.unworn,
+                     "Responses of the joint before it wears, without error bars; no objective or limit is judged");
   evaluate->callback([&a] {
     a.command = [&a](const Streams& s) {
       a.evaluate.overrides = a.overrides();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <ostream>
+#include <utility>
 
 #include "core/replace_file.hpp"
 #include "optimizer/problem.hpp"
@@ -73,10 +74,11 @@ std::string evaluation_table(const optimizer::Evaluation& evaluation) {
     if (!response.unit.empty()) text += fmt::format(" {}", response.unit);
     text += "\n";
   }
-  if (!evaluation.constraints.empty()) text += "\nconstraints, satisfied when <= 0\n";
+  const char* heading = "\nconstraints, satisfied when <= 0\n";
   for (const auto& [name, value] : evaluation.constraints)
     if (!name.starts_with(optimizer::kRulePrefix) || value > 0)
-      text += fmt::format("  {:<44} {:>12.5g}{}\n", name, value, sureness(evaluation, name));
+      text +=
+          std::exchange(heading, "") + fmt::format("  {:<44} {:>12.5g}{}\n", name, value, sureness(evaluation, name));
   for (const std::string& name : evaluation.unbounded) text += fmt::format("\n{} has no error bar", name);
   return evaluation.unbounded.empty() ? text : text + "\n";
 }
@@ -90,11 +92,13 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
   const std::shared_ptr<const optimizer::SceneEvaluator> evaluator = scene_evaluator(study);
   const std::optional<Status> automatic = choose_truncation(study.scene, *evaluator, options.solver);
   optimizer::Evaluation evaluation =
-      evaluator->evaluate(study.scene, {.bars = !options.no_bars, .history = !options.no_history}).evaluation;
+      evaluator
+          ->evaluate(study.scene, {.bars = !options.no_bars, .history = !options.no_history, .wear = !options.unworn})
+          .evaluation;
   if (automatic && *automatic != Status::converged)
     evaluation.messages.push_back(
         truncation_complaint(*automatic, optimizer::steady_options(study.scene.solver), options.solver));
-  if (!study.problem.objective.empty() || !study.problem.constraints.empty())
+  if (!options.unworn && (!study.problem.objective.empty() || !study.problem.constraints.empty()))
     optimizer::annotate(study.problem, study.optimizer.constraint_tolerance, evaluation);
   deliver_json(options.json, evaluation_json(evaluation), streams);
   if (options.json != "-") streams.out << evaluation_table(evaluation);

@@ -57,7 +57,7 @@ struct EvaluateOptions {
   std::vector<Override> overrides;
   SolverOverrides solver;
   std::string json;  ///< file, "-" for standard output, empty for a table on standard output
-  bool no_bars = false, no_history = false;
+  bool no_bars = false, no_history = false, unworn = false;
 };
 int run_evaluate(const EvaluateOptions& options, const Streams& streams);
 

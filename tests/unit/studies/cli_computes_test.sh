@@ -37,6 +37,16 @@ expect 0 evaluate s.toml --json -; is_json; cp out again.json
 for key in status feasible parameters responses constraints error_estimates model timings_s; do
   grep -q "\"$key\"" again.json || fail "evaluate has no $key"
 done
+expect 0 evaluate s.toml --unworn --json -; is_json; cp out unworn.json
+if command -v python3 > /dev/null; then
+  python3 - <<'PYTHON' || fail "evaluate --unworn does not give what the joint does before it wears, and that alone"
+import json
+unworn, whole = json.load(open("unworn.json"))["responses"], json.load(open("again.json"))["responses"]
+assert all(whole[name] == value for name, value in unworn.items())
+worn = ("asymptotic", "resonance_drift", "worn")
+assert {name for name in whole if not name.startswith(worn)} == set(unworn)
+PYTHON
+fi
 expect 2 evaluate s.toml --set geometry.neck_width_mm=60 --json -; is_json
 grep -q infeasible out || fail "an impossible neck is not infeasible"
 
