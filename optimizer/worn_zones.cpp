@@ -84,10 +84,11 @@ bool a_node_apart(const fem::ContactCells& cells, const Eigen::VectorXd& one, co
 
 double energy_left_open(const fem::ContactCells& cells, const Eigen::VectorXd& energy,
                         const std::vector<bool>& loaded) {
-  // Slip is largest near the end of a zone that lifts off. A node there that slips stands for its part of the zone up
-  // to the middle of the next, which sticks; where it holds a share s of the zone's energy, a part s^2 of that was
-  // found to be missing or too much on designs of studies/error_bars (seeds 2 and 3): with several nodes in a zone a
-  // finer mesh tells.
+  // Slip is largest near the end of a zone that lifts off, and the zone may end anywhere between its last node and the
+  // middle of the next, which sticks. The energy between is open by a part that grows with the node's share s of the
+  // zone's energy like s^2, as a finer mesh sees what happens in a zone of several nodes. A zone that ends on both
+  // sides is open on both. The part is the one with which the designs of studies/error_bars, seeds 2 and 3, had their
+  // energies inside the bars.
   constexpr double kPart = 0.4;
   constexpr double kSticks = 0.01;  // of the energy per area of its neighbour: creep of nodes that all but stick
   const auto density = [&](std::ptrdiff_t k) { return energy[k] / cells.area[k]; };

@@ -37,7 +37,7 @@ void define_study_commands(CLI::App& app, Arguments& a) {
                      "The direct worn state stands where it is in doubt, as in a search: the wear history is asked "
                      "only where the direct method finds none");
   evaluate->add_flag("--unworn", a.evaluate.unworn,
-                     "Responses of the joint before it wears, without error bars; no objective or limit is judged");
+                     "Responses of the joint before it wears, and limits on them, without error bars");
   evaluate->callback([&a] {
     a.command = [&a](const Streams& s) {
       a.evaluate.overrides = a.overrides();

@@ -1,9 +1,12 @@
 // Commands that read or write study files and compute nothing, or one candidate.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <ostream>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "core/replace_file.hpp"
@@ -83,6 +86,21 @@ std::string evaluation_table(const optimizer::Evaluation& evaluation) {
   return evaluation.unbounded.empty() ? text : text + "\n";
 }
 
+/// Leaves out what an evaluation without wear has no answer for, and says so.
+void keep_unworn(optimizer::Problem& problem, optimizer::Evaluation& evaluation) {
+  std::set<std::string> left;
+  const auto missing = [&](const auto& term) {
+    if (evaluation.responses.contains(term.response)) return false;
+    left.insert(term.response);
+    return true;
+  };
+  std::erase_if(problem.objective, missing);
+  std::erase_if(problem.constraints, missing);
+  if (!left.empty())
+    evaluation.messages.push_back(
+        fmt::format("Without wear nothing is said of {}, nor of limits on it.", fmt::join(left, ", ")));
+}
+
 }  // namespace
 
 int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
@@ -98,7 +116,8 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
   if (automatic && *automatic != Status::converged)
     evaluation.messages.push_back(
         truncation_complaint(*automatic, optimizer::steady_options(study.scene.solver), options.solver));
-  if (!options.unworn && (!study.problem.objective.empty() || !study.problem.constraints.empty()))
+  if (options.unworn && evaluation.converged()) keep_unworn(study.problem, evaluation);
+  if (!study.problem.objective.empty() || !study.problem.constraints.empty())
     optimizer::annotate(study.problem, study.optimizer.constraint_tolerance, evaluation);
   deliver_json(options.json, evaluation_json(evaluation), streams);
   if (options.json != "-") streams.out << evaluation_table(evaluation);

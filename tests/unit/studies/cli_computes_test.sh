@@ -41,6 +41,8 @@ expect 0 evaluate s.toml --unworn --json -; is_json; cp out unworn.json
 if command -v python3 > /dev/null; then
   python3 - <<'PYTHON' || fail "evaluate --unworn does not give what the joint does before it wears, and that alone"
 import json
+limits = json.load(open("unworn.json"))["constraints"]
+assert "contact_pressure_mean_pa:upper" in limits and limits == json.load(open("again.json"))["constraints"]
 unworn, whole = json.load(open("unworn.json"))["responses"], json.load(open("again.json"))["responses"]
 assert all(whole[name] == value for name, value in unworn.items())
 worn = ("asymptotic", "resonance_drift", "worn")

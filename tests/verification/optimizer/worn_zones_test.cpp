@@ -74,6 +74,10 @@ TEST(WornZones, EnergyIsOpenWhereASlippingZoneIsANodeOrTwoWide) {
   Eigen::VectorXd turned = zone_of(2).reverse();
   turned(7) = 1e-10;
   EXPECT_NEAR(energy_left_open(cells, turned, loaded), 0.4e-6 * std::pow(2.0 / 3, 3), 1e-12);
+  // A single node between two that stick: on both sides.
+  Eigen::VectorXd alone = Eigen::VectorXd::Zero(10);
+  alone(4) = 1e-6;
+  EXPECT_DOUBLE_EQ(energy_left_open(cells, alone, loaded), 0.8e-6);
   // No node beyond, or none that bears: there it ends on other nodes, too.
   EXPECT_EQ(energy_left_open(cells, zone_of(10), loaded), 0);
   std::vector<bool> open_beyond = loaded;

@@ -78,15 +78,43 @@ TEST(HardDesigns, APeakThatTheMeshDoesNotResolveHasNoBar) {
   }
 }
 
-// 128 edges say 157.9 MPa.
+// 160 edges say 157.7 and 473.9 MPa. In the second, on hollow flanks, a mesh 1.5 times as fine and nodes 1.5 times as
+// long agree to half the error: what the node is long beside the rounding tells.
 TEST(HardDesigns, APeakThatTheMeshResolvesHasABarThatHolds) {
-  const optimizer::Evaluation evaluation =
-      evaluated({{"geometry.flank_edge_radius_mm", 100}, {"mesh.flank_elements", 48}}, true).evaluation;
+  using Changes = std::vector<std::pair<std::string, double>>;
+  for (const auto& [peak, changes] : {std::pair{157.7e6, Changes{{"geometry.flank_edge_radius_mm", 100}}},
+                                      {473.9e6,
+                                       {{"geometry.flank_edge_radius_mm", 8},
+                                        {"geometry.flank_mismatch_um", 20},
+                                        {"geometry.flank_crown_um", -2.5},
+                                        {"geometry.flank_angle_deg", 47}}}}) {
+    Changes finer = changes;
+    finer.emplace_back("mesh.flank_elements", 48);
+    const optimizer::Evaluation evaluation = evaluated(finer, true).evaluation;
+    ASSERT_TRUE(evaluation.converged()) << evaluation.status;
+    EXPECT_TRUE(evaluation.unbounded.empty());
+    const double bar = evaluation.error_estimates.at("contact_pressure_max_pa");
+    EXPECT_NEAR(evaluation.responses.at("contact_pressure_max_pa"), peak, bar);
+    EXPECT_LT(bar, 0.09 * peak);
+  }
+}
+
+// What 54 edges and nodes of the same number say of this one agrees with 36 to 0.03 %, by accident: 96 edges, all other
+// elements half as large and 15 harmonics say 0.0513 mm^3, 2.9 % more. Nodes 1.5 times as long tell.
+TEST(HardDesigns, MeshesThatAgreeByAccidentAreNoBar) {
+  const optimizer::Evaluation evaluation = evaluated({{"geometry.neck_width_mm", 9.5},
+                                                      {"geometry.neck_fillet_radius_mm", 2.0036783000222385},
+                                                      {"geometry.flank_angle_deg", 47.02909767125675},
+                                                      {"geometry.flank_length_mm", 5.39895725225324},
+                                                      {"geometry.flank_mismatch_um", 15.163268194291959},
+                                                      {"geometry.flank_crown_um", 3.1554181173960387},
+                                                      {"mesh.flank_elements", 36}},
+                                                     true)
+                                               .evaluation;
   ASSERT_TRUE(evaluation.converged()) << evaluation.status;
-  EXPECT_TRUE(evaluation.unbounded.empty());
-  const double bar = evaluation.error_estimates.at("contact_pressure_max_pa");
-  EXPECT_NEAR(evaluation.responses.at("contact_pressure_max_pa"), 157.9e6, bar);
-  EXPECT_LT(bar, 12e6);
+  const double bar = evaluation.error_estimates.at("asymptotic_wear_volume_m3");
+  EXPECT_NEAR(evaluation.responses.at("asymptotic_wear_volume_m3"), 5.13e-11, bar);
+  EXPECT_LT(bar, 0.1 * 5.13e-11);
 }
 
 // The finer companion of the bars stays within the ranges that keys have.
