@@ -149,6 +149,10 @@ void arbitrate(const std::shared_ptr<const response::CondensedModel>& model, dou
       result.verdict = Verdict::not_converged;
       if (result.status == Status::converged || past.end == HistoryEnd::interrupted) result.status = past.status;
     }
+    // However it went on: it has worn more than any state of the joint has.
+    if (result.verdict == Verdict::not_converged && past.end != HistoryEnd::interrupted && last >= 0 &&
+        bearing(*model, result.unworn, result.unworn, past.depth.row(last).transpose()).impossible())
+      result.status = Status::gross_sliding;
     return;
   }
   result.confirmed_by_history = true;

@@ -38,6 +38,23 @@ TEST(HardDesigns, NearGrossSlidingAWornStateOfOneMeshIsNone) {
   EXPECT_TRUE(result.evaluation.error_sources.empty());
 }
 
+// Every loaded node slips, and the history ends without an answer at ten thousand cubic millimetres.
+TEST(HardDesigns, AHistoryWithoutEndThatWearsTheJointAwayIsGrossSliding) {
+  const optimizer::CandidateResult result = evaluated({{"geometry.flank_mismatch_um", 18.67589},
+                                                       {"geometry.flank_crown_um", 8.607668},
+                                                       {"geometry.flank_angle_deg", 48.048168},
+                                                       {"geometry.flank_length_mm", 5.820679},
+                                                       {"geometry.neck_width_mm", 8.84094},
+                                                       {"geometry.neck_fillet_radius_mm", 1.823863},
+                                                       {"contact.friction", 0.237566},
+                                                       {"loading.tip_force_n", 3.542583},
+                                                       {"loading.damping_ratio", 0.001274},
+                                                       {"scene.speed_rpm", 8031.07836}},
+                                                      false);
+  EXPECT_EQ(result.evaluation.status, "asymptote: gross_sliding");
+  EXPECT_FALSE(result.evaluation.responses.contains("asymptotic_wear_volume_m3"));
+}
+
 // Rounded, hollow flanks whose history ends a node apart from the direct method, and with far less wear. An explicit
 // history on 48 edges with 11 harmonics, extrapolated to no increment, ends with 1.555 mm^3, the direct method
 // with 2.7.
