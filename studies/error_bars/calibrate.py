@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Do the error bars hold? Random designs at the default settings against settings that cost fifty times as much.
 
-    python3 studies/error_bars/calibrate.py build/dovetail --designs 200 --seed 2 --lines section.jsonl
+    python3 studies/error_bars/calibrate.py build/dovetail --designs 200 --seed 3 --lines section.jsonl
 
 Every design is evaluated as users do, with bars, and held against its responses at fine settings, which count as the
 truth. Truths that are known stand in section.csv and space.csv beside this program; missing ones are computed
