@@ -257,6 +257,7 @@ ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateMode
       widen_narrow(lengths[l], cells, found[l]);
       misfit.add(edges_now[l], held, found[l], laid[l], lengths[l]);
     }
+    fit.known = true;
     fit.moved = misfit.moved;
     fit.share = misfit.share;
     fit.edges = misfit.edges;

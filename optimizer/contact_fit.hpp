@@ -26,7 +26,7 @@ struct ContactFit {
                      ///< where that could not be computed
   double share = 1;  ///< the same, of the narrower of the two pieces of the flank that meet at the edge
   bool settled = false;  ///< `moved` is within the tolerance
-  bool known = true;     ///< `moved` could be computed
+  bool known = false;    ///< `moved` could be computed
   int edges = 0;         ///< of worn zones
   /// The unworn steady state near its resonance on the nodes laid, for the search of the resonance to start from:
   /// rad/s and m. No displacement where there is none.

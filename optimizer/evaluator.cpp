@@ -235,14 +235,14 @@ CandidateResult computed(const Scene& scene, CandidateModel model, const Computa
   evaluation.model["contact_nodes"] = static_cast<double>(result.model.cells.count());
   evaluation.status = result.model.status;
   if (!result.model.converged()) return result;
-  if (!fit.settled)
+  static_responses(scene, result.model, evaluation);
+  evaluation.status = dynamics(scene, how, fit, result);
+  if (!fit.settled && result.unworn->status == Status::converged)
     evaluation.messages.push_back(
         fit.known ? "The edges of the worn zones did not settle: their contact nodes end beside them, by up to " +
                         shortest(fit.moved) + " of an edge of the mesh."
                   : "The edges of the worn zones are not known: the direct method found no worn state from which to "
                     "take them.");
-  static_responses(scene, result.model, evaluation);
-  evaluation.status = dynamics(scene, how, fit, result);
   note_penalties(result);
   evaluation.model["jacobians_spent"] = result.model.budget->used() / result.model.jacobian_operations;
   return result;

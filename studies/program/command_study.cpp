@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <ostream>
 #include <set>
 #include <string>
@@ -66,7 +67,11 @@ const char* sureness(const optimizer::Evaluation& evaluation, const std::string&
 }
 
 std::string evaluation_table(const optimizer::Evaluation& evaluation) {
-  std::string text = fmt::format("status    {}\nfeasible  {}\n", evaluation.status, evaluation.feasible ? "yes" : "no");
+  std::string text = fmt::format("status    {}\nfeasible  {}", evaluation.status, evaluation.feasible ? "yes" : "no");
+  const auto& undecided = evaluation.undecided_constraints;
+  const bool all =
+      std::ranges::all_of(undecided, [&](const auto& name) { return evaluation.constraints.contains(name); });
+  text += all ? "\n" : ", as far as limits are judged\n";
   if (!evaluation.responses.empty()) text += "\nresponses\n";
   for (const optimizer::ResponseName& response : optimizer::response_names()) {
     const auto value = evaluation.responses.find(std::string(response.name));
@@ -87,7 +92,9 @@ std::string evaluation_table(const optimizer::Evaluation& evaluation) {
 }
 
 /// Leaves out what an evaluation without wear has no answer for, and says so.
-void keep_unworn(optimizer::Problem& problem, optimizer::Evaluation& evaluation) {
+/// @return the names of the limits left out
+std::vector<std::string> keep_unworn(optimizer::Problem& problem, optimizer::Evaluation& evaluation) {
+  std::vector<std::string> unjudged = optimizer::constraint_names(problem);
   std::set<std::string> left;
   const auto missing = [&](const auto& term) {
     if (evaluation.responses.contains(term.response)) return false;
@@ -99,6 +106,9 @@ void keep_unworn(optimizer::Problem& problem, optimizer::Evaluation& evaluation)
   if (!left.empty())
     evaluation.messages.push_back(
         fmt::format("Without wear nothing is said of {}, nor of limits on it.", fmt::join(left, ", ")));
+  const std::vector<std::string> judged = optimizer::constraint_names(problem);
+  std::erase_if(unjudged, [&](const std::string& name) { return std::ranges::count(judged, name) > 0; });
+  return unjudged;
 }
 
 }  // namespace
@@ -116,9 +126,11 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
   if (automatic && *automatic != Status::converged)
     evaluation.messages.push_back(
         truncation_complaint(*automatic, optimizer::steady_options(study.scene.solver), options.solver));
-  if (options.unworn && evaluation.converged()) keep_unworn(study.problem, evaluation);
+  std::vector<std::string> unjudged;
+  if (options.unworn && evaluation.converged()) unjudged = keep_unworn(study.problem, evaluation);
   if (!study.problem.objective.empty() || !study.problem.constraints.empty())
     optimizer::annotate(study.problem, study.optimizer.constraint_tolerance, evaluation);
+  std::ranges::move(unjudged, std::back_inserter(evaluation.undecided_constraints));
   deliver_json(options.json, evaluation_json(evaluation), streams);
   if (options.json != "-") streams.out << evaluation_table(evaluation);
   if (evaluation.status == "infeasible") throw infeasible(options.study, evaluation.messages);

@@ -37,10 +37,12 @@ expect 0 evaluate s.toml --json -; is_json; cp out again.json
 for key in status feasible parameters responses constraints error_estimates model timings_s; do
   grep -q "\"$key\"" again.json || fail "evaluate has no $key"
 done
-expect 0 evaluate s.toml --unworn --json -; is_json; cp out unworn.json
+{ cat s.toml; printf '[[constraint]]\nresponse = "asymptotic_wear_volume_m3"\nupper = 1e-12\n'; } > limited.toml
+expect 0 evaluate limited.toml --unworn --json -; is_json; cp out unworn.json
 if command -v python3 > /dev/null; then
   python3 - <<'PYTHON' || fail "evaluate --unworn does not give what the joint does before it wears, and that alone"
 import json
+assert json.load(open("unworn.json"))["undecided_constraints"] == ["asymptotic_wear_volume_m3:upper"]
 limits = json.load(open("unworn.json"))["constraints"]
 assert "contact_pressure_mean_pa:upper" in limits and limits == json.load(open("again.json"))["constraints"]
 unworn, whole = json.load(open("unworn.json"))["responses"], json.load(open("again.json"))["responses"]

@@ -60,6 +60,11 @@ TEST(SectionEvaluation, EndsWithItsBudget) {
   EXPECT_EQ(part.status.substr(colon + 2), "budget_spent");
   EXPECT_TRUE(part.responses.contains("mass_kg"));
   for (const auto& [name, value] : part.responses) EXPECT_EQ(value, baseline().evaluation.responses.at(name)) << name;
+  // Of worn zones nothing is said where the joint did not come to vibrate.
+  scene.solver.max_jacobians = 3;
+  const Evaluation early = evaluator().evaluate(scene).evaluation;
+  EXPECT_EQ(early.status, "unworn_resonance: budget_spent");
+  EXPECT_TRUE(early.messages.empty());
   Scene hurried = coarse_scene();
   hurried.solver.time_limit = 1e-9;
   EXPECT_NE(evaluator().evaluate(hurried).evaluation.status.find("budget_spent"), std::string::npos);

@@ -116,6 +116,13 @@ TEST(HardDesigns, APeakThatTheMeshResolvesHasABarThatHolds) {
   }
 }
 
+// Under a thousandth of a newton everything sticks.
+TEST(HardDesigns, UnderHardlyAnyForceTheAmplitudeIsKnown) {
+  const optimizer::Evaluation evaluation = evaluated({{"loading.tip_force_n", 1e-3}}, true).evaluation;
+  ASSERT_TRUE(evaluation.converged()) << evaluation.status;
+  EXPECT_LT(evaluation.error_estimates.at("peak_amplitude_m"), 0.01 * evaluation.responses.at("peak_amplitude_m"));
+}
+
 // What 54 edges and nodes of the same number say of this one agrees with 36 to 0.03 %, by accident: 96 edges, all other
 // elements half as large and 15 harmonics say 0.0513 mm^3, 2.9 % more. Nodes 1.5 times as long tell.
 TEST(HardDesigns, MeshesThatAgreeByAccidentAreNoBar) {
