@@ -23,6 +23,7 @@ namespace dovetail::optimizer {
 namespace {
 
 constexpr double kGridRatio = 1.5;
+constexpr double kSectionRatio = 1 / 1.5;  // of the finer section in space
 
 /// How much of the change of a response by other settings may be left as its error.
 using Factor = std::function<double(const std::string& response)>;
@@ -43,12 +44,18 @@ double left_over(double order, double ratio) {
 }
 
 // The orders were chosen while looking at random designs against meshes four times as fine (studies/error_bars, seeds
-// 1 and 2).
-double mesh_order(const std::string& response) {
+// 1 and 2; in space seed 3).
+double mesh_order(const std::string& response, bool in_space) {
+  const bool fillet = response.ends_with("_fillet_stress_pa");
+  if (in_space) {
+    // Two or three elements on a fillet are too few for the order of finer meshes.
+    if (fillet || response == "contact_pressure_mean_pa" || response == "neck_tension_pa") return 1.5;
+    if (response == "glued_frequency_hz" || response.ends_with("resonance_hz")) return 2.5;
+  }
   // Forces that follow from equilibrium know of the mesh only through its quadratic arcs.
   if (response == "contact_pressure_mean_pa" || response == "neck_tension_pa") return 2;
   // Stresses of fillets, for which what the free surface says of them counts besides.
-  if (response.ends_with("_fillet_stress_pa")) return 2.8;
+  if (fillet) return 2.8;
   if (response == "peak_stress_pa") return 1.3;
   // Most of the worn joint bears on its inner parts.
   if (response == "resonance_drift") return 2.5;
@@ -91,7 +98,7 @@ class Bars {
       }
       if (known) {
         add(source, name, bar);
-      } else {
+      } else if (!companions.back().evaluation->converged()) {  // else it was not asked
         leave_open(name);
         missing_ = companions.back().evaluation->status;
       }
@@ -207,6 +214,18 @@ double slip_at_zone_ends(const CandidateResult& result) {
   return energy_left_open(result.model.cells, energy, loaded);
 }
 
+void set_within_range(Scene& scene, const char* key, double value) {
+  const Range& range = find_parameter(key)->range;
+  set_parameter(scene, key, std::clamp(value, range.lower, range.upper));
+}
+
+/// The design on a mesh whose elements in the section, but for those along the flanks, are `ratio` times as large.
+Scene with_section(Scene scene, double ratio) {
+  for (const char* key : {"mesh.fillet_fraction", "mesh.blend_fraction", "mesh.bulk_size_mm"})
+    set_within_range(scene, key, ratio * parameter(scene, key));
+  return scene;
+}
+
 /// Hardly anything bears, and on other nodes nothing does: that is no worn state.
 void refuse_worn_state(const std::string& status, Evaluation& evaluation) {
   evaluation.status = status;
@@ -267,22 +286,16 @@ void add_peak_pressure(const Scene& scene, CandidateResult& result, Bars& bars) 
 }  // namespace
 
 Scene resized(Scene scene, double ratio) {
-  const auto set = [&scene](const char* key, double value) {
-    const Range& range = find_parameter(key)->range;
-    set_parameter(scene, key, std::clamp(value, range.lower, range.upper));
-  };
   const auto fewer = [&](const char* key) {
     const double count = parameter(scene, key);
-    if (count > 0) set(key, std::max(2.0, std::round(count / ratio)));  // 0: as many as the mesh has
+    if (count > 0)
+      set_within_range(scene, key, std::max(2.0, std::round(count / ratio)));  // 0: as many as the mesh has
   };
   fewer("mesh.flank_elements");
   fewer("mesh.aerofoil_elements");
-  if (!scene.in_space())
-    for (const char* key : {"mesh.fillet_fraction", "mesh.blend_fraction", "mesh.bulk_size_mm"})
-      set(key, ratio * parameter(scene, key));
-  else
-    for (const char* key : {"mesh.slot_elements", "mesh.contact_slot_elements", "mesh.contact_flank_elements"})
-      fewer(key);
+  if (!scene.in_space()) return with_section(std::move(scene), ratio);
+  for (const char* key : {"mesh.slot_elements", "mesh.contact_slot_elements", "mesh.contact_flank_elements"})
+    fewer(key);
   return scene;
 }
 
@@ -291,6 +304,7 @@ OtherMeshes::OtherMeshes(const Scene& reference) {
       reference.in_space() ? std::vector<double>{1.5, 2} : std::vector<double>{1 / 1.5, 1.5};
   for (const double ratio : ratios)
     meshes_.push_back({.ratio = ratio, .builder = ModelBuilder(resized(reference, ratio))});
+  if (reference.in_space()) finer_section_.emplace(with_section(reference, kSectionRatio));
 }
 
 void add_error_bars(const Scene& scene, const ModelBuilder& builder, const OtherMeshes& others,
@@ -319,11 +333,21 @@ void add_error_bars(const Scene& scene, const ModelBuilder& builder, const Other
     const double ratio = static_cast<double>(scene.mesh.flank_elements) / resized_scene.mesh.flank_elements;
     answers.push_back(companion(resized_scene, on_it.build(resized_scene), as_here));
     if (finer || ratio == 1) continue;  // 1: a mesh that is as large as meshes may be
-    meshes.push_back(
-        {&answers.back(), [ratio](const std::string& response) { return left_over(mesh_order(response), ratio); }});
+    meshes.push_back({&answers.back(), [ratio, in_space = scene.in_space()](const std::string& response) {
+                        return left_over(mesh_order(response, in_space), ratio);
+                      }});
     finer = ratio < 1 && answers.back().converged();
   }
   bars.add("mesh", meshes, result.evaluation);
+  if (const ModelBuilder* on_it = others.finer_section()) {
+    Computation how;
+    how.wear = false;
+    const Evaluation finer_section = companion(scene, on_it->build(with_section(scene, kSectionRatio)), how);
+    bars.add("mesh",
+             {{&finer_section,
+               [](const std::string& response) { return left_over(mesh_order(response, true), kSectionRatio); }}},
+             result.evaluation);
+  }
   const Evaluation longer = companion(scene, result.model, cells(kGridRatio));
   const std::string slides = "asymptote: " + std::string(to_string(Status::gross_sliding));
   if (result.asymptote->bearing.doubtful() &&

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "optimizer/candidate_model.hpp"
@@ -9,7 +10,7 @@ namespace dovetail::optimizer {
 struct CandidateResult;
 
 /// The design's scene on another mesh: all sizes `ratio` times as large. In space those of the flanks, the layers and
-/// the aerofoil: the rest is as coarse as elements of the sweep allow.
+/// the aerofoil: the rest of the section is as coarse as elements of the sweep allow.
 [[nodiscard]] Scene resized(Scene scene, double ratio);
 
 /// Makes the models of a study's designs on the other meshes that error bars are asked of.
@@ -24,9 +25,12 @@ class OtherMeshes {
   /// In the plane a finer one and a coarser one, in the order in which the error by the mesh is asked for; in space,
   /// where a finer one would cost more than all else, two coarser ones.
   [[nodiscard]] const std::vector<Mesh>& meshes() const { return meshes_; }
+  /// In space, where those do not resize the section beside the flanks: one that has it finer. Else null.
+  [[nodiscard]] const ModelBuilder* finer_section() const { return finer_section_ ? &*finer_section_ : nullptr; }
 
  private:
   std::vector<Mesh> meshes_;
+  std::optional<ModelBuilder> finer_section_;
 };
 
 /// Fills error_sources, error_estimates and unbounded of a converged evaluation. How far a response may be from that of
@@ -36,9 +40,10 @@ class OtherMeshes {
 /// - mesh: d to a mesh with 1.5 times the edges, with contact nodes of its own. With an error of order p,
 ///   d / (1 - 1.5^-p) is left: p = 1.3 for the peak stress, 1.5 for worn volume, worn amplitude and frequencies, 1.6
 ///   for slip next to the sharp ends of flanks, 2 for worn depth and resultants, 2.5 for drift, 2.8 for fillet
-///   stresses. In space d to meshes r = 1.5 and 2 times as coarse, of which d / (r^p - 1) is left; the larger counts,
-///   as a response may by accident change little from one to the next. Of fillet stresses, what the free surface
-///   corrects besides.
+///   stresses; in space 1.5 for resultants and fillet stresses, 2.5 for frequencies. There d to meshes r = 1.5 and 2
+///   times as coarse, of which d / (r^p - 1) is left; the larger counts, as a response may by accident change little
+///   from one to the next; d to a mesh with the same flanks in a section 1.5 times as fine, before wear, counts
+///   besides. Of fillet stresses, what the free surface corrects.
 /// - contact_grid: d to contact nodes 1.5 times as long on the same mesh: 1.03 d, of drift and worn amplitude 0.63 d;
 ///   a quarter of that beside a finer mesh, whose nodes are shorter, too. Worn volumes of zero are asked for on nodes
 ///   half as long, and what a zone as narrow as the nodes at the ends of the contact would wear unseen counts besides.
@@ -57,8 +62,8 @@ class OtherMeshes {
 /// A response without a limit is `unbounded`: the pressure peak at sharp ends of the flanks, and whatever companions
 /// none of which converged leave open (with a message).
 /// @param builder  of the design's own mesh
-/// Cost: an evaluation on a finer mesh, five on coarser ones and one or two on other grids of contact nodes; each has a
-/// budget of its own.
+/// Cost: an evaluation on a finer mesh, five on coarser ones and one or two on other grids of contact nodes; in space
+/// two on coarser meshes and six or seven as large as the design's own. Each has a budget of its own.
 void add_error_bars(const Scene& scene, const ModelBuilder& builder, const OtherMeshes& others,
                     CandidateResult& result);
 

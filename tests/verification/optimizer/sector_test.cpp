@@ -146,6 +146,17 @@ TEST(SectorEvaluation, ConvergesWithEveryResponseAndItsErrorBar) {
   const double bar = evaluation.error_estimates.at("asymptotic_wear_volume_m3");
   EXPECT_GT(bar, 0.1 * volume);
   EXPECT_LT(bar, volume);
+  // The coarser meshes of the bars have the same fillets and blends.
+  Scene finer = scene;
+  finer.mesh.fillet_fraction = 0.25;
+  finer.mesh.blend_fraction = 0.3;
+  finer.mesh.bulk_size = 5e-3;
+  const Evaluation section =
+      SceneEvaluator(finer).evaluate(finer, {.bars = false, .history = false, .wear = false}).evaluation;
+  ASSERT_TRUE(section.converged()) << section.status;
+  for (const char* name :
+       {"contact_pressure_mean_pa", "neck_tension_pa", "blade_fillet_stress_pa", "disk_fillet_stress_pa"})
+    EXPECT_NEAR(evaluation.responses.at(name), section.responses.at(name), evaluation.error_estimates.at(name)) << name;
 }
 
 TEST(SectorSymmetry, MirroredSlotsHaveMirroredPressures) {
