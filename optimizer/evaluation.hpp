@@ -21,7 +21,8 @@ struct Evaluation {
   std::map<std::string, double> error_estimates;  ///< response name -> error bar over all sources
   std::map<std::string, std::map<std::string, double>> error_sources;  ///< response name -> source -> part of the bar
   std::vector<std::string> unbounded;              ///< responses without a bar: they have no limit, or it is not known
-  std::vector<std::string> undecided_constraints;  ///< names of those whose value lies within its bar of the limit
+  std::vector<std::string> undecided_constraints;  ///< names of those that the values do not decide: within their bar,
+                                                   ///< without one, or without a value
   std::map<std::string, double> model;             ///< sizes chosen: dofs, contact nodes, modes, ...
   std::map<std::string, double> timings_s;
   std::vector<std::string> messages;  ///< broken rules, re-meshing, fall-backs: for people
