@@ -26,6 +26,7 @@ import tomllib
 
 HERE = pathlib.Path(__file__).resolve().parent
 STUDIES = HERE.parent
+FINE_LIMIT_S = 3600  # fine settings have two or three minutes of work; one design of 200 had no answer after an hour
 RESPONSES = (
     "asymptotic_wear_depth_max_m", "asymptotic_wear_volume_m3", "blade_fillet_stress_pa", "contact_pressure_max_pa",
     "contact_pressure_mean_pa", "disk_fillet_stress_pa", "dissipated_energy_j", "glued_frequency_hz",
@@ -84,11 +85,11 @@ def ranges(scene):
     return {v["key"]: (v["lower"], v["upper"]) for v in variables} | scene["box"]
 
 
-def evaluate(program, study, settings, extra=()):
+def evaluate(program, study, settings, extra=(), limit_s=None):
     command = [program, "evaluate", str(study), "--json", "-", *extra]
     for key, value in settings.items():
         command += ["--set", f"{key}={value}"]
-    done = subprocess.run(command, capture_output=True, text=True, check=False,
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=limit_s,
                           env=os.environ | {"OPENBLAS_NUM_THREADS": "1"})
     if not done.stdout:
         raise RuntimeError(f"{' '.join(command)}: exit status {done.returncode}\n{done.stderr}")
@@ -107,9 +108,13 @@ def draw(program, scene, seed, index):
 
 def true_values(program, scene, settings):
     """A row of the file of truths: settings and the responses at fine settings, the wear history asked where in doubt."""
-    fine = evaluate(program, scene["study"], settings | scene["fine"], ["--no-bars", *scene.get("extra", ())])
-    return {"status": fine["status"], "seconds": round(fine["timings_s"]["total"], 1)} | {
-        key: repr(value) for key, value in settings.items()} | {
+    given = {key: repr(value) for key, value in settings.items()}
+    try:
+        fine = evaluate(program, scene["study"], settings | scene["fine"], ["--no-bars", *scene.get("extra", ())],
+                        FINE_LIMIT_S)
+    except subprocess.TimeoutExpired:
+        return given | {"status": "out_of_time", "seconds": FINE_LIMIT_S}
+    return {"status": fine["status"], "seconds": round(fine["timings_s"]["total"], 1)} | given | {
         name: f"{value:.9g}" for name, value in fine["responses"].items()}
 
 
