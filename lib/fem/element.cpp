@@ -84,8 +84,8 @@ double stiffness_and_mass(const ElementNodes<Element>& nodes, const Elasticity<E
 }
 
 template <class Element>
-void geometric_stiffness(const ElementNodes<Element>& nodes, const Eigen::Ref<const PointStress<Element>>& stress,
-                         double thickness, ScalarMatrix<Element>& stiffness) {
+void geometric_stiffness(const ElementNodes<Element>& nodes, const PointStressView<Element>& stress, double thickness,
+                         ScalarMatrix<Element>& stiffness) {
   stiffness.setZero();
   for (std::size_t q = 0; q < Element::kPoints; ++q) {
     const SpatialGradients<Element> space = to_space<Element>(nodes, table<Element>().gradients[q]);
@@ -114,8 +114,8 @@ ElementMoments<Element> element_moments(const ElementNodes<Element>& nodes) {
   template Elasticity<Element> elasticity<Element>(const Material&, bool);                                            \
   template double stiffness_and_mass<Element>(const ElementNodes<Element>&, const Elasticity<Element>&, double,       \
                                               double, ElementMatrix<Element>&, ScalarMatrix<Element>&);               \
-  template void geometric_stiffness<Element>(                                                                         \
-      const ElementNodes<Element>&, const Eigen::Ref<const PointStress<Element>>&, double, ScalarMatrix<Element>&);   \
+  template void geometric_stiffness<Element>(const ElementNodes<Element>&, const PointStressView<Element>&, double,   \
+                                             ScalarMatrix<Element>&);                                                 \
   template ElementMoments<Element> element_moments<Element>(const ElementNodes<Element>&);
 DOVETAIL_INSTANTIATE(Triangle6)
 DOVETAIL_INSTANTIATE(Wedge18)

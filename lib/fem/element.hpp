@@ -40,6 +40,8 @@ template <class Element>
 using Elasticity = Eigen::Matrix<double, Element::kStresses, Element::kStresses>;
 template <class Element>
 using PointStress = Eigen::Matrix<double, Element::kStresses, Element::kPoints>;
+template <class Element>
+using PointStressView = Eigen::Ref<const PointStress<Element>>;
 
 /// Positions of an element's nodes.
 template <class Element>
@@ -106,8 +108,8 @@ double stiffness_and_mass(const ElementNodes<Element>& nodes, const Elasticity<E
 /// K_g = integral of grad N_a . sigma . grad N_b for one component (N/m), the same for all of them.
 /// `stress` at the quadrature points, Pa.
 template <class Element>
-void geometric_stiffness(const ElementNodes<Element>& nodes, const Eigen::Ref<const PointStress<Element>>& stress,
-                         double thickness, ScalarMatrix<Element>& stiffness);
+void geometric_stiffness(const ElementNodes<Element>& nodes, const PointStressView<Element>& stress, double thickness,
+                         ScalarMatrix<Element>& stiffness);
 
 /// Volume (in the plane: area) and first moment of one element.
 template <class Element>

@@ -118,7 +118,7 @@ SlipFrame ContactTimeline::frame_along(const Eigen::Vector2d& along, double tau)
 }
 
 Eigen::Vector2d ContactTimeline::turned_from(int sample, double tau) const {
-  const Eigen::Vector2d along = direction_at(sample);
+  Eigen::Vector2d along = direction_at(sample);
   if (prediction_.rows() < 3) return along;
   const SlipFrame frame = frame_along(along, instant(sample));
   // Where the limit force is about to vanish the rate says nothing over a whole sample.

@@ -34,7 +34,8 @@ const std::array<QuadraturePoint<3>, Wedge18::kPoints>& Wedge18::quadrature() {
 
 Wedge18::Point Wedge18::node(int index) {
   const Triangle6::Point plane = Triangle6::node(index % kLayer);
-  return {plane[0], plane[1], static_cast<double>(index / kLayer - 1)};
+  const int layer = index / kLayer;
+  return {plane[0], plane[1], layer - 1.0};
 }
 
 Wedge18::Shape Wedge18::shape(const Point& local) {
