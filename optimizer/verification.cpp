@@ -106,8 +106,7 @@ std::string compare(const Scene& scene, const CandidateResult& fine, const Verif
   verification.history_profile = fine.asymptote->depth;
   // Where every node sticks a history would not leave its first state.
   if (verification.direct_depth > 0)
-    if (const std::string ended = wear_down(scene, fine, options, control, verification); ended != "converged")
-      return ended;
+    if (std::string ended = wear_down(scene, fine, options, control, verification); ended != "converged") return ended;
   return judged(verification);
 }
 

@@ -10,7 +10,7 @@
 #include "studies/paper_sequence/page.hpp"
 #include "studies/program/study.hpp"
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   dovetail::numerics::prepare_blas(argv);
   using namespace dovetail;
   CLI::App app{"Vibration and fretting wear of a bladed disk, in a plane section or in space, figure by figure."};
@@ -29,48 +29,46 @@ int main(int argc, char** argv) {
     std::printf("%6.1f s  %s\n", passed(), what.c_str());
     std::fflush(stdout);
   };
-  try {
-    studies::Study study = studies::load_study(study_file);
-    if (study.scene.in_space()) {
-      // Each point and each diameter costs a hundred times those of a section.
-      options.curve_points = 61;
-      options.curve_states = 5;
-      options.history_steps = 50;
-      options.nodal_diameter_modes = 4;
-    }
-    if (quick) {
-      study.scene.mesh.flank_elements = study.scene.in_space() ? 6 : 16;
-      study.scene.mesh.aerofoil_elements = study.scene.in_space() ? 6 : 12;
-      study.scene.mesh.bulk_size *= 1.6;
-      study.scene.solid_mesh.slot_elements = 4;
-      study.scene.solid_mesh.contact_slot_elements = 0;
-      options.curve_points = 21;
-      options.history_steps = 16;
-      options.curve_states = 4;
-      options.nodal_diameter_modes = 2;
-    }
-    paper_sequence::Results results = paper_sequence::compute(study.scene, options);
-    results.quick = quick;
-    results.study_text = study.text;
-    results.commit = commit;
+  studies::Study study = studies::load_study(study_file);
+  if (study.scene.in_space()) {
+    // Each point and each diameter costs a hundred times those of a section.
+    options.curve_points = 61;
+    options.curve_states = 5;
+    options.history_steps = 50;
+    options.nodal_diameter_modes = 4;
+  }
+  if (quick) {
+    study.scene.mesh.flank_elements = study.scene.in_space() ? 6 : 16;
+    study.scene.mesh.aerofoil_elements = study.scene.in_space() ? 6 : 12;
+    study.scene.mesh.bulk_size *= 1.6;
+    study.scene.solid_mesh.slot_elements = 4;
+    study.scene.solid_mesh.contact_slot_elements = 0;
+    options.curve_points = 21;
+    options.history_steps = 16;
+    options.curve_states = 4;
+    options.nodal_diameter_modes = 2;
+  }
+  paper_sequence::Results results = paper_sequence::compute(study.scene, options);
+  results.quick = quick;
+  results.study_text = study.text;
+  results.commit = commit;
+  results.seconds = passed();
+  paper_sequence::write(folder, results);
+  if (converge) {
+    paper_sequence::ConvergenceOptions levels;
+    if (quick) levels = {.mesh_factors = {1.25, 1}, .modes = {20}, .harmonics = {1, 3}, .samples = {64, 128}};
+    levels.progress = options.progress;
+    results.convergence = paper_sequence::convergence(study.scene, levels);
     results.seconds = passed();
     paper_sequence::write(folder, results);
-    if (converge) {
-      paper_sequence::ConvergenceOptions levels;
-      if (quick) levels = {.mesh_factors = {1.25, 1}, .modes = {20}, .harmonics = {1, 3}, .samples = {64, 128}};
-      levels.progress = options.progress;
-      results.convergence = paper_sequence::convergence(study.scene, levels);
-      results.seconds = passed();
-      paper_sequence::write(folder, results);
-    }
-    options.progress("done: " + folder + "/report.html");
-    for (const std::string& failure : results.failures) std::fprintf(stderr, "%s\n", failure.c_str());
-    return results.failures.empty() ? 0 : 3;
-  } catch (const InputError& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 1;
   }
+  options.progress("done: " + folder + "/report.html");
+  for (const std::string& failure : results.failures) std::fprintf(stderr, "%s\n", failure.c_str());
+  return results.failures.empty() ? 0 : 3;
+} catch (const dovetail::InputError& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 2;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
 }

@@ -85,7 +85,8 @@ Node value_of(const Override& given) {
 Node& member(Node& table, const std::string& key) {
   for (Member& m : table.members)
     if (m.key == key) return m.value;
-  return table.members.emplace_back(key, Node{}).value;
+  table.members.push_back({.key = key, .value = {}});
+  return table.members.back().value;
 }
 
 }  // namespace
@@ -128,7 +129,7 @@ const Node* Node::at(std::string_view path) const {
 
 Override parse_override(const std::string& assignment) {
   const std::size_t equals = assignment.find('=');
-  const auto trimmed = [](std::string text) {
+  const auto trimmed = [](const std::string& text) {
     const std::size_t first = text.find_first_not_of(" \t");
     if (first == std::string::npos) return std::string();
     return text.substr(first, text.find_last_not_of(" \t") - first + 1);

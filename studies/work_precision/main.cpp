@@ -9,7 +9,7 @@
 #include "studies/work_precision/diagrams.hpp"
 #include "studies/work_precision/results.hpp"
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   dovetail::numerics::prepare_blas(argv);
   using namespace dovetail;
   using namespace dovetail::work_precision;
@@ -27,20 +27,18 @@ int main(int argc, char** argv) {
     std::printf("%6.1f s  %s\n", passed.count(), what.c_str());
     std::fflush(stdout);
   };
-  try {
-    Results results;
-    results.made = circumstances();
-    results.made.commit = commit;
-    results.made.quick = options.quick;
-    results.diagrams.push_back(patch_diagram(options));
-    results.diagrams.push_back(scene_diagram(options));
-    results.growth = measure_growth(options.quick, options.progress);
-    results.made.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    write(folder, results);
-    options.progress("done: " + folder + "/index.html");
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 1;
-  }
+  Results results;
+  results.made = circumstances();
+  results.made.commit = commit;
+  results.made.quick = options.quick;
+  results.diagrams.push_back(patch_diagram(options));
+  results.diagrams.push_back(scene_diagram(options));
+  results.growth = measure_growth(options.quick, options.progress);
+  results.made.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  write(folder, results);
+  options.progress("done: " + folder + "/index.html");
   return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
 }
