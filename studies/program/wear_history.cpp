@@ -50,10 +50,11 @@ std::vector<double> curve_frequencies(const WearOptions& options, const LoadedMo
     const response::SteadyState peak = response::steady_state(loaded.condensed, from, unworn, loaded.steady);
     constexpr double kFirst = 1e-5, kWidest = 0.1, kWidths = 3;
     double width = kFirst;
-    for (; width < kWidest; width *= 2) {
+    while (width < kWidest) {
       const response::SteadyState side =
           response::steady_state(loaded.condensed, from * (1 - width), unworn, loaded.steady, peak.displacement);
       if (side.status == Status::converged && side.amplitudes[0] < 0.5 * peak.amplitudes[0]) break;
+      width *= 2;
     }
     low = std::min(from, to) * (1 - kWidths * width) / kTurn;
     high = std::max(from, to) * (1 + kWidths * width) / kTurn;
