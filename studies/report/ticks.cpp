@@ -55,16 +55,19 @@ Ticks linear_ticks(double lower, double upper, int count, bool tight) {
   const double step = nice_step((upper - lower) / count);
   Ticks ticks{.lower = lower, .upper = upper, .at = {}, .labels = {}};
   constexpr double kRounding = 1e-6;
-  const double first = tight ? std::ceil(lower / step - kRounding) : std::floor(lower / step + kRounding);
-  const double last = tight ? std::floor(upper / step + kRounding) : std::ceil(upper / step - kRounding);
+  const long long first =
+      std::llround(tight ? std::ceil(lower / step - kRounding) : std::floor(lower / step + kRounding));
+  const long long last =
+      std::llround(tight ? std::floor(upper / step + kRounding) : std::ceil(upper / step - kRounding));
   const int decimals = decimals_of(step);
-  for (double i = first; i <= last; ++i) {
-    ticks.at.push_back(i * step);
-    ticks.labels.push_back(label(i * step, decimals));
+  for (long long i = first; i <= last; ++i) {
+    const double at = static_cast<double>(i) * step;
+    ticks.at.push_back(at);
+    ticks.labels.push_back(label(at, decimals));
   }
   if (!tight) {
-    ticks.lower = std::min(lower, first * step);
-    ticks.upper = std::max(upper, last * step);
+    ticks.lower = std::min(lower, static_cast<double>(first) * step);
+    ticks.upper = std::max(upper, static_cast<double>(last) * step);
   }
   // Ticks must lie within the range although `first` and `last` were rounded.
   for (double& at : ticks.at) at = std::clamp(at, ticks.lower, ticks.upper);
@@ -73,17 +76,18 @@ Ticks linear_ticks(double lower, double upper, int count, bool tight) {
 
 Ticks logarithmic_ticks(double lower, double upper) {
   assert(lower > 0 && lower <= upper && std::isfinite(upper));
-  double first = std::floor(std::log10(lower) + 1e-9), last = std::ceil(std::log10(upper) - 1e-9);
+  int first = static_cast<int>(std::floor(std::log10(lower) + 1e-9));
+  int last = static_cast<int>(std::ceil(std::log10(upper) - 1e-9));
   if (first == last) ++last;
   Ticks ticks{.lower = std::pow(10.0, first), .upper = std::pow(10.0, last), .at = {}, .labels = {}};
-  const double every = std::max(1.0, std::ceil((last - first) / 7));
+  const int every = std::max(1, (last - first + 6) / 7);
   const bool few = last - first <= 2;
-  for (double e = first; e <= last; e += every) {
+  for (int e = first; e <= last; e += every) {
     for (const double factor : {1.0, 2.0, 5.0}) {
       const double value = factor * std::pow(10.0, e);
       if ((factor > 1 && !few) || value > ticks.upper * (1 + 1e-9)) continue;
       ticks.at.push_back(value);
-      ticks.labels.push_back(e < 4 ? significant(value, 1) : power_label(factor, static_cast<int>(e)));
+      ticks.labels.push_back(e < 4 ? significant(value, 1) : power_label(factor, e));
     }
   }
   return ticks;
