@@ -15,8 +15,9 @@ struct Grid {
       : side(static_cast<Eigen::Index>(std::ceil(std::sqrt(static_cast<double>(nodes))))) {}
   // Position within the unit square.
   [[nodiscard]] Eigen::Vector2d at(Eigen::Index node) const {
-    const double size = static_cast<double>(side);
-    return {(static_cast<double>(node % side) + 0.5) / size, (static_cast<double>(node / side) + 0.5) / size};
+    const Eigen::Index row = node / side, column = node % side;
+    return Eigen::Vector2d(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5) /
+           static_cast<double>(side);
   }
 };
 
