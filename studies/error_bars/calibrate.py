@@ -26,7 +26,8 @@ import tomllib
 
 HERE = pathlib.Path(__file__).resolve().parent
 STUDIES = HERE.parent
-FINE_LIMIT_S = 3600  # fine settings have two or three minutes of work; one design of 200 had no answer after an hour
+# Fine settings take two or three minutes, in space up to 25; one section of 200 had no answer after an hour.
+FINE_LIMIT_S = 3600
 RESPONSES = (
     "asymptotic_wear_depth_max_m", "asymptotic_wear_volume_m3", "blade_fillet_stress_pa", "contact_pressure_max_pa",
     "contact_pressure_mean_pa", "disk_fillet_stress_pa", "dissipated_energy_j", "glued_frequency_hz",
