@@ -147,7 +147,7 @@ void arbitrate(const std::shared_ptr<const response::CondensedModel>& model, dou
   if (past.end != HistoryEnd::worn_out && past.end != HistoryEnd::steady_rate) {
     if (past.end == HistoryEnd::interrupted || !certified) {
       result.verdict = Verdict::not_converged;
-      if (result.status == Status::converged || past.end == HistoryEnd::interrupted) result.status = past.status;
+      if (result.status == Status::converged || cut_short(past.status)) result.status = past.status;
     }
     // However it went on: it has worn more than any state of the joint has.
     if (result.verdict == Verdict::not_converged && past.end != HistoryEnd::interrupted && last >= 0 &&

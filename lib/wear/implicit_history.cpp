@@ -57,7 +57,7 @@ ImplicitHistory implicit_history(const std::shared_ptr<const response::Condensed
   std::vector<Record> records;
   const auto finish = [&](HistoryEnd end, Status status) {
     result.end = end;
-    result.status = status;
+    result.status = within(steady.budget, status);
     store(model->contact(), records, result);
     return std::move(result);
   };

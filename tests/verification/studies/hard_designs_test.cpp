@@ -38,6 +38,25 @@ TEST(HardDesigns, NearGrossSlidingAWornStateOfOneMeshIsNone) {
   EXPECT_TRUE(result.evaluation.error_sources.empty());
 }
 
+// Every loaded node slips. Within its budget the history, which is to decide, does not come to an end: that is the
+// reason, whatever the step at hand ended with.
+TEST(HardDesigns, AHistoryThatSpendsTheBudgetSaysSo) {
+  const optimizer::CandidateResult result = evaluated({{"solver.max_jacobians", 500.0},
+                                                       {"geometry.flank_mismatch_um", 2.544841},
+                                                       {"geometry.flank_crown_um", 8.724753},
+                                                       {"geometry.flank_angle_deg", 52.652486},
+                                                       {"geometry.flank_length_mm", 5.495816},
+                                                       {"geometry.neck_width_mm", 8.99782},
+                                                       {"geometry.neck_fillet_radius_mm", 2.268312},
+                                                       {"contact.friction", 0.489531},
+                                                       {"loading.tip_force_n", 4.265078},
+                                                       {"loading.damping_ratio", 0.000391},
+                                                       {"scene.speed_rpm", 10122.990246}},
+                                                      false);
+  EXPECT_EQ(result.evaluation.status, "asymptote: budget_spent");
+  EXPECT_FALSE(result.evaluation.responses.contains("asymptotic_wear_volume_m3"));
+}
+
 // Every loaded node slips, and the history ends without an answer at ten thousand cubic millimetres.
 TEST(HardDesigns, AHistoryWithoutEndThatWearsTheJointAwayIsGrossSliding) {
   const optimizer::CandidateResult result = evaluated({{"geometry.flank_mismatch_um", 18.67589},
