@@ -90,21 +90,25 @@ std::string first_broken(const geometry::Feasibility& feasibility, std::vector<s
   return "infeasible";
 }
 
+double jacobian_operations(const SolverSettings& solver, const CandidateModel& candidate) {
+  return response::jacobian_operations(candidate.cells.count(), candidate.system.full.dimensions, solver.harmonics,
+                                       solver.samples);
+}
+
 }  // namespace
 
 std::vector<fem::Material> materials(const Scene& scene) {
   return {scene.blade, scene.disk};
 }
 
-SharedBudget new_budget(const SolverSettings& solver, const CandidateModel& candidate) {
+SharedBudget new_budget(const SolverSettings& solver, const CandidateModel& candidate, double times) {
   return std::make_shared<Budget>(
-      solver.max_jacobians > 0 ? solver.max_jacobians * candidate.jacobian_operations : kInfinity,
-      solver.time_limit > 0 ? solver.time_limit : kInfinity);
+      solver.max_jacobians > 0 ? times * solver.max_jacobians * jacobian_operations(solver, candidate) : kInfinity,
+      solver.time_limit > 0 ? times * solver.time_limit : kInfinity);
 }
 
 void renew_budget(const SolverSettings& solver, CandidateModel& candidate) {
-  candidate.jacobian_operations = response::jacobian_operations(
-      candidate.cells.count(), candidate.system.full.dimensions, solver.harmonics, solver.samples);
+  candidate.jacobian_operations = jacobian_operations(solver, candidate);
   candidate.budget = new_budget(solver, candidate);
 }
 

@@ -48,8 +48,8 @@ struct CandidateModel {
 /// preload. A stage that fails is named in its status. Cost: dense algebra of their number and a preload.
 void lay_contact(const Scene& scene, const std::vector<fem::FlankCells>& flanks, CandidateModel& candidate);
 
-/// A budget for what is computed on a candidate with contact nodes, by the scene's limits.
-[[nodiscard]] SharedBudget new_budget(const SolverSettings& solver, const CandidateModel& candidate);
+/// A budget for what is computed on a candidate with contact nodes, `times` the limits in `solver`.
+[[nodiscard]] SharedBudget new_budget(const SolverSettings& solver, const CandidateModel& candidate, double times = 1);
 
 /// Gives the candidate a new one for what is computed on it next.
 void renew_budget(const SolverSettings& solver, CandidateModel& candidate);

@@ -88,44 +88,64 @@ struct WornState {
   double omega = 0;                     ///< rad/s, at which wear came to rest
 };
 
-WornState worn_state(const Scene& scene, const CandidateModel& model, const response::Resonance& unworn,
+/// @param before  the unworn steady state at `omega` with the harmonics of `steady`, or null
+WornState worn_state(const Scene& scene, const CandidateModel& model, double omega, const response::SteadyState* before,
                      const response::SteadyOptions& steady, const char* arbitration) {
   wear::AsymptoteOptions options;
   options.arbitration = arbitration;
   options.certify_finer = false;  // more harmonics and samples have their bars
   if (scene.loading.follow != "resonance")
-    return {.asymptote = wear::asymptote(model.condensed, unworn.omega, {}, steady, options, &unworn.state),
-            .held = {},
-            .omega = unworn.omega};
-  wear::FollowedAsymptote found =
-      wear::followed_asymptote(model.condensed, unworn.omega, {}, steady, options, {}, &unworn.state);
+    return {
+        .asymptote = wear::asymptote(model.condensed, omega, {}, steady, options, before), .held = {}, .omega = omega};
+  wear::FollowedAsymptote found = wear::followed_asymptote(model.condensed, omega, {}, steady, options, {}, before);
   return {.asymptote = std::move(found.asymptote), .held = std::move(found.held), .omega = found.omegas.back()};
 }
 
-/// Looks for doubt in a worn state that was found directly and asks the wear history, on a budget of its own. Where
-/// that does not come to an end the direct one stays, in doubt; where it ends within a node of the direct one that
-/// stays, too: on other nodes the history may well end in it.
+/// Whether a history with more harmonics, too, ends nearer to where `history` did than to `direct`. Where the order in
+/// which nodes lift off hangs on the harmonics, histories of neighbouring designs and meshes end in either.
+bool history_stands(Scene scene, const CandidateModel& model, double omega, response::SteadyOptions steady,
+                    double history, double direct) {
+  constexpr int kMoreHarmonics = 2;
+  scene.solver.harmonics = steady.harmonics += kMoreHarmonics;
+  while (steady.samples < 4 * steady.harmonics + 4) scene.solver.samples = steady.samples *= 2;
+  steady.budget = new_budget(scene.solver, model);
+  const wear::Asymptote again = worn_state(scene, model, omega, nullptr, steady, "always").asymptote;
+  if (again.verdict != wear::Verdict::asymptote || !again.confirmed_by_history) return true;
+  return std::abs(again.worn_volume - history) <= std::abs(again.worn_volume - direct);
+}
+
+/// Looks for doubt in a worn state that was found directly and asks the wear history, on a budget of its own. The
+/// direct one stays, in doubt, where the history does not come to an end. It stays, too, where the history ends within
+/// a node of it, as on other nodes the history may well end in it, and where a history with more harmonics does.
 void settle(const Scene& scene, const CandidateModel& model, const response::Resonance& unworn,
             response::SteadyOptions steady, WornState& worn) {
   steady.budget = new_budget(scene.solver, model);
-  WornState asked = worn_state(scene, model, unworn, steady, "auto");
-  if (asked.asymptote.verdict == wear::Verdict::not_converged)
-    worn.asymptote.doubt = asked.asymptote.doubt.empty() ? "unfinished" : asked.asymptote.doubt;
-  else if (asked.asymptote.decided_by == "history" && worn.asymptote.decided_by == "release" &&
-           asked.asymptote.verdict == wear::Verdict::asymptote &&
-           a_node_apart(model.cells, asked.asymptote.depth, worn.asymptote.depth)) {
-    worn.asymptote.doubt = asked.asymptote.doubt;
-    worn.asymptote.confirmed_by_history = true;
-    worn.asymptote.other_states = {{.found_by = "history",
-                                    .depth = asked.asymptote.depth,
-                                    .worn_volume = asked.asymptote.worn_volume,
-                                    .largest_depth = asked.asymptote.largest_depth}};
-  } else
+  WornState asked = worn_state(scene, model, unworn.omega, &unworn.state, steady, "auto");
+  const wear::Asymptote &found = asked.asymptote, &direct = worn.asymptote;
+  if (found.verdict == wear::Verdict::not_converged) {
+    worn.asymptote.doubt = found.doubt.empty() ? "unfinished" : found.doubt;
+    return;
+  }
+  const bool overruled =
+      found.decided_by == "history" && direct.decided_by == "release" && found.verdict == wear::Verdict::asymptote;
+  const bool stays =
+      overruled && (a_node_apart(model.cells, found.depth, direct.depth) ||
+                    (far_apart(model.cells, found.depth, direct.depth) &&
+                     !history_stands(scene, model, unworn.omega, steady, found.worn_volume, direct.worn_volume)));
+  if (!stays) {
     worn = std::move(asked);
+    return;
+  }
+  worn.asymptote.doubt = found.doubt;
+  worn.asymptote.confirmed_by_history = true;
+  worn.asymptote.other_states = {{.found_by = "history",
+                                  .depth = found.depth,
+                                  .worn_volume = found.worn_volume,
+                                  .largest_depth = found.largest_depth}};
 }
 
 /// Whether the worn state was in doubt, and what decided.
-void note_doubt(const reduction::ContactNodes& contact, const wear::Asymptote& asymptote, Evaluation& evaluation) {
+void note_doubt(const CandidateModel& model, const wear::Asymptote& asymptote, Evaluation& evaluation) {
   const bool asked = asymptote.confirmed_by_history;
   evaluation.model["wear_history_may_differ"] = asymptote.doubt.empty() || asked ? 0 : 1;
   evaluation.model["wear_decided_by_history"] = asymptote.decided_by == "history" ? 1 : 0;
@@ -137,11 +157,15 @@ void note_doubt(const reduction::ContactNodes& contact, const wear::Asymptote& a
     outcome = "the wear history ends in it, too";
   for (const wear::OtherState& other : asymptote.other_states)
     if (other.found_by == "history")
-      outcome = fmt::format("the wear history, which wears off whole nodes, ends within one of it, with {:.4g} m^3",
+      outcome =
+          far_apart(model.cells, asymptote.depth, other.depth)
+              ? fmt::format("the wear history ends with {:.4g} m^3, but with more harmonics by the direct answer",
+                            other.worn_volume)
+              : fmt::format("the wear history, which wears off whole nodes, ends within one of it, with {:.4g} m^3",
                             other.worn_volume);
     else if (other.found_by == "release")
       outcome += fmt::format(" and ends with {:.4g} m^3, the direct method with {:.4g} m^3",
-                             wear::worn_volume(contact, asymptote.depth), other.worn_volume);
+                             wear::worn_volume(model.reduction.model.contact, asymptote.depth), other.worn_volume);
   evaluation.messages.push_back("The worn state was in doubt (" + asymptote.doubt + "): " + outcome + ".");
 }
 
@@ -170,7 +194,7 @@ std::string dynamics(const Scene& scene, const Computation& how, const ContactFi
   evaluation.timings_s["stress"] = watch.lap();
   if (!how.wear) return "converged";
 
-  WornState state = worn_state(scene, model, *result.unworn, steady, "unsettled");
+  WornState state = worn_state(scene, model, result.unworn->omega, &result.unworn->state, steady, "unsettled");
   if (how.history && state.asymptote.verdict == wear::Verdict::asymptote)
     settle(scene, model, *result.unworn, steady, state);
   result.asymptote = std::move(state.asymptote);
@@ -185,7 +209,7 @@ std::string dynamics(const Scene& scene, const Computation& how, const ContactFi
   evaluation.model["wear_certificate"] = asymptote.certificate;
   evaluation.model["wear_bearing_share"] = asymptote.bearing.share;
   evaluation.model["wear_depth_over_compression"] = asymptote.bearing.closing;
-  note_doubt(model.reduction.model.contact, asymptote, evaluation);
+  note_doubt(model, asymptote, evaluation);
   responses["asymptotic_wear_volume_m3"] = asymptote.worn_volume;
   responses["asymptotic_wear_depth_max_m"] = asymptote.largest_depth;
 
@@ -239,10 +263,11 @@ CandidateResult computed(const Scene& scene, CandidateModel model, const Computa
   evaluation.status = dynamics(scene, how, fit, result);
   if (!fit.settled && result.unworn->status == Status::converged)
     evaluation.messages.push_back(
-        fit.known ? "The edges of the worn zones did not settle: their contact nodes end beside them, by up to " +
-                        shortest(fit.moved) + " of an edge of the mesh."
-                  : "The edges of the worn zones are not known: the direct method found no worn state from which to "
-                    "take them.");
+        fit.known
+            ? "The edges of the worn zones did not settle: their contact nodes end beside them, by up to " +
+                  shortest(fit.moved) + " of an edge of the mesh."
+            : "Contact nodes do not end where worn zones do: on the nodes of the mesh the direct method found no worn "
+              "state to take their edges from.");
   note_penalties(result);
   evaluation.model["jacobians_spent"] = result.model.budget->used() / result.model.jacobian_operations;
   return result;

@@ -21,7 +21,8 @@ std::span<const ResponseName> response_names() {
        "beyond "
        "the flanks' ends on."},
       {"contact_pressure_max_pa", "Pa",
-       "Smooth maximum of the flank pressure under the spin-up load; at a sharp flank end (flank_edge_radius_mm = "
+       "Smooth maximum of the flank pressure under the spin-up load, 11.5 MPa above a uniform one; at a sharp flank "
+       "end (flank_edge_radius_mm = "
        "0) its peak does not converge with the mesh."},
       {"contact_pressure_mean_pa", "Pa", "Mean flank pressure under the spin-up load, of the more loaded flank."},
       {"neck_tension_pa", "Pa", "Mean tension across the narrowest width of the blade's neck under the spin-up load."},

@@ -41,14 +41,11 @@ Eigen::VectorXd on_grid(const Eigen::VectorXd& depth, const fem::ContactCells& f
 std::string wear_down(const Scene& scene, const CandidateResult& fine, const VerificationOptions& options,
                       const wear::Control& control, Verification& verification) {
   const std::shared_ptr<const response::CondensedModel>& model = fine.model.condensed;
-  SolverSettings limits = scene.solver;
-  limits.max_jacobians = static_cast<int>(std::lround(options.budgets * limits.max_jacobians));
-  limits.time_limit *= options.budgets;
   response::SteadyOptions steady = steady_options(scene.solver);
   double volume = 0;
   Eigen::VectorXd depth;
   for (const double part : {1.0, 0.5}) {
-    steady.budget = new_budget(limits, fine.model);
+    steady.budget = new_budget(scene.solver, fine.model, options.budgets);
     wear::HistoryOptions settings;
     settings.follow = scene.loading.follow;
     settings.increment = part * options.increment * wear::largest_penetration(*model, fine.unworn->state);

@@ -69,6 +69,11 @@ WornChange ends_moved_by(double part, const fem::ContactCells& cells, const std:
   return moved;
 }
 
+bool far_apart(const fem::ContactCells& cells, const Eigen::VectorXd& one, const Eigen::VectorXd& other) {
+  const double first = cells.area.dot(one), second = cells.area.dot(other);
+  return std::abs(first - second) > kMost * std::max(first, second);
+}
+
 bool a_node_apart(const fem::ContactCells& cells, const Eigen::VectorXd& one, const Eigen::VectorXd& other) {
   const std::vector<bool> worn_one = wear::worn_nodes(one), worn_other = wear::worn_nodes(other);
   if (!ends_differ(cells, worn_one, worn_other)) return false;
@@ -76,9 +81,7 @@ bool a_node_apart(const fem::ContactCells& cells, const Eigen::VectorXd& one, co
   const bool first_wider = cells.area.dot(one) > cells.area.dot(other);
   const WornChange explained =
       first_wider ? ends_moved_by(1, cells, worn_one, one) : ends_moved_by(1, cells, worn_other, other);
-  const double difference = std::abs(cells.area.dot(one) - cells.area.dot(other));
-  const double larger = std::max(cells.area.dot(one), cells.area.dot(other));
-  return difference <= std::min(explained.volume, kMost * larger) &&
+  return !far_apart(cells, one, other) && std::abs(cells.area.dot(one) - cells.area.dot(other)) <= explained.volume &&
          std::abs(one.maxCoeff() - other.maxCoeff()) <= explained.depth;
 }
 

@@ -21,6 +21,9 @@ struct WornChange {
 [[nodiscard]] WornChange ends_moved_by(double part, const fem::ContactCells& cells, const std::vector<bool>& worn,
                                        const Eigen::VectorXd& depth);
 
+/// Whether two worn volumes differ by more than the nodes at the ends of zones may decide.
+[[nodiscard]] bool far_apart(const fem::ContactCells& cells, const Eigen::VectorXd& one, const Eigen::VectorXd& other);
+
 /// Whether two worn shapes differ by a node at the ends of their zones, and by no more wear than such nodes explain: a
 /// history cannot tell such shapes apart.
 [[nodiscard]] bool a_node_apart(const fem::ContactCells& cells, const Eigen::VectorXd& one,

@@ -128,8 +128,7 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
         truncation_complaint(*automatic, optimizer::steady_options(study.scene.solver), options.solver));
   std::vector<std::string> unjudged;
   if (options.unworn && evaluation.converged()) unjudged = keep_unworn(study.problem, evaluation);
-  if (!study.problem.objective.empty() || !study.problem.constraints.empty())
-    optimizer::annotate(study.problem, study.optimizer.constraint_tolerance, evaluation);
+  optimizer::annotate(study.problem, study.optimizer.constraint_tolerance, evaluation);
   std::ranges::move(unjudged, std::back_inserter(evaluation.undecided_constraints));
   deliver_json(options.json, evaluation_json(evaluation), streams);
   if (options.json != "-") streams.out << evaluation_table(evaluation);

@@ -116,6 +116,9 @@ struct VerificationRecord {
   Numbers along_m;                                                ///< [Nc]
   Numbers across_m;                                               ///< [Nc] along the slot; zero or empty in the plane
   Numbers search_profile_m, direct_profile_m, history_profile_m;  ///< [Nc] or empty
+
+  /// Whether the history came to an end, so that its numbers say something.
+  [[nodiscard]] bool compared() const { return status == "converged" || status.starts_with("disagrees"); }
 };
 
 /// The nodes of a flank on the line from its neck to its root side on which `values` are largest, in the order of the
