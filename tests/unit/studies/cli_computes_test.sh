@@ -51,6 +51,12 @@ worn = ("asymptotic", "resonance_drift", "worn")
 assert {name for name in whole if not name.startswith(worn)} == set(unworn)
 PYTHON
 fi
+# Without an answer a design is not feasible, whether or not the study has limits.
+awk '/^\[/ { terms = /^\[\[/ } !terms' s.toml > plain.toml
+for study in s plain; do
+  expect 3 evaluate $study.toml --no-bars --set solver.max_jacobians=1
+  grep -q "^feasible *no" out || fail "a design of $study.toml without an answer is feasible"
+done
 expect 2 evaluate s.toml --set geometry.neck_width_mm=60 --json -; is_json
 grep -q infeasible out || fail "an impossible neck is not infeasible"
 
