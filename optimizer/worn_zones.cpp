@@ -11,8 +11,9 @@ namespace dovetail::optimizer {
 namespace {
 
 /// Where a node is more of the worn volume the nodes are too long to tell. Of designs whose histories end a node apart
-/// the direct volume stands on ever shorter nodes where the two differ by a seventh, and the history's from a fifth on.
-constexpr double kMost = 0.15;
+/// the direct volume stands on ever shorter nodes where the two differ by up to a fifth, beyond that mostly the
+/// history's.
+constexpr double kMost = 0.2;
 
 /// Whether the worn nodes of both are the same but for single ones at the ends of zones, of which there is one at
 /// least.
