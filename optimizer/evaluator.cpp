@@ -102,7 +102,8 @@ WornState worn_state(const Scene& scene, const CandidateModel& model, double ome
 }
 
 /// Whether a history with more harmonics, too, ends nearer to where `history` did than to `direct`. Where the order in
-/// which nodes lift off hangs on the harmonics, histories of neighbouring designs and meshes end in either.
+/// which nodes lift off hangs on the harmonics, histories of neighbouring designs and meshes end in either. One that
+/// has no answer speaks against nothing.
 bool history_stands(Scene scene, const CandidateModel& model, double omega, response::SteadyOptions steady,
                     double history, double direct) {
   constexpr int kMoreHarmonics = 2;

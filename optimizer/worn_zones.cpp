@@ -11,8 +11,8 @@ namespace dovetail::optimizer {
 namespace {
 
 /// Where a node is more of the worn volume the nodes are too long to tell. Of designs whose histories end a node apart
-/// the direct volume stands on ever shorter nodes where the two differ by up to a fifth, beyond that mostly the
-/// history's.
+/// the direct volume stands on ever shorter nodes where the two differ by up to a fifth; farther apart it is the one
+/// or the other.
 constexpr double kMost = 0.2;
 
 /// Whether the worn nodes of both are the same but for single ones at the ends of zones, of which there is one at

@@ -63,7 +63,7 @@ std::string verification_table(const RunRecord& record) {
     deepest = std::max({deepest, v.direct_depth_m, v.history_depth_m});
   }
   const Unit volume = readable_unit("m^3", most), depth = readable_unit("m", deepest);
-  const std::string kNone = "not known";
+  const std::string unknown = "not known";
   const Unit bare{.symbol = "", .si = volume.si};  // the unit stands in the head
   std::string text =
       "<div class=\"scroll\"><table><thead><tr><th scope=\"col\">#</th><th scope=\"col\" class=\"text\">status</th>";
@@ -79,12 +79,12 @@ std::string verification_table(const RunRecord& record) {
         "<td>{}</td>",
         v.evaluation + 1, escape(v.status == "converged" ? "agree within their bars" : v.status),
         with_error(v.search_volume_m3, v.search_bar_m3, bare), significant(v.direct_volume_m3 / volume.si, 4),
-        v.compared() ? with_error(v.history_volume_m3, v.history_bar_m3, bare) : kNone,
-        v.compared() ? per_cent(v.history_volume_m3, v.direct_volume_m3) : kNone,
+        v.compared() ? with_error(v.history_volume_m3, v.history_bar_m3, bare) : unknown,
+        v.compared() ? per_cent(v.history_volume_m3, v.direct_volume_m3) : unknown,
         significant(v.direct_depth_m / depth.si, 4),
-        v.compared() ? significant(v.history_depth_m / depth.si, 4) : kNone);
+        v.compared() ? significant(v.history_depth_m / depth.si, 4) : unknown);
     text += fmt::format("<td>{}</td></tr>\n",
-                        v.compared() ? significant(100 * v.profile_difference, 2) + "\u00a0%" : kNone);
+                        v.compared() ? significant(100 * v.profile_difference, 2) + "\u00a0%" : unknown);
   }
   return text + "</tbody></table></div>\n";
 }

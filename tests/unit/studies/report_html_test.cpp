@@ -115,6 +115,8 @@ TEST(Report, ShowsTheHistoryBesideTheDirectMethod) {
   EXPECT_THAT(page, HasSubstr("Worn profile of evaluation 2"));
   record.verifications.front().status = "history: stalled";
   EXPECT_THAT(report_html(record), HasSubstr("history: stalled"));
+  EXPECT_THAT(report_html(record), HasSubstr("<td>not known</td>"));
+  EXPECT_THAT(report_html(record), testing::Not(HasSubstr("+0.50\u00a0%")));
   record.verifications.clear();
   EXPECT_THAT(report_html(record), testing::Not(HasSubstr("Verification by")));
 }
