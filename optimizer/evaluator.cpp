@@ -1,7 +1,5 @@
 #include "optimizer/evaluator.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -14,9 +12,8 @@
 #include "optimizer/error_bars.hpp"
 #include "optimizer/problem.hpp"
 #include "optimizer/stopwatch.hpp"
-#include "optimizer/worn_zones.hpp"
+#include "optimizer/worn_state.hpp"
 #include "wear/archard.hpp"
-#include "wear/follow.hpp"
 
 namespace dovetail::optimizer {
 
@@ -82,94 +79,6 @@ void note_penalties(CandidateResult& result) {
   if (result.worn) note("worn resonance", result.worn->state);
 }
 
-struct WornState {
-  wear::Asymptote asymptote;
-  std::optional<wear::Asymptote> held;  ///< where the resonance is followed
-  double omega = 0;                     ///< rad/s, at which wear came to rest
-};
-
-/// @param before  the unworn steady state at `omega` with the harmonics of `steady`, or null
-WornState worn_state(const Scene& scene, const CandidateModel& model, double omega, const response::SteadyState* before,
-                     const response::SteadyOptions& steady, const char* arbitration) {
-  wear::AsymptoteOptions options;
-  options.arbitration = arbitration;
-  options.certify_finer = false;  // more harmonics and samples have their bars
-  if (scene.loading.follow != "resonance")
-    return {
-        .asymptote = wear::asymptote(model.condensed, omega, {}, steady, options, before), .held = {}, .omega = omega};
-  wear::FollowedAsymptote found = wear::followed_asymptote(model.condensed, omega, {}, steady, options, {}, before);
-  return {.asymptote = std::move(found.asymptote), .held = std::move(found.held), .omega = found.omegas.back()};
-}
-
-/// Whether a history with more harmonics, too, ends nearer to where `history` did than to `direct`. Where the order in
-/// which nodes lift off hangs on the harmonics, histories of neighbouring designs and meshes end in either. One that
-/// has no answer speaks against nothing.
-bool history_stands(Scene scene, const CandidateModel& model, double omega, response::SteadyOptions steady,
-                    double history, double direct) {
-  constexpr int kMoreHarmonics = 2;
-  scene.solver.harmonics = steady.harmonics += kMoreHarmonics;
-  while (steady.samples < 4 * steady.harmonics + 4) scene.solver.samples = steady.samples *= 2;
-  steady.budget = new_budget(scene.solver, model);
-  const wear::Asymptote again = worn_state(scene, model, omega, nullptr, steady, "always").asymptote;
-  if (again.verdict != wear::Verdict::asymptote || !again.confirmed_by_history) return true;
-  return std::abs(again.worn_volume - history) <= std::abs(again.worn_volume - direct);
-}
-
-/// Looks for doubt in a worn state that was found directly and asks the wear history, on a budget of its own. The
-/// direct one stays, in doubt, where the history does not come to an end. It stays, too, where the history ends within
-/// a node of it, as on other nodes the history may well end in it, and where a history with more harmonics does.
-void settle(const Scene& scene, const CandidateModel& model, const response::Resonance& unworn,
-            response::SteadyOptions steady, WornState& worn) {
-  steady.budget = new_budget(scene.solver, model);
-  WornState asked = worn_state(scene, model, unworn.omega, &unworn.state, steady, "auto");
-  const wear::Asymptote &found = asked.asymptote, &direct = worn.asymptote;
-  if (found.verdict == wear::Verdict::not_converged) {
-    worn.asymptote.doubt = found.doubt.empty() ? "unfinished" : found.doubt;
-    return;
-  }
-  const bool overruled =
-      found.decided_by == "history" && direct.decided_by == "release" && found.verdict == wear::Verdict::asymptote;
-  const bool stays =
-      overruled && (a_node_apart(model.cells, found.depth, direct.depth) ||
-                    (far_apart(model.cells, found.depth, direct.depth) &&
-                     !history_stands(scene, model, unworn.omega, steady, found.worn_volume, direct.worn_volume)));
-  if (!stays) {
-    worn = std::move(asked);
-    return;
-  }
-  worn.asymptote.doubt = found.doubt;
-  worn.asymptote.confirmed_by_history = true;
-  worn.asymptote.other_states = {{.found_by = "history",
-                                  .depth = found.depth,
-                                  .worn_volume = found.worn_volume,
-                                  .largest_depth = found.largest_depth}};
-}
-
-/// Whether the worn state was in doubt, and what decided.
-void note_doubt(const CandidateModel& model, const wear::Asymptote& asymptote, Evaluation& evaluation) {
-  const bool asked = asymptote.confirmed_by_history;
-  evaluation.model["wear_history_may_differ"] = asymptote.doubt.empty() || asked ? 0 : 1;
-  evaluation.model["wear_decided_by_history"] = asymptote.decided_by == "history" ? 1 : 0;
-  if (asymptote.doubt.empty()) return;
-  std::string outcome = "no wear history has decided";
-  if (asymptote.decided_by == "history")
-    outcome = "the wear history decided";
-  else if (asked)
-    outcome = "the wear history ends in it, too";
-  for (const wear::OtherState& other : asymptote.other_states)
-    if (other.found_by == "history")
-      outcome =
-          far_apart(model.cells, asymptote.depth, other.depth)
-              ? fmt::format("the wear history ends with {:.4g} m^3, but with more harmonics by the direct answer",
-                            other.worn_volume)
-              : fmt::format("the wear history, which wears off whole nodes, ends within one of it, with {:.4g} m^3",
-                            other.worn_volume);
-    else if (other.found_by == "release")
-      outcome += fmt::format(" and ends with {:.4g} m^3, the direct method with {:.4g} m^3",
-                             wear::worn_volume(model.reduction.model.contact, asymptote.depth), other.worn_volume);
-  evaluation.messages.push_back("The worn state was in doubt (" + asymptote.doubt + "): " + outcome + ".");
-}
-
 /// The physics after the model; returns the status of the evaluation.
 std::string dynamics(const Scene& scene, const Computation& how, const ContactFit& fit, CandidateResult& result) {
   Evaluation& evaluation = result.evaluation;
@@ -195,9 +104,7 @@ std::string dynamics(const Scene& scene, const Computation& how, const ContactFi
   evaluation.timings_s["stress"] = watch.lap();
   if (!how.wear) return "converged";
 
-  WornState state = worn_state(scene, model, result.unworn->omega, &result.unworn->state, steady, "unsettled");
-  if (how.history && state.asymptote.verdict == wear::Verdict::asymptote)
-    settle(scene, model, *result.unworn, steady, state);
+  WornState state = worn_state(scene, model, result.unworn->state, steady, how.history);
   result.asymptote = std::move(state.asymptote);
   result.held = std::move(state.held);
   evaluation.model["wear_frequency_hz"] = hertz(state.omega);
@@ -210,7 +117,7 @@ std::string dynamics(const Scene& scene, const Computation& how, const ContactFi
   evaluation.model["wear_certificate"] = asymptote.certificate;
   evaluation.model["wear_bearing_share"] = asymptote.bearing.share;
   evaluation.model["wear_depth_over_compression"] = asymptote.bearing.closing;
-  note_doubt(model, asymptote, evaluation);
+  note_doubt(model, asymptote, state.unfinished, evaluation);
   responses["asymptotic_wear_volume_m3"] = asymptote.worn_volume;
   responses["asymptotic_wear_depth_max_m"] = asymptote.largest_depth;
 

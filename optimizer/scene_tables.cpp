@@ -33,7 +33,7 @@ std::span<const Field<optimizer::ContactProperties>> option_table<optimizer::Con
                .help = "Coulomb coefficient of friction of the flanks"},
       Field<C>{.key = "wear_coefficient_per_pa",
                .member = &C::wear_coefficient,
-               .range = kNonNegative,
+               .range = {.lower = 0, .upper = 1e-6},
                .help = "Archard's k_w: wear depth per pressure and slipped distance"}};
   return table;
 }

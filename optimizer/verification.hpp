@@ -32,7 +32,7 @@ struct Verification {
   int flank_elements = 0, harmonics = 0, samples = 0;
   std::string follow;                            ///< fixed | resonance, as the design's loading says
   double frequency_hz = 0;                       ///< of the unworn resonance on the finer mesh
-  double search_volume = 0, search_bar = 0;      ///< m^3, as the search saw it, and its error bar
+  double search_volume = 0, search_bar = 0;      ///< m^3, at the settings of the search, and its error bar
   double search_depth = 0;                       ///< m
   double direct_volume = 0, direct_depth = 0;    ///< m^3, m
   double history_volume = 0, history_depth = 0;  ///< m^3, m, extrapolated

@@ -103,7 +103,7 @@ std::string verified(const std::vector<report::VerificationRecord>& verification
   for (const report::VerificationRecord& v : verifications)
     text += fmt::format("evaluation {} by its wear history: {}, directly {:.6g} m^3 ({})\n", v.evaluation + 1,
                         v.compared() ? fmt::format("{:.6g} m^3", v.history_volume_m3) : "not known", v.direct_volume_m3,
-                        v.status);
+                        v.agreement());
   return text;
 }
 

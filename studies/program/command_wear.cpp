@@ -163,10 +163,14 @@ std::string certificate_words(const wear::Asymptote& asymptote) {
                         asymptote.holds_finer ? "" : ": raise --harmonics and --samples");
   }
   text += "\n";
-  if (!asymptote.doubt.empty())
-    text += fmt::format("doubt           {}{}\n", asymptote.doubt,
-                        asymptote.confirmed_by_history && asymptote.holds_finer ? ", settled by the history" : "");
-  return text;
+  if (asymptote.doubt.empty()) return text;
+  text += fmt::format("doubt           {}{}", asymptote.doubt,
+                      asymptote.confirmed_by_history && asymptote.holds_finer ? ", settled by the history" : "");
+  for (const wear::OtherState& other : asymptote.other_states)
+    if (other.found_by == "release")
+      text += fmt::format("; {:.6g} m^3 directly: more --harmonics and --samples, or `evaluate`, tell which counts",
+                          other.worn_volume);
+  return text + "\n";
 }
 
 std::string summary(const WearQuestion& question, const WearAnswer& answer) {

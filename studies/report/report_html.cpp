@@ -115,8 +115,8 @@ std::string verification_section(const RunRecord& record) {
                                                   : "The excitation stays at the unworn resonance.") +
           " The history's increments come from the stiffness of the contact, not from the direct answer, and are "
           "extrapolated to none.</p>\n<p class=\"soft\">Columns: the number of the "
-          "evaluation and how its answers agree; worn volume as the search saw it, directly and by the history at the "
-          "finer settings, and the "
+          "evaluation and how its answers agree; worn volume at the settings of the search, directly and by the "
+          "history at the finer settings, and the "
           "change from direct to history; largest depth of both; largest difference of their profiles by the largest "
           "depth.</p>\n" +
           verification_table(record);

@@ -96,6 +96,12 @@ RunRecord record_run(const optimizer::Problem& problem, const optimizer::Optimiz
   return record;
 }
 
+std::string VerificationRecord::agreement() const {
+  if (status != "converged") return status;
+  return search_bar_m3 < search_volume_m3 || search_volume_m3 == 0 ? "agree within their bars"
+                                                                   : "cannot tell: the bar is larger than the value";
+}
+
 std::vector<std::size_t> worst_line(const std::vector<std::int64_t>& flanks, const Numbers& across,
                                     const Numbers& values, std::int64_t flank) {
   const auto place = [&](std::size_t i) { return i < across.size() ? across[i] : 0.0; };

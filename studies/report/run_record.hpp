@@ -119,6 +119,8 @@ struct VerificationRecord {
 
   /// Whether the history came to an end, so that its numbers say something.
   [[nodiscard]] bool compared() const { return status == "converged" || status.starts_with("disagrees"); }
+  /// The status in words. Within a bar as large as the value anything lies.
+  [[nodiscard]] std::string agreement() const;
 };
 
 /// The nodes of a flank on the line from its neck to its root side on which `values` are largest, in the order of the

@@ -27,7 +27,7 @@ Plot verification_plot(const VerificationRecord& record) {
       .title = fmt::format("Worn profile of evaluation {}", record.evaluation + 1),
       .description =
           "Depth along the more worn flank. Solid: the end of the history; dashed: the direct method at the "
-          "same settings; dotted: as the search saw it.",
+          "same settings; dotted: at the settings of the search.",
       .x = {.label = "along the flank, from its neck side", .unit = "mm"},
       .y = {.label = "worn depth", .from_zero = true},
   };
@@ -77,8 +77,8 @@ std::string verification_table(const RunRecord& record) {
     text += fmt::format(
         "<tr><th scope=\"row\">{}</th><td class=\"text\">{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
         "<td>{}</td>",
-        v.evaluation + 1, escape(v.status == "converged" ? "agree within their bars" : v.status),
-        with_error(v.search_volume_m3, v.search_bar_m3, bare), significant(v.direct_volume_m3 / volume.si, 4),
+        v.evaluation + 1, escape(v.agreement()), with_error(v.search_volume_m3, v.search_bar_m3, bare),
+        significant(v.direct_volume_m3 / volume.si, 4),
         v.compared() ? with_error(v.history_volume_m3, v.history_bar_m3, bare) : unknown,
         v.compared() ? per_cent(v.history_volume_m3, v.direct_volume_m3) : unknown,
         significant(v.direct_depth_m / depth.si, 4),

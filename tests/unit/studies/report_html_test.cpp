@@ -113,6 +113,12 @@ TEST(Report, ShowsTheHistoryBesideTheDirectMethod) {
   EXPECT_THAT(page, HasSubstr("11 harmonics, 256 samples"));
   EXPECT_THAT(page, HasSubstr("+0.50\u00a0%"));  // 1.206 over 1.2
   EXPECT_THAT(page, HasSubstr("Worn profile of evaluation 2"));
+  // Within a bar as large as the value anything lies.
+  record.verifications.front().search_volume_m3 = 8e-11;
+  record.verifications.front().search_bar_m3 = 1e-11;
+  EXPECT_THAT(report_html(record), HasSubstr("agree within their bars"));
+  record.verifications.front().search_bar_m3 = 9e-11;
+  EXPECT_THAT(report_html(record), HasSubstr("cannot tell: the bar is larger than the value"));
   record.verifications.front().status = "history: stalled";
   EXPECT_THAT(report_html(record), HasSubstr("history: stalled"));
   EXPECT_THAT(report_html(record), HasSubstr("<td>not known</td>"));

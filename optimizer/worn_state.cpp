@@ -1,0 +1,154 @@
+#include "optimizer/worn_state.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "optimizer/worn_zones.hpp"
+#include "response/refined_state.hpp"
+#include "wear/certificate.hpp"
+#include "wear/follow.hpp"
+
+namespace dovetail::optimizer {
+
+namespace {
+
+WornState come_to_rest(const Scene& scene, const CandidateModel& model, const response::SteadyState& unworn,
+                       const response::SteadyOptions& steady, const char* arbitration) {
+  wear::AsymptoteOptions options;
+  options.arbitration = arbitration;
+  options.certify_finer = false;  // more harmonics and samples have their bars
+  if (scene.loading.follow != "resonance")
+    return {.asymptote = wear::asymptote(model.condensed, unworn.omega, {}, steady, options, &unworn),
+            .held = {},
+            .omega = unworn.omega,
+            .unfinished = {}};
+  wear::FollowedAsymptote found =
+      wear::followed_asymptote(model.condensed, unworn.omega, {}, steady, options, {}, &unworn);
+  return {.asymptote = std::move(found.asymptote),
+          .held = std::move(found.held),
+          .omega = found.omegas.back(),
+          .unfinished = {}};
+}
+
+/// A history with more harmonics and samples than the one at hand.
+constexpr const char* kFinerHistory = "finer_history";
+
+wear::OtherState other_state(const char* found_by, wear::Asymptote found) {
+  return {.found_by = found_by,
+          .depth = std::move(found.depth),
+          .worn_volume = found.worn_volume,
+          .largest_depth = found.largest_depth};
+}
+
+/// Where the wear history ends with twice the harmonics plus one and twice the samples; nothing where it comes to no
+/// end. Which nodes lift off first may hang on harmonics and samples: then histories of neighbouring designs and meshes
+/// end far from one another, and more of both tell where wear goes.
+std::optional<wear::OtherState> finer_history(Scene scene, const CandidateModel& model,
+                                              const response::SteadyState& unworn, response::SteadyOptions steady) {
+  steady = wear::finer_settings(steady);
+  scene.solver.harmonics = steady.harmonics;
+  scene.solver.samples = steady.samples;
+  steady.budget = new_budget(scene.solver, model);
+  const response::SteadyState start = response::steady_state(model.condensed, unworn.omega, {}, steady,
+                                                             response::padded(unworn.displacement, steady.harmonics));
+  if (start.status != Status::converged) return {};
+  wear::Asymptote found = come_to_rest(scene, model, start, steady, "always").asymptote;
+  if (found.verdict != wear::Verdict::asymptote || !found.confirmed_by_history) return {};
+  return other_state(kFinerHistory, std::move(found));
+}
+
+/// Where history and direct method end, and where a finer history does if they are far apart.
+struct Ends {
+  bool direct_stays = false;
+  std::optional<wear::OtherState> finer;
+};
+
+Ends compared(const Scene& scene, const CandidateModel& model, const response::SteadyState& unworn,
+              const response::SteadyOptions& steady, const wear::Asymptote& history, const wear::Asymptote& direct) {
+  if (!far_apart(model.cells, history.depth, direct.depth))
+    return {.direct_stays = a_node_apart(model.cells, history.depth, direct.depth), .finer = {}};
+  Ends ends{.direct_stays = false, .finer = finer_history(scene, model, unworn, steady)};
+  if (ends.finer)
+    ends.direct_stays = std::abs(ends.finer->worn_volume - direct.worn_volume) <
+                        std::abs(ends.finer->worn_volume - history.worn_volume);
+  return ends;
+}
+
+/// Looks for doubt in a worn state that was found directly and asks the wear history.
+void settle(const Scene& scene, const CandidateModel& model, const response::SteadyState& unworn,
+            response::SteadyOptions steady, WornState& worn) {
+  steady.budget = new_budget(scene.solver, model);
+  WornState asked = come_to_rest(scene, model, unworn, steady, "auto");
+  wear::Asymptote &found = asked.asymptote, &direct = worn.asymptote;
+  const std::string unfinished =
+      spent(steady.budget) ? "it spent its budget (solver.max_jacobians, solver.time_limit_s)" : "it came to no end";
+  if (found.verdict == wear::Verdict::not_converged) {
+    direct.doubt = found.doubt.empty() ? "unfinished" : found.doubt;
+    worn.unfinished = unfinished;
+    return;
+  }
+  Ends ends;
+  if (found.decided_by == "history" && direct.decided_by == "release" && found.verdict == wear::Verdict::asymptote)
+    ends = compared(scene, model, unworn, steady, found, direct);
+  if (ends.direct_stays) {
+    direct.doubt = found.doubt;
+    direct.confirmed_by_history = true;
+    direct.other_states = {other_state("history", std::move(found))};
+  } else {
+    worn = std::move(asked);
+    if (!worn.asymptote.doubt.empty() && !worn.asymptote.confirmed_by_history) worn.unfinished = unfinished;
+  }
+  if (ends.finer) worn.asymptote.other_states.push_back(std::move(*ends.finer));
+}
+
+}  // namespace
+
+WornState worn_state(const Scene& scene, const CandidateModel& model, const response::SteadyState& unworn,
+                     const response::SteadyOptions& steady, bool history) {
+  WornState worn = come_to_rest(scene, model, unworn, steady, "unsettled");
+  if (history && worn.asymptote.verdict == wear::Verdict::asymptote) settle(scene, model, unworn, steady, worn);
+  return worn;
+}
+
+void note_doubt(const CandidateModel& model, const wear::Asymptote& asymptote, const std::string& unfinished,
+                Evaluation& evaluation) {
+  const bool by_history = asymptote.decided_by == "history";
+  evaluation.model["wear_history_may_differ"] = asymptote.doubt.empty() || asymptote.confirmed_by_history ? 0 : 1;
+  evaluation.model["wear_decided_by_history"] = by_history ? 1 : 0;
+  if (asymptote.doubt.empty()) return;
+  const auto found = [&asymptote](const char* by) {
+    const auto at = std::find_if(asymptote.other_states.begin(), asymptote.other_states.end(),
+                                 [by](const wear::OtherState& other) { return other.found_by == by; });
+    return at == asymptote.other_states.end() ? nullptr : &*at;
+  };
+  const wear::OtherState *direct = found("release"), *history = found("history"), *finer = found(kFinerHistory);
+  const auto volume = [](double value) { return fmt::format("{:.4g} m^3", value); };
+  std::string outcome;
+  if (by_history && direct != nullptr) {
+    outcome = "the wear history decided and ends with " + volume(asymptote.worn_volume) + ", the direct method with " +
+              volume(direct->worn_volume);
+    if (finer != nullptr)
+      outcome +=
+          ", and a history with more harmonics and samples, nearer to the first, with " + volume(finer->worn_volume);
+    else if (far_apart(model.cells, asymptote.depth, direct->depth))
+      outcome += "; a history with more harmonics and samples came to no end";
+  } else if (by_history) {
+    outcome = "the wear history decided";
+  } else if (history != nullptr && finer != nullptr) {
+    outcome = "the wear history ends with " + volume(history->worn_volume) +
+              ", but with more harmonics and samples nearer to the direct answer, with " + volume(finer->worn_volume);
+  } else if (history != nullptr) {
+    outcome =
+        "the wear history, which wears off whole nodes, ends within one of it, with " + volume(history->worn_volume);
+  } else if (asymptote.confirmed_by_history) {
+    outcome = "the wear history ends in it, too";
+  } else {
+    outcome = "no wear history has decided" + (unfinished.empty() ? "" : ": " + unfinished);
+  }
+  evaluation.messages.push_back("The worn state was in doubt (" + asymptote.doubt + "): " + outcome + ".");
+}
+
+}  // namespace dovetail::optimizer
