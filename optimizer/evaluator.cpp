@@ -117,7 +117,7 @@ std::string dynamics(const Scene& scene, const Computation& how, const ContactFi
   evaluation.model["wear_certificate"] = asymptote.certificate;
   evaluation.model["wear_bearing_share"] = asymptote.bearing.share;
   evaluation.model["wear_depth_over_compression"] = asymptote.bearing.closing;
-  note_doubt(model, asymptote, state.unfinished, evaluation);
+  note_doubt(asymptote, state.unfinished, evaluation);
   responses["asymptotic_wear_volume_m3"] = asymptote.worn_volume;
   responses["asymptotic_wear_depth_max_m"] = asymptote.largest_depth;
 

@@ -64,14 +64,17 @@ std::optional<wear::OtherState> finer_history(Scene scene, const CandidateModel&
 struct Ends {
   bool direct_stays = false;
   std::optional<wear::OtherState> finer;
+  std::string unfinished;  ///< what to say where the finer history was asked and came to no end
 };
 
 Ends compared(const Scene& scene, const CandidateModel& model, const response::SteadyState& unworn,
               const response::SteadyOptions& steady, const wear::Asymptote& history, const wear::Asymptote& direct) {
   if (!far_apart(model.cells, history.depth, direct.depth))
-    return {.direct_stays = a_node_apart(model.cells, history.depth, direct.depth), .finer = {}};
-  Ends ends{.direct_stays = false, .finer = finer_history(scene, model, unworn, steady)};
-  if (ends.finer)
+    return {.direct_stays = a_node_apart(model.cells, history.depth, direct.depth), .finer = {}, .unfinished = {}};
+  Ends ends{.direct_stays = false, .finer = finer_history(scene, model, unworn, steady), .unfinished = {}};
+  if (!ends.finer)
+    ends.unfinished = "one with more harmonics and samples came to no end";
+  else
     ends.direct_stays = std::abs(ends.finer->worn_volume - direct.worn_volume) <
                         std::abs(ends.finer->worn_volume - history.worn_volume);
   return ends;
@@ -99,7 +102,8 @@ void settle(const Scene& scene, const CandidateModel& model, const response::Ste
     direct.other_states = {other_state("history", std::move(found))};
   } else {
     worn = std::move(asked);
-    if (!worn.asymptote.doubt.empty() && !worn.asymptote.confirmed_by_history) worn.unfinished = unfinished;
+    const bool undecided = !worn.asymptote.doubt.empty() && !worn.asymptote.confirmed_by_history;
+    worn.unfinished = undecided ? unfinished : ends.unfinished;
   }
   if (ends.finer) worn.asymptote.other_states.push_back(std::move(*ends.finer));
 }
@@ -113,8 +117,7 @@ WornState worn_state(const Scene& scene, const CandidateModel& model, const resp
   return worn;
 }
 
-void note_doubt(const CandidateModel& model, const wear::Asymptote& asymptote, const std::string& unfinished,
-                Evaluation& evaluation) {
+void note_doubt(const wear::Asymptote& asymptote, const std::string& unfinished, Evaluation& evaluation) {
   const bool by_history = asymptote.decided_by == "history";
   evaluation.model["wear_history_may_differ"] = asymptote.doubt.empty() || asymptote.confirmed_by_history ? 0 : 1;
   evaluation.model["wear_decided_by_history"] = by_history ? 1 : 0;
@@ -133,8 +136,8 @@ void note_doubt(const CandidateModel& model, const wear::Asymptote& asymptote, c
     if (finer != nullptr)
       outcome +=
           ", and a history with more harmonics and samples, nearer to the first, with " + volume(finer->worn_volume);
-    else if (far_apart(model.cells, asymptote.depth, direct->depth))
-      outcome += "; a history with more harmonics and samples came to no end";
+    else if (!unfinished.empty())
+      outcome += "; " + unfinished;
   } else if (by_history) {
     outcome = "the wear history decided";
   } else if (history != nullptr && finer != nullptr) {

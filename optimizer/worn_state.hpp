@@ -15,7 +15,7 @@ struct WornState {
   wear::Asymptote asymptote;
   std::optional<wear::Asymptote> held;  ///< where the resonance is followed: at the unworn one
   double omega = 0;                     ///< rad/s, at which wear came to rest
-  std::string unfinished;               ///< why no history decided though one was asked, or ""
+  std::string unfinished;               ///< what to say of a history that was asked and came to no end, or ""
 };
 
 /// The worn state found directly, or by the wear history where that finds none. With `history`, where the direct one is
@@ -29,7 +29,6 @@ struct WornState {
 
 /// Whether the worn state was in doubt, and what decided: into the evaluation's `model` and `messages`.
 /// @param unfinished  of the WornState
-void note_doubt(const CandidateModel& model, const wear::Asymptote& asymptote, const std::string& unfinished,
-                Evaluation& evaluation);
+void note_doubt(const wear::Asymptote& asymptote, const std::string& unfinished, Evaluation& evaluation);
 
 }  // namespace dovetail::optimizer
