@@ -10,7 +10,7 @@ main{max-width:1120px;margin:0 auto;padding:2.2rem 1.4rem 4rem}
 h1{font-size:1.1rem;font-weight:600;color:var(--soft);margin:0 0 .5rem}
 .lead{font-size:1.5rem;line-height:1.32;font-weight:600;margin:0 0 .7rem;max-width:52rem;text-wrap:pretty}
 h2{font-size:1.2rem;margin:2.6rem 0 .8rem;padding-top:1.1rem;border-top:1px solid var(--hair)}
-h3{font-size:1rem;margin:0 0 .35rem}h3.above{margin-top:1.6rem}.grid2+.grid2{margin-top:1.1rem}ul+.grid2{margin-top:1rem}p{margin:.4rem 0;max-width:52rem}ul{padding-left:1.2rem;margin:.4rem 0}
+h3{font-size:1rem;margin:0 0 .35rem}h3.above{margin-top:1.6rem}.grid2+.grid2{margin-top:1.1rem}ul+.grid2,.scroll+.grid2{margin-top:1rem}p{margin:.4rem 0;max-width:52rem}ul{padding-left:1.2rem;margin:.4rem 0}
 .soft,figcaption,td .soft{color:var(--soft)}figcaption{font-size:.86rem;margin-top:.3rem;max-width:52rem}figure>details{margin-top:auto;padding-top:.5rem}
 .grid2{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,28rem),1fr));gap:1.1rem}
 .shape{display:grid;grid-template-columns:minmax(0,3.3fr) minmax(0,1fr);gap:1.1rem;align-items:stretch}
