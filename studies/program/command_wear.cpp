@@ -164,12 +164,10 @@ std::string certificate_words(const wear::Asymptote& asymptote) {
   }
   text += "\n";
   if (asymptote.doubt.empty()) return text;
-  text += fmt::format("doubt           {}{}", asymptote.doubt,
-                      asymptote.confirmed_by_history && asymptote.holds_finer ? ", settled by the history" : "");
+  text += "doubt           " + asymptote.doubt;
+  if (asymptote.confirmed_by_history && asymptote.holds_finer) text += ", settled by the history at these settings";
   for (const wear::OtherState& other : asymptote.other_states)
-    if (other.found_by == "release")
-      text += fmt::format("; {:.6g} m^3 directly: more --harmonics and --samples, or `evaluate`, tell which counts",
-                          other.worn_volume);
+    if (other.found_by == "release") text += fmt::format("; the direct method ends with {:.6g} m^3", other.worn_volume);
   return text + "\n";
 }
 
