@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "core/replace_file.hpp"
@@ -121,7 +122,9 @@ std::string verification_section(const RunRecord& record) {
           "depth.</p>\n" +
           verification_table(record);
   std::vector<Plot> plots;
-  for (const VerificationRecord& verification : record.verifications) plots.push_back(verification_plot(verification));
+  for (const VerificationRecord& v : record.verifications)  // of a design that does not wear there is no profile
+    if (v.status != "converged" || std::max({v.search_depth_m, v.direct_depth_m, v.history_depth_m}) > 0)
+      plots.push_back(verification_plot(v));
   return text + figures(plots) + "</section>\n";
 }
 

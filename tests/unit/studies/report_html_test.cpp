@@ -123,6 +123,11 @@ TEST(Report, ShowsTheHistoryBesideTheDirectMethod) {
   EXPECT_THAT(report_html(record), HasSubstr("history: stalled"));
   EXPECT_THAT(report_html(record), HasSubstr("<td>not known</td>"));
   EXPECT_THAT(report_html(record), testing::Not(HasSubstr("+0.50\u00a0%")));
+  VerificationRecord nothing_wears;
+  nothing_wears.status = "converged";
+  record.verifications = {nothing_wears};
+  EXPECT_THAT(report_html(record), HasSubstr("agree within their bars"));
+  EXPECT_THAT(report_html(record), testing::Not(HasSubstr("Worn profile of evaluation")));
   record.verifications.clear();
   EXPECT_THAT(report_html(record), testing::Not(HasSubstr("Verification by")));
 }
