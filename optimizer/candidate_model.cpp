@@ -9,7 +9,7 @@
 #include "optimizer/cell_grid.hpp"
 #include "optimizer/stopwatch.hpp"
 #include "reduction/static_condensation.hpp"
-#include "response/work.hpp"
+#include "steady/work.hpp"
 
 namespace dovetail::optimizer {
 
@@ -66,8 +66,8 @@ Status geometric_stiffness(const Scene& scene, const CandidateModel& candidate, 
       reduction::on_contact(reduction::condense_statically(full_model(scene, system, bare)), candidate.cells.average,
                             contact_nodes(candidate.cells, 0, scene.contact));
   if (condensed.status != Status::converged) return condensed.status;
-  const auto model = std::make_shared<const response::CondensedModel>(condensed.model);
-  const response::Preload preload = response::quasi_static(model, {.budget = candidate.budget});
+  const auto model = std::make_shared<const dynamics::CondensedModel>(condensed.model);
+  const steady::Preload preload = steady::quasi_static(model, {.budget = candidate.budget});
   if (preload.status != Status::converged) return preload.status;
   const Eigen::VectorXd independent = condensed.recovery.apply(preload.displacement, preload.force);
   const Eigen::VectorXd displacement = system.constraints.transformation * independent;
@@ -91,7 +91,7 @@ std::string first_broken(const geometry::Feasibility& feasibility, std::vector<s
 }
 
 double jacobian_operations(const SolverSettings& solver, const CandidateModel& candidate) {
-  return response::jacobian_operations(candidate.cells.count(), candidate.system.full.dimensions, solver.harmonics,
+  return steady::jacobian_operations(candidate.cells.count(), candidate.system.full.dimensions, solver.harmonics,
                                        solver.samples);
 }
 
@@ -121,14 +121,14 @@ void lay_contact(const Scene& scene, const std::vector<fem::FlankCells>& flanks,
     candidate.status = failed("reduction", candidate.reduction.status) + " " + candidate.reduction.message;
     return;
   }
-  candidate.preload = response::quasi_static(
-      std::make_shared<const response::CondensedModel>(candidate.reduction.model), {.budget = candidate.budget});
+  candidate.preload = steady::quasi_static(
+      std::make_shared<const dynamics::CondensedModel>(candidate.reduction.model), {.budget = candidate.budget});
   if (candidate.preload.status != Status::converged) {
     candidate.status = failed("preload", candidate.preload.status);
     return;
   }
   candidate.reduction.model.contact.slip_origin = candidate.preload.slip_origin;
-  candidate.condensed = std::make_shared<const response::CondensedModel>(candidate.reduction.model);
+  candidate.condensed = std::make_shared<const dynamics::CondensedModel>(candidate.reduction.model);
 }
 
 ModelBuilder::ModelBuilder(const Scene& reference) : sizes_(reference.mesh), solid_sizes_(reference.solid_mesh) {

@@ -14,7 +14,7 @@
 #include "geometry/solid_family.hpp"
 #include "optimizer/scene.hpp"
 #include "reduction/massless_boundary.hpp"
-#include "response/preload.hpp"
+#include "steady/preload.hpp"
 
 namespace dovetail::optimizer {
 
@@ -33,8 +33,8 @@ struct CandidateModel {
   // With contact nodes on the trace, see lay_contact:
   fem::ContactCells cells;
   reduction::Reduction reduction;  ///< its model carries the preload's slip origin
-  std::shared_ptr<const response::CondensedModel> condensed;
-  response::Preload preload;
+  std::shared_ptr<const dynamics::CondensedModel> condensed;
+  steady::Preload preload;
   SharedBudget budget;             ///< of everything computed with contact; counts also where nothing is limited
   double jacobian_operations = 1;  ///< what it counts for a Jacobian in which all contact nodes take part
 

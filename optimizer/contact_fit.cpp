@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "optimizer/evaluator.hpp"
-#include "response/resonance.hpp"
+#include "paths/resonance.hpp"
 #include "wear/asymptote.hpp"
 
 namespace dovetail::optimizer {
@@ -211,7 +211,7 @@ ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateMode
   const ContactFitOptions& options = how.contact;
   const CellLengths cells = cell_lengths(scene, options.lengths);
   ContactFit fit;
-  response::SteadyOptions steady = steady_options(scene.solver);
+  steady::Options steady = steady_options(scene.solver);
   steady.budget = candidate.budget;
   steady.penalty_scale = how.penalty_scale;
   lay_contact(scene, cell_grid(scene, candidate.mesh.sector, cells), candidate);
@@ -232,8 +232,7 @@ ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateMode
     std::vector<fem::FlankCells> flanks;
     Eigen::MatrixXd displacement;
   } best;
-  response::Resonance peak = response::resonance(
-      candidate.condensed, candidate.reduction.glued_frequencies(scene.loading.mode - 1), {}, steady);
+  paths::Resonance peak = paths::resonance({candidate.condensed, {}, steady}, candidate.reduction.glued_frequencies(scene.loading.mode - 1));
   if (peak.status != Status::converged) return fit;
   // What the last grid says of the edges is not known: they may be anywhere near.
   const auto unsettled = [&fit] {
@@ -242,12 +241,12 @@ ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateMode
     return fit;
   };
   // At the resonance of the first grid on all of them: it hardly moves, and edges move less.
-  response::SteadyState unworn = peak.state;
+  steady::State unworn = peak.state;
   bool at_resonance = false;
   for (;; ++fit.grids) {
     fit.omega = peak.omega;
     fit.displacement = unworn.displacement;
-    const wear::Asymptote worn = wear::asymptote(candidate.condensed, peak.omega, {}, steady, release, &unworn);
+    const wear::Asymptote worn = wear::asymptote({candidate.condensed, {}, steady}, peak.omega, release, &unworn);
     if (worn.verdict != wear::Verdict::asymptote) return unsettled();
     const std::vector<std::vector<Edge>> edges_now = edge_places(candidate.cells, worn.trail);
     std::vector<std::vector<double>> found = search.hold(edges_now, lengths);
@@ -272,7 +271,7 @@ ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateMode
     if (vanished || (laid_for && fit.moved <= options.aim)) {
       // Where nodes beyond an edge hardly stick, do they at the resonance of this grid?
       if (!search.holds() || at_resonance || vanished) return fit;
-      peak = response::resonance(candidate.condensed, peak.omega, {}, steady);
+      peak = paths::resonance({candidate.condensed, {}, steady}, peak.omega);
       if (peak.status != Status::converged) return unsettled();
       unworn = peak.state;
       at_resonance = true;
@@ -307,7 +306,7 @@ ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateMode
     if (!candidate.converged()) return unsettled();
     const Eigen::MatrixXd guess =
         carried_over(unworn.displacement, before, ends_of(candidate.cells), candidate.condensed->directions());
-    unworn = response::steady_state(candidate.condensed, peak.omega, {}, steady, guess);
+    unworn = steady::steady_state({candidate.condensed, {}, steady}, peak.omega, guess);
     if (unworn.status != Status::converged) return unsettled();
   }
 }

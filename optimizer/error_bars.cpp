@@ -14,8 +14,8 @@
 #include "optimizer/evaluator.hpp"
 #include "optimizer/responses.hpp"
 #include "optimizer/worn_zones.hpp"
-#include "response/resonance.hpp"
-#include "response/truncation.hpp"
+#include "paths/resonance.hpp"
+#include "quality/truncation.hpp"
 #include "wear/archard.hpp"
 
 namespace dovetail::optimizer {
@@ -175,7 +175,7 @@ Unseen unseen(const Scene& scene, const CandidateResult& result) {
   // pressure on.
   constexpr double kSlipping = 0.3, kAllOfIt = 0.25;
   const fem::ContactCells& cells = result.model.cells;
-  const std::vector<response::NodeSummary>& nodes = result.unworn->state.nodes;
+  const std::vector<steady::NodeSummary>& nodes = result.unworn->state.nodes;
   const double modulus = std::min(scene.blade.youngs_modulus, scene.disk.youngs_modulus);
   Unseen left;
   std::size_t first = 0;
@@ -187,7 +187,7 @@ Unseen unseen(const Scene& scene, const CandidateResult& result) {
       while (low < high && !nodes[first + low].carries_load) ++low;
       while (low < high && !nodes[first + high].carries_load) --high;
       for (const std::size_t end : {low, high}) {
-        const response::NodeSummary& node = nodes[first + end];
+        const steady::NodeSummary& node = nodes[first + end];
         const double width = (ends[end + 1] - ends[end]) * length / 2;
         const double area = cells.area[static_cast<Eigen::Index>(first + end)] / 2;
         const double depth = node.max_pressure * width / modulus;
@@ -206,7 +206,7 @@ Unseen unseen(const Scene& scene, const CandidateResult& result) {
 
 /// What the nodes at the ends of slipping zones leave open of the friction energy, J per cycle.
 double slip_at_zone_ends(const CandidateResult& result) {
-  const std::vector<response::NodeSummary>& nodes = result.unworn->state.nodes;
+  const std::vector<steady::NodeSummary>& nodes = result.unworn->state.nodes;
   Eigen::VectorXd energy(static_cast<Eigen::Index>(nodes.size()));
   std::vector<bool> loaded(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -418,7 +418,7 @@ void add_error_bars(const Scene& scene, const ModelBuilder& builder, const Other
   };
   const int harmonics = scene.solver.harmonics, more_harmonics = 2 * harmonics + 1;
   // Contact nodes of a study have no mass.
-  const response::TruncationFactors factors = response::truncation_factors(true);
+  const quality::TruncationFactors factors = quality::truncation_factors(true);
   ask("harmonics", factors.harmonics, {[&](Scene& changed, Computation&) {
         changed.solver.harmonics = more_harmonics;
         while (changed.solver.samples < 4 * changed.solver.harmonics + 4) changed.solver.samples *= 2;
@@ -435,7 +435,7 @@ void add_error_bars(const Scene& scene, const ModelBuilder& builder, const Other
   bars.add("mesh", "blade_fillet_stress_pa", result.blade_fillet->aggregate_error);
   bars.add("mesh", "disk_fillet_stress_pa", result.disk_fillet->aggregate_error);
   bars.add("mesh", "peak_stress_pa", std::max(result.blade_fillet->maximum_error, result.disk_fillet->maximum_error));
-  const double tolerance = response::ResonanceOptions{}.frequency_tolerance;
+  const double tolerance = paths::ResonanceOptions{}.frequency_tolerance;
   for (const char* name : {"resonance_hz", "worn_resonance_hz"})
     bars.add("search", name, tolerance * result.evaluation.responses.at(name));
   bars.add("search", "resonance_drift", 2 * tolerance);

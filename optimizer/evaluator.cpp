@@ -54,7 +54,7 @@ void static_responses(const Scene& scene, const CandidateModel& model, Evaluatio
 
 void fillet_responses(const Scene& scene, CandidateResult& result) {
   const fem::SectorMesh& sector = result.model.mesh.sector;
-  const response::SteadyState& state = result.unworn->state;
+  const steady::State& state = result.unworn->state;
   result.blade_fillet = fillet_stress(scene, result.model, state, sector.blade_fillet_nodes, sector.blade_fillet_share,
                                       scene.blade.poisson_ratio);
   result.disk_fillet = fillet_stress(scene, result.model, state, sector.disk_fillet_nodes, sector.disk_fillet_share,
@@ -68,7 +68,7 @@ void fillet_responses(const Scene& scene, CandidateResult& result) {
 /// States that needed another pseudo-penalty than the one asked for: their truncation errors are others.
 void note_penalties(CandidateResult& result) {
   double& farthest = result.evaluation.model["penalty_ratio"] = 1;
-  const auto note = [&](const char* what, const response::SteadyState& state) {
+  const auto note = [&](const char* what, const steady::State& state) {
     if (state.status != Status::converged || state.penalty_ratio == 1) return;
     if (std::abs(std::log(state.penalty_ratio)) > std::abs(std::log(farthest))) farthest = state.penalty_ratio;
     result.evaluation.messages.push_back(std::string("The ") + what + " was found with " +
@@ -84,14 +84,14 @@ std::string dynamics(const Scene& scene, const Computation& how, const ContactFi
   Evaluation& evaluation = result.evaluation;
   std::map<std::string, double>& responses = evaluation.responses;
   const CandidateModel& model = result.model;
-  response::SteadyOptions steady = steady_options(scene.solver);
-  steady.budget = model.budget;
-  steady.penalty_scale = how.penalty_scale;
+  steady::Joint joint{.model = model.condensed, .options = steady_options(scene.solver)};
+  joint.options.budget = model.budget;
+  joint.options.penalty_scale = how.penalty_scale;
   Stopwatch watch;
 
   const double start =
       fit.displacement.size() > 0 ? fit.omega : model.reduction.glued_frequencies(scene.loading.mode - 1);
-  result.unworn = response::resonance(model.condensed, start, {}, steady, {}, fit.displacement);
+  result.unworn = paths::resonance(joint, start, {}, fit.displacement);
   evaluation.timings_s["unworn_resonance"] = watch.lap();
   if (result.unworn->status != Status::converged)
     return "unworn_resonance: " + std::string(to_string(result.unworn->status));
@@ -104,7 +104,7 @@ std::string dynamics(const Scene& scene, const Computation& how, const ContactFi
   evaluation.timings_s["stress"] = watch.lap();
   if (!how.wear) return "converged";
 
-  WornState state = worn_state(scene, model, result.unworn->state, steady, how.history);
+  WornState state = worn_state(scene, model, joint, result.unworn->state, how.history);
   result.asymptote = std::move(state.asymptote);
   result.held = std::move(state.held);
   evaluation.model["wear_frequency_hz"] = hertz(state.omega);
@@ -121,7 +121,7 @@ std::string dynamics(const Scene& scene, const Computation& how, const ContactFi
   responses["asymptotic_wear_volume_m3"] = asymptote.worn_volume;
   responses["asymptotic_wear_depth_max_m"] = asymptote.largest_depth;
 
-  const wear::Drift drift = wear::resonance_drift(model.condensed, *result.unworn, {}, asymptote.depth, steady, {});
+  const wear::Drift drift = wear::resonance_drift(joint.worn(asymptote.depth), *result.unworn, {});
   result.worn = drift.worn;
   evaluation.timings_s["worn_resonance"] = watch.lap();
   if (result.worn->status != Status::converged) return "worn_resonance: " + std::string(to_string(result.worn->status));
@@ -134,7 +134,7 @@ std::string dynamics(const Scene& scene, const Computation& how, const ContactFi
 
 }  // namespace
 
-response::SteadyOptions steady_options(const SolverSettings& settings) {
+steady::Options steady_options(const SolverSettings& settings) {
   return {
       .harmonics = settings.harmonics,
       .samples = settings.samples,

@@ -10,7 +10,7 @@
 #include "optimizer/error_bars.hpp"
 #include "optimizer/evaluation.hpp"
 #include "optimizer/fillet_stress.hpp"
-#include "response/resonance.hpp"
+#include "paths/resonance.hpp"
 #include "wear/asymptote.hpp"
 #include "wear/drift.hpp"
 
@@ -20,7 +20,7 @@ namespace dovetail::optimizer {
 struct CandidateResult {
   Evaluation evaluation;
   CandidateModel model;
-  std::optional<response::Resonance> unworn, worn;
+  std::optional<paths::Resonance> unworn, worn;
   std::optional<wear::Asymptote> asymptote;
   std::optional<wear::Asymptote> held;  ///< where the resonance was followed: the one at the unworn resonance
   std::optional<FilletStress> blade_fillet, disk_fillet;
@@ -62,7 +62,7 @@ class SceneEvaluator {
 [[nodiscard]] CandidateResult computed(const Scene& scene, CandidateModel model, const Computation& how = {});
 
 /// Options of every steady state of a scene.
-[[nodiscard]] response::SteadyOptions steady_options(const SolverSettings& settings);
+[[nodiscard]] steady::Options steady_options(const SolverSettings& settings);
 
 /// The evaluator as a function of the design variables: `base` with the variables set.
 [[nodiscard]] Evaluator over_design_space(const SceneEvaluator& evaluator, const Scene& base, const DesignSpace& space);

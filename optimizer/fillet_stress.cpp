@@ -9,7 +9,7 @@
 #include "fem/element.hpp"
 #include "fem/stress.hpp"
 #include "fem/stress_aggregate.hpp"
-#include "response/amplitude.hpp"
+#include "dynamics/extremes.hpp"
 
 namespace dovetail::optimizer {
 
@@ -33,7 +33,7 @@ Eigen::VectorXd largest_von_mises(const Eigen::MatrixXd& coefficients, Eigen::In
   Eigen::VectorXd largest = Eigen::VectorXd::Zero(coefficients.rows() / components);
   for (int phase = 0; phase < kPhases; ++phase) {
     const double tau = 2 * std::numbers::pi * phase / kPhases;
-    const Eigen::VectorXd at = coefficients * response::fourier_row(tau, coefficients.cols());
+    const Eigen::VectorXd at = coefficients * dynamics::fourier_row(tau, coefficients.cols());
     for (Eigen::Index i = 0; i < largest.size(); ++i)
       largest(i) = std::max(largest(i), fem::von_mises(at.segment(components * i, components), poisson_ratio));
   }
@@ -42,10 +42,10 @@ Eigen::VectorXd largest_von_mises(const Eigen::MatrixXd& coefficients, Eigen::In
 
 }  // namespace
 
-Eigen::MatrixXd reduced_coordinates(const response::SteadyState& state) {
-  assert(state.status == Status::converged && state.linearisation);
-  const response::SteadyResidual& residual = state.linearisation->residual();
-  const std::vector<response::HarmonicStiffness>& harmonics = residual.system().harmonics;
+Eigen::MatrixXd reduced_coordinates(const steady::State& state) {
+  assert(state.status == Status::converged && state.tangent);
+  const steady::Problem& residual = state.tangent->problem();
+  const std::vector<dynamics::HarmonicStiffness>& harmonics = residual.system().harmonics;
   Eigen::MatrixXd result(residual.model().size(), state.displacement.cols());
   for (std::size_t i = 0; i < harmonics.size(); ++i) {
     const auto h = static_cast<Eigen::Index>(i);
@@ -60,7 +60,7 @@ Eigen::MatrixXd reduced_coordinates(const response::SteadyState& state) {
   return result;
 }
 
-FilletStress fillet_stress(const Scene& scene, const CandidateModel& candidate, const response::SteadyState& state,
+FilletStress fillet_stress(const Scene& scene, const CandidateModel& candidate, const steady::State& state,
                            std::span<const int> nodes, const Eigen::VectorXd& share, double poisson_ratio) {
   const fem::Mesh& mesh = candidate.mesh.sector.mesh;
   const std::vector<fem::Material> bodies = materials(scene);

@@ -4,12 +4,12 @@
 #include <span>
 
 #include "optimizer/candidate_model.hpp"
-#include "response/steady_state.hpp"
+#include "steady/steady_state.hpp"
 
 namespace dovetail::optimizer {
 
 /// Fourier coefficients of the reduced coordinates, [n, 2H+1], of a converged steady state with linearisation.
-[[nodiscard]] Eigen::MatrixXd reduced_coordinates(const response::SteadyState& state);
+[[nodiscard]] Eigen::MatrixXd reduced_coordinates(const steady::State& state);
 
 /// Stress on a fillet while the blade vibrates.
 struct FilletStress {
@@ -23,7 +23,7 @@ struct FilletStress {
 /// Nodal means of the elements' stresses, corrected by what is known on a free surface (fem::on_free_surface). `share`
 /// [nodes] is that of fem::SectorMesh. Cost: the field of each Fourier coefficient, a back-solve of the full model.
 [[nodiscard]] FilletStress fillet_stress(const Scene& scene, const CandidateModel& candidate,
-                                         const response::SteadyState& state, std::span<const int> nodes,
+                                         const steady::State& state, std::span<const int> nodes,
                                          const Eigen::VectorXd& share, double poisson_ratio);
 
 }  // namespace dovetail::optimizer

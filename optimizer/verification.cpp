@@ -40,8 +40,8 @@ Eigen::VectorXd on_grid(const Eigen::VectorXd& depth, const fem::ContactCells& f
 /// Two histories, the second with half the increment, and what they extrapolate to.
 std::string wear_down(const Scene& scene, const CandidateResult& fine, const VerificationOptions& options,
                       const wear::Control& control, Verification& verification) {
-  const std::shared_ptr<const response::CondensedModel>& model = fine.model.condensed;
-  response::SteadyOptions steady = steady_options(scene.solver);
+  const std::shared_ptr<const dynamics::CondensedModel>& model = fine.model.condensed;
+  steady::Options steady = steady_options(scene.solver);
   double volume = 0;
   Eigen::VectorXd depth;
   for (const double part : {1.0, 0.5}) {
@@ -51,7 +51,7 @@ std::string wear_down(const Scene& scene, const CandidateResult& fine, const Ver
     settings.increment = part * options.increment * wear::largest_penetration(*model, fine.unworn->state);
     settings.steps = options.steps;
     settings.finish = false;
-    const wear::History history = wear::history(model, fine.unworn->omega, {}, steady, settings, {}, control);
+    const wear::History history = wear::history({model, {}, steady}, fine.unworn->omega, settings, {}, control);
     verification.history_solves += history.solves;
     const Eigen::Index last = history.cycles.size() - 1;
     if (last < 0) return failure("history", to_string(history.status));

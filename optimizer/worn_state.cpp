@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "optimizer/worn_zones.hpp"
-#include "response/refined_state.hpp"
+#include "steady/steady_state.hpp"
 #include "wear/certificate.hpp"
 #include "wear/follow.hpp"
 
@@ -15,18 +15,18 @@ namespace dovetail::optimizer {
 
 namespace {
 
-WornState come_to_rest(const Scene& scene, const CandidateModel& model, const response::SteadyState& unworn,
-                       const response::SteadyOptions& steady, const char* arbitration) {
+WornState come_to_rest(const Scene& scene, const steady::Joint& joint, const steady::State& unworn,
+                       const char* arbitration) {
   wear::AsymptoteOptions options;
   options.arbitration = arbitration;
   options.certify_finer = false;  // more harmonics and samples have their bars
   if (scene.loading.follow != "resonance")
-    return {.asymptote = wear::asymptote(model.condensed, unworn.omega, {}, steady, options, &unworn),
+    return {.asymptote = wear::asymptote(joint, unworn.omega, options, &unworn),
             .held = {},
             .omega = unworn.omega,
             .unfinished = {}};
   wear::FollowedAsymptote found =
-      wear::followed_asymptote(model.condensed, unworn.omega, {}, steady, options, {}, &unworn);
+      wear::followed_asymptote(joint, unworn.omega, options, {}, &unworn);
   return {.asymptote = std::move(found.asymptote),
           .held = std::move(found.held),
           .omega = found.omegas.back(),
@@ -46,16 +46,16 @@ wear::OtherState other_state(const char* found_by, wear::Asymptote found) {
 /// Where the wear history ends with twice the harmonics plus one and twice the samples; nothing where it comes to no
 /// end. Which nodes lift off first may hang on harmonics and samples: then histories of neighbouring designs and meshes
 /// end far from one another, and more of both tell where wear goes.
-std::optional<wear::OtherState> finer_history(Scene scene, const CandidateModel& model,
-                                              const response::SteadyState& unworn, response::SteadyOptions steady) {
-  steady = wear::finer_settings(steady);
-  scene.solver.harmonics = steady.harmonics;
-  scene.solver.samples = steady.samples;
-  steady.budget = new_budget(scene.solver, model);
-  const response::SteadyState start = response::steady_state(model.condensed, unworn.omega, {}, steady,
-                                                             response::padded(unworn.displacement, steady.harmonics));
+std::optional<wear::OtherState> finer_history(Scene scene, const CandidateModel& model, steady::Joint joint,
+                                              const steady::State& unworn) {
+  joint.options = wear::finer_settings(joint.options);
+  scene.solver.harmonics = joint.options.harmonics;
+  scene.solver.samples = joint.options.samples;
+  joint.options.budget = new_budget(scene.solver, model);
+  const steady::State start =
+      steady::steady_state(joint, unworn.omega, steady::padded(unworn.displacement, joint.options.harmonics));
   if (start.status != Status::converged) return {};
-  wear::Asymptote found = come_to_rest(scene, model, start, steady, "always").asymptote;
+  wear::Asymptote found = come_to_rest(scene, joint, start, "always").asymptote;
   if (found.verdict != wear::Verdict::asymptote || !found.confirmed_by_history) return {};
   return other_state(kFinerHistory, std::move(found));
 }
@@ -67,11 +67,11 @@ struct Ends {
   std::string unfinished;  ///< what to say where the finer history was asked and came to no end
 };
 
-Ends compared(const Scene& scene, const CandidateModel& model, const response::SteadyState& unworn,
-              const response::SteadyOptions& steady, const wear::Asymptote& history, const wear::Asymptote& direct) {
+Ends compared(const Scene& scene, const CandidateModel& model, const steady::Joint& joint, const steady::State& unworn,
+              const wear::Asymptote& history, const wear::Asymptote& direct) {
   if (!far_apart(model.cells, history.depth, direct.depth))
     return {.direct_stays = a_node_apart(model.cells, history.depth, direct.depth), .finer = {}, .unfinished = {}};
-  Ends ends{.direct_stays = false, .finer = finer_history(scene, model, unworn, steady), .unfinished = {}};
+  Ends ends{.direct_stays = false, .finer = finer_history(scene, model, joint, unworn), .unfinished = {}};
   if (!ends.finer)
     ends.unfinished = "one with more harmonics and samples came to no end";
   else
@@ -81,13 +81,13 @@ Ends compared(const Scene& scene, const CandidateModel& model, const response::S
 }
 
 /// Looks for doubt in a worn state that was found directly and asks the wear history.
-void settle(const Scene& scene, const CandidateModel& model, const response::SteadyState& unworn,
-            response::SteadyOptions steady, WornState& worn) {
-  steady.budget = new_budget(scene.solver, model);
-  WornState asked = come_to_rest(scene, model, unworn, steady, "auto");
+void settle(const Scene& scene, const CandidateModel& model, steady::Joint joint, const steady::State& unworn,
+            WornState& worn) {
+  joint.options.budget = new_budget(scene.solver, model);
+  WornState asked = come_to_rest(scene, joint, unworn, "auto");
   wear::Asymptote &found = asked.asymptote, &direct = worn.asymptote;
   const std::string unfinished =
-      spent(steady.budget) ? "it spent its budget (solver.max_jacobians, solver.time_limit_s)" : "it came to no end";
+      spent(joint.options.budget) ? "it spent its budget (solver.max_jacobians, solver.time_limit_s)" : "it came to no end";
   if (found.verdict == wear::Verdict::not_converged) {
     direct.doubt = found.doubt.empty() ? "unfinished" : found.doubt;
     worn.unfinished = unfinished;
@@ -95,7 +95,7 @@ void settle(const Scene& scene, const CandidateModel& model, const response::Ste
   }
   Ends ends;
   if (found.decided_by == "history" && direct.decided_by == "release" && found.verdict == wear::Verdict::asymptote)
-    ends = compared(scene, model, unworn, steady, found, direct);
+    ends = compared(scene, model, joint, unworn, found, direct);
   if (ends.direct_stays) {
     direct.doubt = found.doubt;
     direct.confirmed_by_history = true;
@@ -110,10 +110,10 @@ void settle(const Scene& scene, const CandidateModel& model, const response::Ste
 
 }  // namespace
 
-WornState worn_state(const Scene& scene, const CandidateModel& model, const response::SteadyState& unworn,
-                     const response::SteadyOptions& steady, bool history) {
-  WornState worn = come_to_rest(scene, model, unworn, steady, "unsettled");
-  if (history && worn.asymptote.verdict == wear::Verdict::asymptote) settle(scene, model, unworn, steady, worn);
+WornState worn_state(const Scene& scene, const CandidateModel& model, const steady::Joint& joint,
+                     const steady::State& unworn, bool history) {
+  WornState worn = come_to_rest(scene, joint, unworn, "unsettled");
+  if (history && worn.asymptote.verdict == wear::Verdict::asymptote) settle(scene, model, joint, unworn, worn);
   return worn;
 }
 

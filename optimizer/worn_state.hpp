@@ -5,7 +5,7 @@
 
 #include "optimizer/candidate_model.hpp"
 #include "optimizer/evaluation.hpp"
-#include "response/steady_state.hpp"
+#include "steady/steady_state.hpp"
 #include "wear/asymptote.hpp"
 
 namespace dovetail::optimizer {
@@ -23,9 +23,10 @@ struct WornState {
 /// does not come to an end. It stays, too, where the history ends within a node of it, as on other nodes the history
 /// may well end in it, and where the two are far apart and a history with more harmonics and samples ends nearer to it.
 ///
-/// @param unworn  steady state at the settings of `steady`
-[[nodiscard]] WornState worn_state(const Scene& scene, const CandidateModel& model, const response::SteadyState& unworn,
-                                   const response::SteadyOptions& steady, bool history);
+/// @param joint   the candidate's, unworn
+/// @param unworn  its steady state
+[[nodiscard]] WornState worn_state(const Scene& scene, const CandidateModel& model, const steady::Joint& joint,
+                                   const steady::State& unworn, bool history);
 
 /// Whether the worn state was in doubt, and what decided: into the evaluation's `model` and `messages`.
 /// @param unfinished  of the WornState

@@ -32,7 +32,7 @@ double extrapolate(const double* change, const double* change_before, Memory& me
 
 template <int Directions>
 void march_node(const double* prediction, const NodeLaw& law, int samples, const MarchOptions& options,
-                bool may_extrapolate, DerivativeStart& start, MarchResult& result) {
+                bool may_extrapolate, MarchResult& result) {
   Memory memory;
   double limit = 0;
   for (int r = 0; r < Directions; ++r) memory.slip_force[r] = law.tangential_penalty * law.slip_origin(r);
@@ -55,7 +55,7 @@ void march_node(const double* prediction, const NodeLaw& law, int samples, const
   result.status = options.periodic ? Status::not_periodic : Status::converged;
   for (result.periods = 1; result.periods <= periods; ++result.periods) {
     before = memory;
-    start = {.sample = reset, .memory = reset_memory};
+    result.start = {.sample = reset, .memory = reset_memory};
     for (int n = 0; n < samples; ++n) {
       const Step step =
           sample_step<Directions>(prediction + (1 + Directions) * ((n + samples - 1) % samples),
@@ -94,10 +94,10 @@ void march_node(const double* prediction, const NodeLaw& law, int samples, const
     if (repeats && result.extrapolated && std::none_of(result.state.begin(), result.state.end(), [](SampleState state) {
           return state == SampleState::slipping;
         }))
-      return march_node<Directions>(prediction, law, samples, options, false, start, result);
+      return march_node<Directions>(prediction, law, samples, options, false, result);
     if (repeats) {
       result.status = Status::converged;
-      start.orbit = before;
+      result.start.orbit = before;
       break;
     }
     if (Directions == 2 && may_extrapolate && result.periods >= kPatience && result.periods % kInterval == 0 &&
@@ -142,30 +142,27 @@ void march_node(const double* prediction, const NodeLaw& law, int samples, const
 }
 
 template <int Directions>
-void run(const Eigen::Ref<const Eigen::MatrixXd>& prediction, const NodeLaw& law, const numerics::FourierBasis& basis,
-         const MarchOptions& options, bool with_derivative, MarchResult& result) {
+void run(const Eigen::Ref<const Eigen::MatrixXd>& prediction, const NodeLaw& law, const MarchOptions& options,
+         MarchResult& result) {
   // Sample by sample in memory: the march visits all directions of a sample together.
   const Eigen::Matrix<double, Eigen::Dynamic, 1 + Directions, Eigen::RowMajor> rows = prediction;
-  DerivativeStart start;
-  march_node<Directions>(rows.data(), law, basis.samples(), options, true, start, result);
-  if (with_derivative) differentiate<Directions>(rows.data(), law, basis, options.slip_return, start, result);
+  march_node<Directions>(rows.data(), law, static_cast<int>(rows.rows()), options, true, result);
 }
 
 }  // namespace
 
-void march(const Eigen::Ref<const Eigen::MatrixXd>& prediction, const NodeLaw& law, const numerics::FourierBasis& basis,
-           const MarchOptions& options, bool with_derivative, MarchResult& result) {
-  const Eigen::Index directions = prediction.cols();
+void march(const Eigen::Ref<const Eigen::MatrixXd>& prediction, const NodeLaw& law, const MarchOptions& options,
+           MarchResult& result) {
+  const Eigen::Index samples = prediction.rows(), directions = prediction.cols();
   assert(directions == 2 || directions == 3);
-  assert(prediction.rows() == basis.samples());
-  result.force.resize(basis.samples(), directions);
-  result.slip_force.resize(basis.samples(), directions);
-  result.slip_step.resize(basis.samples(), directions - 1);
-  result.state.resize(static_cast<std::size_t>(basis.samples()));
+  result.force.resize(samples, directions);
+  result.slip_force.resize(samples, directions);
+  result.slip_step.resize(samples, directions - 1);
+  result.state.resize(static_cast<std::size_t>(samples));
   if (directions == 2)
-    run<1>(prediction, law, basis, options, with_derivative, result);
+    run<1>(prediction, law, options, result);
   else
-    run<2>(prediction, law, basis, options, with_derivative, result);
+    run<2>(prediction, law, options, result);
 }
 
 void carry_nothing(const Eigen::Ref<const Eigen::MatrixXd>& prediction, double tangential_penalty,

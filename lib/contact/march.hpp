@@ -33,6 +33,22 @@ struct NodeLaw {
   Eigen::Vector2d slip_origin = {0, 0};  ///< X_T at which the march starts, m
 };
 
+/// State of a node between two samples: lambda_x,T and the direction of the last slip.
+struct Memory {
+  double slip_force[2] = {0, 0};  ///< lambda_x,T, N
+  double direction[2] = {1, 0};   ///< of lambda_T at the last slip (two tangential directions)
+  bool slipped = false;           ///< at the last sample
+  bool separated = false;         ///< at the last sample
+};
+
+/// Where the derivative of a march may start: after the last sample before the last period that forgot all history, or
+/// at the very beginning.
+struct DerivativeStart {
+  long sample = -1;    ///< absolute index of that sample; -1: the beginning
+  Memory memory = {};  ///< after it
+  Memory orbit = {};   ///< at the start of the last period
+};
+
 /// One node marched over the period. d = 1 + tangential directions, m = d (2H+1).
 /// Flattened coefficients of a node are ordered coefficient by coefficient: index k d + r is Fourier coefficient k
 /// of direction r (0 normal, 1.. tangential).
@@ -51,8 +67,9 @@ struct MarchResult {
   double friction_margin = 0;         ///< smallest mu lambda_N - |lambda_T| over the loaded samples, N
   double slip_load = 0;               ///< sum of mean lambda_N |dX_T| over the last period, N m
   Eigen::Vector2d slip_end = {0, 0};  ///< X_T after the last sample, m
+  DerivativeStart start = {};
 
-  // Filled when derivatives are asked for.
+  // Filled by differentiate().
   Eigen::MatrixXd force_derivative;         ///< D = d lambda_h / d lambda_u,h [m, m]
   Eigen::RowVectorXd slip_load_derivative;  ///< d slip_load / d lambda_u,h [m], m
 };
@@ -62,14 +79,19 @@ struct MarchResult {
 ///   separation pre_N <= 0: lambda = 0, lambda_x = lambda_u
 ///   stick |pre_T| <= mu pre_N: lambda = pre, lambda_x,T unchanged
 ///   slip: lambda_N = pre_N, lambda_T = kappa pre_T, kappa = mu pre_N / |pre_T|, lambda_x,T += (1 - kappa) pre_T.
-/// The derivative is that of the march itself, through all marched periods, exact away from its kinks
-/// [Salles 2009, eq. 23-32]. In space a slip state that still changes after 16 periods is extrapolated every 8 as a
-/// geometric sequence, and the derivative is then that of the periodic orbit reached. `prediction` is lambda_u [N, d],
-/// d = 2 or 3, N = basis.samples(). Cost: O(N d) per period; with derivatives O(N d m) plus O(m) per slipping sample.
-void march(const Eigen::Ref<const Eigen::MatrixXd>& prediction, const NodeLaw& law, const numerics::FourierBasis& basis,
-           const MarchOptions& options, bool with_derivative, MarchResult& result);
+/// In space a slip state that still changes after 16 periods is extrapolated every 8 as a geometric sequence.
+/// `prediction` is lambda_u [N, d], d = 2 or 3. Cost: O(N d) per period.
+void march(const Eigen::Ref<const Eigen::MatrixXd>& prediction, const NodeLaw& law, const MarchOptions& options,
+           MarchResult& result);
 
-/// The same for a node that is kept free of contact: lambda = 0, lambda_x = lambda_u, D = 0.
+/// Adds the derivatives of the march of `prediction` to its `result`. They are those of the march itself, through all
+/// marched periods, exact away from its kinks [Salles 2009, eq. 23-32]; after an extrapolation those of the periodic
+/// orbit reached. Cost: O(N d m) plus O(m) per slipping sample.
+void differentiate(const Eigen::Ref<const Eigen::MatrixXd>& prediction, const NodeLaw& law,
+                   const numerics::FourierBasis& basis, SlipReturn rule, MarchResult& result);
+
+/// The march of a node that is kept free of contact: lambda = 0, lambda_x = lambda_u, D = 0 [m, m],
+/// m = d `coefficients`.
 void carry_nothing(const Eigen::Ref<const Eigen::MatrixXd>& prediction, double tangential_penalty,
                    Eigen::Index coefficients, MarchResult& result);
 

@@ -1,5 +1,6 @@
 #include <Eigen/LU>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "contact/sample_step.hpp"
@@ -138,11 +139,10 @@ void reorder(const Eigen::MatrixXd& by_direction, Eigen::Index k, Eigen::Index d
         for (Eigen::Index j = 0; j < k; ++j) result(j * d + r, l * d + s) = by_direction(r * k + j, s * k + l);
 }
 
-}  // namespace
-
 template <int Directions>
-void differentiate(const double* prediction, const NodeLaw& law, const numerics::FourierBasis& basis, SlipReturn rule,
-                   const DerivativeStart& start, MarchResult& result) {
+void differentiate_node(const double* prediction, const NodeLaw& law, const numerics::FourierBasis& basis,
+                        SlipReturn rule, MarchResult& result) {
+  const DerivativeStart& start = result.start;
   constexpr Eigen::Index d = 1 + Directions;
   const Eigen::Index k = basis.coefficients(), m = d * k;
   const int samples = basis.samples();
@@ -256,9 +256,22 @@ void differentiate(const double* prediction, const NodeLaw& law, const numerics:
       result.slip_load_derivative(j * d + r) = load_slope(r * k + j) / law.tangential_penalty;
 }
 
-template void differentiate<1>(const double*, const NodeLaw&, const numerics::FourierBasis&, SlipReturn,
-                               const DerivativeStart&, MarchResult&);
-template void differentiate<2>(const double*, const NodeLaw&, const numerics::FourierBasis&, SlipReturn,
-                               const DerivativeStart&, MarchResult&);
+template <int Directions>
+void run(const Eigen::Ref<const Eigen::MatrixXd>& prediction, const NodeLaw& law, const numerics::FourierBasis& basis,
+         SlipReturn rule, MarchResult& result) {
+  const Eigen::Matrix<double, Eigen::Dynamic, 1 + Directions, Eigen::RowMajor> rows = prediction;
+  differentiate_node<Directions>(rows.data(), law, basis, rule, result);
+}
+
+}  // namespace
+
+void differentiate(const Eigen::Ref<const Eigen::MatrixXd>& prediction, const NodeLaw& law,
+                   const numerics::FourierBasis& basis, SlipReturn rule, MarchResult& result) {
+  assert(prediction.rows() == basis.samples());
+  if (prediction.cols() == 2)
+    run<1>(prediction, law, basis, rule, result);
+  else
+    run<2>(prediction, law, basis, rule, result);
+}
 
 }  // namespace dovetail::contact

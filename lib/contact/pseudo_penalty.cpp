@@ -4,6 +4,15 @@
 
 namespace dovetail::contact {
 
+Eigen::VectorXd PseudoPenalty::by_dof(Eigen::Index directions) const {
+  Eigen::VectorXd result(normal.size() * directions);
+  for (Eigen::Index i = 0; i < normal.size(); ++i) {
+    result(i * directions) = normal(i);
+    result.segment(i * directions + 1, directions - 1).setConstant(tangential(i));
+  }
+  return result;
+}
+
 PseudoPenalty pseudo_penalty(const Eigen::VectorXd& local_stiffness, Eigen::Index directions, double normal,
                              double tangential) {
   assert(directions >= 2 && local_stiffness.size() % directions == 0);

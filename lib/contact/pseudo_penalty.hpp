@@ -12,6 +12,8 @@ struct PseudoPenalty {
   Eigen::VectorXd tangential;  ///< [Nc] > 0
 
   [[nodiscard]] PseudoPenalty scaled(double ratio) const { return {normal * ratio, tangential * ratio}; }
+  /// eps of each contact dof, node by node with `directions` d each, [Nc d].
+  [[nodiscard]] Eigen::VectorXd by_dof(Eigen::Index directions) const;
   [[nodiscard]] bool operator==(const PseudoPenalty& other) const {
     return normal == other.normal && tangential == other.tangential;
   }

@@ -6,14 +6,6 @@
 
 namespace dovetail::contact {
 
-/// State of a node between two samples: lambda_x,T and the direction of the last slip.
-struct Memory {
-  double slip_force[2] = {0, 0};  ///< lambda_x,T, N
-  double direction[2] = {1, 0};   ///< of lambda_T at the last slip (two tangential directions)
-  bool slipped = false;           ///< at the last sample
-  bool separated = false;         ///< at the last sample
-};
-
 /// What one sample did.
 struct Step {
   SampleState state = SampleState::separated;
@@ -101,18 +93,5 @@ inline Step sample_step(const double* previous, const double* prediction, double
   memory.slipped = true;
   return step;
 }
-
-/// Where the derivative pass may start: after the last sample before the last period that forgot all history, or
-/// at the very beginning.
-struct DerivativeStart {
-  long sample = -1;    ///< absolute index of that sample; -1: the beginning
-  Memory memory = {};  ///< after it
-  Memory orbit = {};   ///< at the start of the last period
-};
-
-/// Differentiates the march from `start` to the end of period `result.periods`.
-template <int Directions>
-void differentiate(const double* prediction, const NodeLaw& law, const numerics::FourierBasis& basis, SlipReturn rule,
-                   const DerivativeStart& start, MarchResult& result);
 
 }  // namespace dovetail::contact

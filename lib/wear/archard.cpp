@@ -27,7 +27,7 @@ double cycle_jump(const Eigen::VectorXd& rate, double increment) {
   return largest > 0.0 ? increment / largest : std::numeric_limits<double>::infinity();
 }
 
-double own_stiffness(const response::CondensedModel& model, Eigen::Index node, Eigen::Index direction) {
+double own_stiffness(const dynamics::CondensedModel& model, Eigen::Index node, Eigen::Index direction) {
   constexpr double kNone = 1e-12, kFloor = 1e-3;
   const double largest = model.local_stiffness().maxCoeff();
   const double own = model.local_stiffness()[node * model.directions() + direction];
@@ -35,7 +35,7 @@ double own_stiffness(const response::CondensedModel& model, Eigen::Index node, E
   return largest > 0.0 ? kFloor * largest : 1.0;
 }
 
-double largest_penetration(const response::CondensedModel& model, const response::SteadyState& state) {
+double largest_penetration(const dynamics::CondensedModel& model, const steady::State& state) {
   double penetration = 0.0;
   for (Eigen::Index i = 0; i < model.nodes(); ++i)
     penetration =

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "reduction/reduced_model.hpp"
-#include "response/steady_state.hpp"
+#include "steady/steady_state.hpp"
 
 namespace dovetail::wear {
 
@@ -24,10 +24,10 @@ namespace dovetail::wear {
 
 /// A node's own stiffness in one direction (0: normal), N/m, all others held. Where nothing holds it, 1e-3 of the
 /// largest stiffness of any node, or 1 where there is none, so that what is divided by it stays finite.
-[[nodiscard]] double own_stiffness(const response::CondensedModel& model, Eigen::Index node, Eigen::Index direction);
+[[nodiscard]] double own_stiffness(const dynamics::CondensedModel& model, Eigen::Index node, Eigen::Index direction);
 
 /// Largest lambda_N of a node over its own normal stiffness, m: the depth over which its load changes when it wears.
 /// Finite also under a dead load, which does not change.
-[[nodiscard]] double largest_penetration(const response::CondensedModel& model, const response::SteadyState& state);
+[[nodiscard]] double largest_penetration(const dynamics::CondensedModel& model, const steady::State& state);
 
 }  // namespace dovetail::wear

@@ -61,7 +61,7 @@ struct Rates {
 
 /// Solves once more with the worn gap and contact everywhere.
 void certify(Release& release, const Rates& rates, const AsymptoteOptions& options, Asymptote& result) {
-  const response::SteadyState worn = release.solve_worn(result.depth, result.steady.displacement);
+  const steady::State worn = release.solve_worn(result.depth, result.steady.displacement);
   if (worn.status != Status::converged) {
     result.verdict = Verdict::not_converged;
     result.status = worn.status;
@@ -77,8 +77,7 @@ void certify(Release& release, const Rates& rates, const AsymptoteOptions& optio
 }
 
 /// A node that sticks with little to spare may slip while its neighbours wear, and the history wears it, too.
-bool near_slip(const response::CondensedModel& model, const response::SteadyState& state,
-               const std::vector<bool>& released) {
+bool near_slip(const dynamics::CondensedModel& model, const steady::State& state, const std::vector<bool>& released) {
   // Half-plane punches whose histories took one node more ended with 0.015 to 0.03, others with 0.04 and above.
   constexpr double kMargin = 0.05;
   for (std::size_t i = 0; i < released.size(); ++i) {
@@ -90,12 +89,12 @@ bool near_slip(const response::CondensedModel& model, const response::SteadyStat
   return false;
 }
 
-Bearing bearing_of(const response::CondensedModel& model, const Asymptote& result) {
+Bearing bearing_of(const dynamics::CondensedModel& model, const Asymptote& result) {
   return bearing(model, result.unworn, result.steady, result.depth);
 }
 
 /// A state that hardly anything bears is an answer only when the history comes to it.
-void refuse_gross_sliding(const response::CondensedModel& model, Asymptote& result) {
+void refuse_gross_sliding(const dynamics::CondensedModel& model, Asymptote& result) {
   if (result.verdict != Verdict::asymptote) return;
   result.bearing = bearing_of(model, result);
   if (!result.bearing.impossible() && (result.confirmed_by_history || !result.bearing.doubtful())) return;
@@ -104,12 +103,11 @@ void refuse_gross_sliding(const response::CondensedModel& model, Asymptote& resu
 }
 
 /// Whether the answer rests at finer settings, too.
-void certify_finer(const std::shared_ptr<const response::CondensedModel>& model, const Rates& rates,
-                   const response::SteadyOptions& steady, const AsymptoteOptions& options, Release& release,
+void certify_finer(const steady::Joint& joint, const Rates& rates, const AsymptoteOptions& options, Release& release,
                    Asymptote& result) {
   if (result.verdict != Verdict::asymptote || !options.certify_finer || release.stopped()) return;
   result.finer =
-      certificate(model, release.start(), result.depth, rates.fastest, result.steady, finer_settings(steady));
+      certificate(joint.worn(result.depth).with(finer_settings(joint.options)), rates.fastest, result.steady);
   release.count(1, result.finer.jacobians);
   if (!(rates.fastest > rates.none)) result.finer.remaining = rates.certificate(result.finer.remaining * rates.fastest);
   result.holds_finer =
@@ -132,11 +130,10 @@ bool same_depth(const VectorXd& a, const VectorXd& b, double tolerance) {
 
 /// The implicit history has the last word. Where it cannot be followed to its end a settled direct answer stands,
 /// unconfirmed; any other becomes not_converged.
-void arbitrate(const std::shared_ptr<const response::CondensedModel>& model, double omega, Release& release,
-               const Rates& rates, const response::SteadyOptions& steady, const AsymptoteOptions& options,
+void arbitrate(const steady::Joint& joint, Release& release, const Rates& rates, const AsymptoteOptions& options,
                const Direct& direct, const Control& control, Asymptote& result) {
-  const reduction::ContactNodes& contact = model->contact();
-  const ImplicitHistory past = implicit_history(model, omega, release.start(), steady,
+  const reduction::ContactNodes& contact = joint.model->contact();
+  const ImplicitHistory past = implicit_history(joint, result.unworn.omega,
                                                 {.tolerance = options.history_tolerance,
                                                  .rate_fraction = options.relative_threshold,
                                                  .rate_threshold = rates.none},
@@ -151,7 +148,7 @@ void arbitrate(const std::shared_ptr<const response::CondensedModel>& model, dou
     }
     // However it went on: it has worn more than any state of the joint has.
     if (result.verdict == Verdict::not_converged && past.end != HistoryEnd::interrupted && last >= 0 &&
-        bearing(*model, result.unworn, result.unworn, past.depth.row(last).transpose()).impossible())
+        bearing(*joint.model, result.unworn, result.unworn, past.depth.row(last).transpose()).impossible())
       result.status = Status::gross_sliding;
     return;
   }
@@ -189,20 +186,19 @@ std::string_view to_string(Verdict verdict) {
   return "unknown";
 }
 
-Asymptote asymptote(const std::shared_ptr<const response::CondensedModel>& model, double omega,
-                    const response::ContactCondition& start, const response::SteadyOptions& steady,
-                    const AsymptoteOptions& options, const response::SteadyState* unworn, const Control& control) {
+Asymptote asymptote(const steady::Joint& joint, double omega, const AsymptoteOptions& options,
+                    const steady::State* unworn, const Control& control) {
   if (std::vector<Violation> wrong = violations(options, "asymptote"); !wrong.empty())
     throw InputError(std::move(wrong));
-  require_nothing_released(start);
+  require_nothing_released(joint.condition);
 
-  const reduction::ContactNodes& contact = model->contact();
-  Release release(model, omega, start, steady, control);
+  const reduction::ContactNodes& contact = joint.model->contact();
+  Release release(joint, omega, control);
   Asymptote result;
   result.certificate = std::numeric_limits<double>::quiet_NaN();
-  Passes passes(model->nodes());
+  Passes passes(joint.model->nodes());
   const auto finish = [&] {
-    refuse_gross_sliding(*model, result);
+    refuse_gross_sliding(*joint.model, result);
     result.released = passes.released;
     result.trail = passes.trail;
     result.passes = passes.count;
@@ -211,14 +207,15 @@ Asymptote asymptote(const std::shared_ptr<const response::CondensedModel>& model
     return std::move(result);
   };
 
-  set_depth(contact, release.start().wear_depth, result);
-  result.rate = VectorXd::Zero(model->nodes());
+  set_depth(contact, release.start(), result);
+  result.rate = VectorXd::Zero(joint.model->nodes());
   passes.state = unworn != nullptr ? *unworn : release.solve(passes.released, {});
   result.unworn = passes.state;
   result.status = passes.state.status;
   if (passes.state.status != Status::converged) return finish();
   result.unworn_rate = passes.state.wear_rate;
-  Rates rates{.fastest = options.reference_rate, .none = no_wear_rate(options.rate_threshold, *model, result.unworn)};
+  Rates rates{.fastest = options.reference_rate,
+              .none = no_wear_rate(options.rate_threshold, *joint.model, result.unworn)};
   if (!(rates.fastest > 0.0) && result.unworn_rate.size() > 0) rates.fastest = result.unworn_rate.maxCoeff();
   const double threshold = std::max(rates.none, options.relative_threshold * rates.fastest);
 
@@ -242,7 +239,7 @@ Asymptote asymptote(const std::shared_ptr<const response::CondensedModel>& model
     if (options.certify) certify(release, rates, options, result);
     if (result.verdict != Verdict::asymptote)
       direct.doubt = "certificate";
-    else if (bearing_of(*model, result).doubtful())
+    else if (bearing_of(*joint.model, result).doubtful())
       direct.doubt = "gross_sliding";
     else if (reloads(passes.deepest, result.depth, options.state_tolerance))
       direct.doubt = "reload";
@@ -264,23 +261,23 @@ Asymptote asymptote(const std::shared_ptr<const response::CondensedModel>& model
     if (direct.doubt.empty() &&
         (!slow.settled || elsewhere || reloads(slow.deepest, slow.depth, options.state_tolerance)))
       direct.doubt = "worst_first";
-    else if (direct.doubt.empty() && near_slip(*model, result.steady, passes.released))
+    else if (direct.doubt.empty() && near_slip(*joint.model, result.steady, passes.released))
       direct.doubt = "near_slip";
   }
   result.doubt = direct.doubt.empty() && asked ? "always" : direct.doubt;
   const bool stands = direct.settled && result.verdict == Verdict::asymptote && direct.doubt != "gross_sliding";
   if (result.doubt.empty() || options.arbitration == "never" || (options.arbitration == "unsettled" && stands)) {
     count_arbitration();
-    certify_finer(model, rates, steady, options, release, result);
+    certify_finer(joint, rates, options, release, result);
     return finish();
   }
-  arbitrate(model, omega, release, rates, steady, options, direct, control, result);
+  arbitrate(joint, release, rates, options, direct, control, result);
   if (result.decided_by == "history")
     for (std::size_t i = 0; i < passes.released.size(); ++i)
-      passes.released[i] = result.depth[static_cast<Index>(i)] > release.start().wear_depth[static_cast<Index>(i)] &&
+      passes.released[i] = result.depth[static_cast<Index>(i)] > release.start()[static_cast<Index>(i)] &&
                            !result.steady.nodes[i].carries_load;
   count_arbitration();
-  certify_finer(model, rates, steady, options, release, result);
+  certify_finer(joint, rates, options, release, result);
   return finish();
 }
 

@@ -9,7 +9,7 @@
 
 #include "core/options.hpp"
 #include "core/status.hpp"
-#include "response/steady_state.hpp"
+#include "steady/steady_state.hpp"
 #include "wear/certificate.hpp"
 #include "wear/control.hpp"
 #include "wear/gross_sliding.hpp"
@@ -94,8 +94,8 @@ struct Asymptote {
   std::vector<OtherState> other_states;  ///< states at rest where the history does not go
   int arbitration_solves = 0;            ///< of `solves`: looking for doubt and the history
   int arbitration_jacobians = 0;         ///< of `jacobians`
-  response::SteadyState unworn;          ///< steady state before wear
-  response::SteadyState steady;          ///< at the limit (no asymptote: the last one computed)
+  steady::State unworn;                  ///< steady state before wear
+  steady::State steady;                  ///< at the limit (no asymptote: the last one computed)
   int passes = 0;                        ///< of release
   int solves = 0;                        ///< steady states computed
   int jacobians = 0;                     ///< factorised Jacobians over all of them
@@ -110,14 +110,12 @@ struct Asymptote {
 /// a certified direct answer stands with confirmed_by_history = false.
 ///
 /// @param omega      excitation frequency rad/s, held; the unworn resonance is a good choice
-/// @param start      wear depth already there (the result includes it) and slip origin; it must release no node
-/// @param unworn     steady state of `start` at omega to begin with, or null
+/// @param joint      with the wear depth already there (the result includes it); it must release no node
+/// @param unworn     steady state of `joint` at omega to begin with, or null
 /// Cost: 5 to 15 steady states, warm-started; a history 50 to 200 Jacobians more. Throws InputError for options out of
 /// range and for nodes released at the start.
-[[nodiscard]] Asymptote asymptote(const std::shared_ptr<const response::CondensedModel>& model, double omega,
-                                  const response::ContactCondition& start, const response::SteadyOptions& steady,
-                                  const AsymptoteOptions& options = {}, const response::SteadyState* unworn = nullptr,
-                                  const Control& control = {});
+[[nodiscard]] Asymptote asymptote(const steady::Joint& joint, double omega, const AsymptoteOptions& options = {},
+                                  const steady::State* unworn = nullptr, const Control& control = {});
 
 }  // namespace dovetail::wear
 

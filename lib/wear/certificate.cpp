@@ -3,29 +3,24 @@
 #include <limits>
 #include <utility>
 
-#include "response/refined_state.hpp"
-#include "response/truncation.hpp"
+#include "quality/truncation.hpp"
 
 namespace dovetail::wear {
 
-response::SteadyOptions finer_settings(const response::SteadyOptions& steady) {
-  response::SteadyOptions finer = response::more_harmonics(steady);
-  if (finer.samples < 2 * steady.samples) finer = response::more_samples(std::move(finer));
+steady::Options finer_settings(const steady::Options& steady) {
+  steady::Options finer = quality::more_harmonics(steady);
+  if (finer.samples < 2 * steady.samples) finer = quality::more_samples(std::move(finer));
   return finer;
 }
 
-Certificate certificate(const std::shared_ptr<const response::CondensedModel>& model,
-                        const response::ContactCondition& start, const Eigen::VectorXd& depth, double fastest,
-                        const response::SteadyState& from, response::SteadyOptions settings) {
-  response::ContactCondition condition = start;
-  condition.wear_depth = depth;
-  settings.linearise = false;
-  const response::SteadyState state = response::steady_state(model, from.omega, condition, settings,
-                                                             response::padded(from.displacement, settings.harmonics));
+Certificate certificate(steady::Joint joint, double fastest, const steady::State& from) {
+  joint.options.linearise = false;
+  const steady::State state =
+      steady::steady_state(joint, from.omega, steady::padded(from.displacement, joint.options.harmonics));
   Certificate result{.status = state.status,
                      .remaining = std::numeric_limits<double>::quiet_NaN(),
-                     .harmonics = settings.harmonics,
-                     .samples = settings.samples,
+                     .harmonics = joint.options.harmonics,
+                     .samples = joint.options.samples,
                      .jacobians = state.iterations};
   if (state.status != Status::converged) return result;
   const double largest = state.wear_rate.size() == 0 ? 0.0 : state.wear_rate.maxCoeff();

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <memory>
 
-#include "response/steady_state.hpp"
+#include "steady/steady_state.hpp"
 
 namespace dovetail::wear {
 
@@ -16,18 +16,14 @@ struct Certificate {
 };
 
 /// 2H+1 harmonics and 2N samples, more where the harmonics need them.
-[[nodiscard]] response::SteadyOptions finer_settings(const response::SteadyOptions& steady);
+[[nodiscard]] steady::Options finer_settings(const steady::Options& steady);
 
-/// Solves with gap g + W at `settings`, which may differ from those of `from`: what rests at H harmonics and N samples
+/// Solves the worn `joint`, at settings that may differ from those of `from`: what rests at H harmonics and N samples
 /// may slip at more.
 ///
-/// @param start    slip origin; `depth` [Nc] m replaces its wear depth
 /// @param fastest  largest unworn rate, m per cycle
-/// @param from     steady state near the one with `depth`, at the frequency wanted
+/// @param from     steady state near it, at the frequency wanted
 /// Cost: one steady state, warm-started.
-[[nodiscard]] Certificate certificate(const std::shared_ptr<const response::CondensedModel>& model,
-                                      const response::ContactCondition& start, const Eigen::VectorXd& depth,
-                                      double fastest, const response::SteadyState& from,
-                                      response::SteadyOptions settings);
+[[nodiscard]] Certificate certificate(steady::Joint joint, double fastest, const steady::State& from);
 
 }  // namespace dovetail::wear

@@ -5,23 +5,22 @@
 
 namespace dovetail::wear {
 
-DepthScale depth_scale(const std::shared_ptr<const response::CondensedModel>& model, double omega,
-                       const response::ContactCondition& start, const response::SteadyOptions& steady,
-                       double rate_threshold, const response::SteadyState* unworn, const Control& control) {
+DepthScale depth_scale(const steady::Joint& joint, double omega, double rate_threshold, const steady::State* unworn,
+                       const Control& control) {
   AsymptoteOptions options;
   options.rate_threshold = rate_threshold;
   options.arbitration = "never";
   options.certify = options.certify_finer = false;
-  const Asymptote found = asymptote(model, omega, start, steady, options, unworn, control);
+  const Asymptote found = asymptote(joint, omega, options, unworn, control);
   DepthScale scale{.status = found.unworn.status, .solves = found.solves, .jacobians = found.jacobians};
   if (scale.status != Status::converged) return scale;
   scale.released = found.verdict == Verdict::asymptote;
   if (scale.released) {
-    const Eigen::VectorXd worn =
-        start.wear_depth.size() > 0 ? Eigen::VectorXd(found.depth - start.wear_depth) : found.depth;
+    const Eigen::VectorXd& start = joint.condition.wear_depth;
+    const Eigen::VectorXd worn = start.size() > 0 ? Eigen::VectorXd(found.depth - start) : found.depth;
     scale.depth = worn.size() > 0 ? worn.maxCoeff() : 0.0;
   } else {
-    scale.depth = largest_penetration(*model, found.unworn);
+    scale.depth = largest_penetration(*joint.model, found.unworn);
   }
   return scale;
 }

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "response/steady_state.hpp"
+#include "steady/steady_state.hpp"
 #include "wear/control.hpp"
 
 namespace dovetail::wear {
@@ -20,11 +20,9 @@ struct DepthScale {
 /// own stiffness: the depth over which pressures change. Zero where nothing wears.
 ///
 /// @param rate_threshold  wear per cycle that counts as none, m
-/// @param unworn          steady state of `start` at omega to begin with, or null
+/// @param unworn          steady state of `joint` at omega to begin with, or null
 /// Cost: that of a direct asymptote without certificate or arbitration, 3 to 10 steady states.
-[[nodiscard]] DepthScale depth_scale(const std::shared_ptr<const response::CondensedModel>& model, double omega,
-                                     const response::ContactCondition& start, const response::SteadyOptions& steady,
-                                     double rate_threshold, const response::SteadyState* unworn = nullptr,
-                                     const Control& control = {});
+[[nodiscard]] DepthScale depth_scale(const steady::Joint& joint, double omega, double rate_threshold,
+                                     const steady::State* unworn = nullptr, const Control& control = {});
 
 }  // namespace dovetail::wear

@@ -6,23 +6,19 @@
 
 namespace dovetail::wear {
 
-Finish finish_by_release(const std::shared_ptr<const response::CondensedModel>& model, double omega,
-                         const response::ContactCondition& start, const response::SteadyOptions& steady,
-                         const response::SteadyState& state, const Eigen::VectorXd& depth, double cycles, double close,
-                         const Control& control) {
+Finish finish_by_release(const steady::Joint& joint, const steady::State& state, const Eigen::VectorXd& depth,
+                         double cycles, double close, const Control& control) {
   constexpr double kStillWears = 1e-5;
   constexpr int kPasses = 10;
   // Rates that die out like n^-p, p > 4/3, leave less than this many times rate times cycles.
   constexpr double kTail = 3.0;
   constexpr double kSlack = 1e-3;  // depth that neighbours wear after them, relative to the largest
-  response::ContactCondition worn = start;
-  worn.wear_depth = depth;
   const double largest = depth.maxCoeff();
   const double threshold = kStillWears * largest / cycles;
   Finish result;
   if (!(state.wear_rate.maxCoeff() > threshold)) return result;
-  Release release(model, omega, worn, steady, control);
-  Passes passes(model->nodes());
+  Release release(joint.worn(depth), state.omega, control);
+  Passes passes(joint.model->nodes());
   passes.state = state;
   const Ending ending = release_slipping(release, threshold, kPasses, {}, passes);
   if (ending == Ending::settled) {

@@ -3,16 +3,16 @@
 #include <Eigen/Core>
 #include <memory>
 
-#include "response/steady_state.hpp"
+#include "steady/steady_state.hpp"
 #include "wear/control.hpp"
 
 namespace dovetail::wear {
 
 /// The end of a history by the direct method.
 struct Finish {
-  bool done = false;             ///< nodes were released, and the state reached is close to the one given
-  Eigen::VectorXd depth;         ///< [Nc] m
-  response::SteadyState steady;  ///< with that depth and contact everywhere
+  bool done = false;      ///< nodes were released, and the state reached is close to the one given
+  Eigen::VectorXd depth;  ///< [Nc] m
+  steady::State steady;   ///< with that depth and contact everywhere
   int solves = 0;
   int jacobians = 0;
 };
@@ -22,9 +22,8 @@ struct Finish {
 /// than 1e-5 of the largest depth. Not done where releasing them moves any depth by more than `close` of the largest,
 /// or by more than their rates can still wear, a few times rate times cycles: then the nodes carry what others would
 /// have to take over, they come to rest in contact, and the history is better left as it is.
-[[nodiscard]] Finish finish_by_release(const std::shared_ptr<const response::CondensedModel>& model, double omega,
-                                       const response::ContactCondition& start, const response::SteadyOptions& steady,
-                                       const response::SteadyState& state, const Eigen::VectorXd& depth, double cycles,
-                                       double close, const Control& control);
+[[nodiscard]] Finish finish_by_release(const steady::Joint& joint, const steady::State& state,
+                                       const Eigen::VectorXd& depth, double cycles, double close,
+                                       const Control& control);
 
 }  // namespace dovetail::wear

@@ -31,18 +31,17 @@ void keep_doubt(const Asymptote& earlier, Asymptote& last) {
 
 }  // namespace
 
-FollowedAsymptote followed_asymptote(const std::shared_ptr<const response::CondensedModel>& model, double omega,
-                                     const response::ContactCondition& start, const response::SteadyOptions& steady,
-                                     const AsymptoteOptions& options, const response::ResonanceOptions& resonance,
-                                     const response::SteadyState* unworn, const Control& control) {
+FollowedAsymptote followed_asymptote(const steady::Joint& joint, double omega, const AsymptoteOptions& options,
+                                     const paths::ResonanceOptions& resonance, const steady::State* unworn,
+                                     const Control& control) {
   FollowedAsymptote result;
-  result.held = asymptote(model, omega, start, steady, options, unworn, control);
+  result.held = asymptote(joint, omega, options, unworn, control);
   result.asymptote = result.held;
   result.omegas = {omega};
   result.solves = result.held.solves;
   result.jacobians = result.held.jacobians;
   // The peak is followed: one found elsewhere would be another.
-  response::ResonanceOptions near = resonance;
+  paths::ResonanceOptions near = resonance;
   near.sweep_range = 0;
   Asymptote& last = result.asymptote;
   // Later passes begin worn: what is left of the wear is held against the unworn rate.
@@ -57,10 +56,8 @@ FollowedAsymptote followed_asymptote(const std::shared_ptr<const response::Conde
   for (int pass = 0; last.verdict == Verdict::asymptote; ++pass) {
     if (pass == kPasses) return fail(Status::iteration_limit);
     if (control.stopped()) return fail(Status::interrupted);
-    response::ContactCondition condition = start;
-    condition.wear_depth = last.depth;
-    const response::Resonance worn =
-        response::resonance(model, omega, condition, steady, near, last.steady.displacement);
+    const steady::Joint worn_joint = joint.worn(last.depth);
+    const paths::Resonance worn = paths::resonance(worn_joint, omega, near, last.steady.displacement);
     result.solves += worn.solves;
     result.jacobians += worn.jacobians;
     if (worn.status != Status::converged) return fail(worn.status);
@@ -68,7 +65,7 @@ FollowedAsymptote followed_asymptote(const std::shared_ptr<const response::Conde
     omega = worn.omega;
     if (stays) return result;
     const Asymptote earlier = std::move(last);
-    last = asymptote(model, omega, condition, steady, onwards, nullptr, control);
+    last = asymptote(worn_joint, omega, onwards, nullptr, control);
     if (last.verdict == Verdict::asymptote) keep_doubt(earlier, last);
     result.omegas.push_back(omega);
     result.solves += last.solves;

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "response/resonance.hpp"
+#include "paths/resonance.hpp"
 #include "wear/asymptote.hpp"
 
 namespace dovetail::wear {
@@ -20,14 +20,11 @@ struct FollowedAsymptote {
 /// of the worn joint, until that stays to 1e-7. Each asymptote starts from the depths of the one before. A history
 /// retunes all the time; this one only whenever wear has come to rest.
 ///
-/// @param unworn  steady state of `start` at omega, or null
+/// @param unworn  steady state of `joint` at omega, or null
 /// Cost: three to ten asymptotes and resonances. Throws InputError as asymptote() does.
-[[nodiscard]] FollowedAsymptote followed_asymptote(const std::shared_ptr<const response::CondensedModel>& model,
-                                                   double omega, const response::ContactCondition& start,
-                                                   const response::SteadyOptions& steady,
+[[nodiscard]] FollowedAsymptote followed_asymptote(const steady::Joint& joint, double omega,
                                                    const AsymptoteOptions& options = {},
-                                                   const response::ResonanceOptions& resonance = {},
-                                                   const response::SteadyState* unworn = nullptr,
-                                                   const Control& control = {});
+                                                   const paths::ResonanceOptions& resonance = {},
+                                                   const steady::State* unworn = nullptr, const Control& control = {});
 
 }  // namespace dovetail::wear

@@ -13,7 +13,7 @@ namespace {
 
 /// The area over which the load is spread, (sum lambda_N)^2 / sum (lambda_N^2 / A): all of it where pressures are
 /// alike, hardly more than one node's where one carries it. Worn nodes that just touch do not count.
-double bearing_area(const response::CondensedModel& model, const response::SteadyState& state) {
+double bearing_area(const dynamics::CondensedModel& model, const steady::State& state) {
   double load = 0.0, squares = 0.0;
   for (Eigen::Index i = 0; i < model.nodes(); ++i) {
     const double force = state.nodes[static_cast<std::size_t>(i)].max_normal_force;
@@ -23,7 +23,7 @@ double bearing_area(const response::CondensedModel& model, const response::Stead
   return squares > 0.0 ? load * load / squares : 0.0;
 }
 
-bool held_without_contact(const response::CondensedModel& model, double omega) {
+bool held_without_contact(const dynamics::CondensedModel& model, double omega) {
   Eigen::MatrixXd stiffness = model.harmonic(0, omega).stiffness.real();
   // What rounding leaves of a direction without stiffness is less.
   constexpr double kNothing = 1e-9;
@@ -33,7 +33,7 @@ bool held_without_contact(const response::CondensedModel& model, double omega) {
 
 }  // namespace
 
-double flank_compression(const response::CondensedModel& model, const response::SteadyState& state) {
+double flank_compression(const dynamics::CondensedModel& model, const steady::State& state) {
   const reduction::ContactNodes& contact = model.contact();
   struct Flank {
     double compression = 0.0;
@@ -41,7 +41,7 @@ double flank_compression(const response::CondensedModel& model, const response::
   };
   std::map<int, Flank> flanks;
   for (Eigen::Index i = 0; i < model.nodes(); ++i) {
-    const response::NodeSummary& node = state.nodes[static_cast<std::size_t>(i)];
+    const steady::NodeSummary& node = state.nodes[static_cast<std::size_t>(i)];
     if (!node.carries_load) continue;
     Flank& flank = flanks[contact.group.size() > 0 ? contact.group[i] : 0];
     flank.compression += node.max_normal_force / own_stiffness(model, i, 0);
@@ -54,8 +54,8 @@ double flank_compression(const response::CondensedModel& model, const response::
   return largest;
 }
 
-Bearing bearing(const response::CondensedModel& model, const response::SteadyState& unworn,
-                const response::SteadyState& worn, const Eigen::VectorXd& depth) {
+Bearing bearing(const dynamics::CondensedModel& model, const steady::State& unworn, const steady::State& worn,
+                const Eigen::VectorXd& depth) {
   Bearing left;
   if (depth.size() == 0) return left;
   left.needed = !held_without_contact(model, unworn.omega);

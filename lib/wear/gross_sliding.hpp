@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "response/steady_state.hpp"
+#include "steady/steady_state.hpp"
 
 namespace dovetail::wear {
 
@@ -27,12 +27,12 @@ struct Bearing {
 
 /// By how much the load compresses a flank, m: the mean over its loaded nodes of lambda_N over the node's own stiffness
 /// times the number of nodes across, which makes it p L / E of the flank whatever the mesh. Of the flank with the most.
-[[nodiscard]] double flank_compression(const response::CondensedModel& model, const response::SteadyState& state);
+[[nodiscard]] double flank_compression(const dynamics::CondensedModel& model, const steady::State& state);
 
 /// @param unworn  the state before wear
 /// @param worn    the state at rest
 /// @param depth   [Nc] what it has worn, m
-[[nodiscard]] Bearing bearing(const response::CondensedModel& model, const response::SteadyState& unworn,
-                              const response::SteadyState& worn, const Eigen::VectorXd& depth);
+[[nodiscard]] Bearing bearing(const dynamics::CondensedModel& model, const steady::State& unworn,
+                              const steady::State& worn, const Eigen::VectorXd& depth);
 
 }  // namespace dovetail::wear

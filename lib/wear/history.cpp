@@ -20,7 +20,7 @@ using Eigen::VectorXd;
 /// One state of a history as solved, at the fixed frequency or at the resonance of this wear.
 struct Solved {
   Status status = Status::converged;
-  response::SteadyState state;
+  steady::State state;
   int solves = 0;
   int jacobians = 0;
 };
@@ -32,28 +32,25 @@ struct Record {
 
 class Run {
  public:
-  Run(std::shared_ptr<const response::CondensedModel> model, const response::ContactCondition& start,
-      const response::SteadyOptions& steady, const HistoryOptions& options, const response::ResonanceOptions& resonance)
-      : model_(std::move(model)), condition_(start), steady_(steady), options_(options), resonance_(resonance) {
-    if (condition_.wear_depth.size() == 0) condition_.wear_depth = VectorXd::Zero(model_->nodes());
+  Run(const steady::Joint& joint, const HistoryOptions& options, const paths::ResonanceOptions& resonance)
+      : joint_(joint), options_(options), resonance_(resonance) {
+    if (depth().size() == 0) joint_.condition.wear_depth = VectorXd::Zero(joint_.model->nodes());
     resonance_.sweep_range = 0;  // the peak is followed: one found elsewhere would not be the same
   }
 
-  [[nodiscard]] const VectorXd& depth() const { return condition_.wear_depth; }
+  [[nodiscard]] const VectorXd& depth() const { return joint_.condition.wear_depth; }
 
   [[nodiscard]] Solved solve(double omega, const VectorXd& depth, const MatrixXd& guess,
-                             const std::shared_ptr<const response::Linearisation>& reuse = {}) const {
-    response::ContactCondition condition = condition_;
-    condition.wear_depth = depth;
+                             const std::shared_ptr<const steady::Tangent>& reuse = {}) const {
     Solved solved;
     if (options_.follow == "resonance") {
-      response::Resonance found = response::resonance(model_, omega, condition, steady_, resonance_, guess);
+      paths::Resonance found = paths::resonance(joint_.worn(depth), omega, resonance_, guess);
       solved.status = found.status;
       solved.solves = found.solves;
       solved.jacobians = found.jacobians;
       solved.state = std::move(found.state);
     } else {
-      solved.state = response::steady_state(model_, omega, condition, steady_, guess, reuse);
+      solved.state = steady::steady_state(joint_.worn(depth), omega, guess, reuse);
       solved.status = solved.state.status;
       solved.solves = 1;
       solved.jacobians = solved.state.iterations;
@@ -61,16 +58,16 @@ class Run {
     return solved;
   }
 
-  [[nodiscard]] const response::ContactCondition& condition() const { return condition_; }
+  [[nodiscard]] const steady::Joint& joint() const { return joint_; }
 
-  void accept(const VectorXd& depth, const response::SteadyState& state) {
-    condition_.wear_depth = depth;
-    if (options_.carry_slip) condition_.slip_origin = state.slip_end;
+  void accept(const VectorXd& depth, const steady::State& state) {
+    joint_.condition.wear_depth = depth;
+    if (options_.carry_slip) joint_.condition.slip_origin = state.slip_end;
   }
 
-  [[nodiscard]] Record record(double cycles, const response::SteadyState& state) const {
+  [[nodiscard]] Record record(double cycles, const steady::State& state) const {
     return {.cycles = cycles,
-            .volume = worn_volume(model_->contact(), depth()),
+            .volume = worn_volume(joint_.model->contact(), depth()),
             .amplitude = state.amplitudes.size() > resonance_.output ? state.amplitudes[resonance_.output] : 0.0,
             .frequency = state.omega,
             .depth = depth(),
@@ -78,11 +75,9 @@ class Run {
   }
 
  private:
-  std::shared_ptr<const response::CondensedModel> model_;
-  response::ContactCondition condition_;
-  response::SteadyOptions steady_;
+  steady::Joint joint_;
   HistoryOptions options_;
-  response::ResonanceOptions resonance_;
+  paths::ResonanceOptions resonance_;
 };
 
 std::vector<Record> states_of(const History& past) {
@@ -136,26 +131,25 @@ std::string_view to_string(HistoryEnd end) {
   return "unknown";
 }
 
-Resumption resume(const History& stored, const response::ContactCondition& start, const HistoryOptions& options) {
+Resumption resume(const History& stored, const steady::Joint& joint, const HistoryOptions& options) {
   const Index last = stored.cycles.size() - 1;
   Resumption next{
-      .omega = stored.frequency.size() > 0 ? stored.frequency[last] : 0.0, .start = start, .options = options};
+      .omega = stored.frequency.size() > 0 ? stored.frequency[last] : 0.0, .joint = joint, .options = options};
   if (last < 0) return next;
-  next.start.wear_depth = stored.depth.row(last).transpose();
-  if (options.carry_slip) next.start.slip_origin = stored.steady.slip_end;
+  next.joint.condition.wear_depth = stored.depth.row(last).transpose();
+  if (options.carry_slip) next.joint.condition.slip_origin = stored.steady.slip_end;
   next.options.start_cycles = stored.cycles[last];
   if (options.reference_rate == 0.0 && stored.rate.size() > 0)
     next.options.reference_rate = stored.rate.row(0).maxCoeff();
   return next;
 }
 
-History history(const std::shared_ptr<const response::CondensedModel>& model, double omega,
-                const response::ContactCondition& start, const response::SteadyOptions& steady,
-                const HistoryOptions& options, const response::ResonanceOptions& resonance, const Control& control,
-                const StateObserver& observer, const History* past) {
+History history(const steady::Joint& joint, double omega, const HistoryOptions& options,
+                const paths::ResonanceOptions& resonance, const Control& control, const StateObserver& observer,
+                const History* past) {
   if (std::vector<Violation> wrong = violations(options, "history"); !wrong.empty()) throw InputError(std::move(wrong));
 
-  Run run(model, start, steady, options, resonance);
+  Run run(joint, options, resonance);
   History result;
   std::vector<Record> records;
   const auto count = [&result](const Solved& solved) {
@@ -165,13 +159,13 @@ History history(const std::shared_ptr<const response::CondensedModel>& model, do
   const auto finish = [&](HistoryEnd end, Status status) {
     result.end = end;
     result.status = status;
-    store(records, model->nodes(), result);
+    store(records, joint.model->nodes(), result);
     result.final_depth = run.depth();
     if (!records.empty()) result.final_rate = records.back().rate;
     if (end == HistoryEnd::worn_out && options.finish && options.follow == "fixed" && records.size() > 1) {
       constexpr double kClose = 0.05;
-      const Finish last = finish_by_release(model, omega, run.condition(), steady, result.steady, run.depth(),
-                                            records.back().cycles, kClose, control);
+      const Finish last =
+          finish_by_release(run.joint(), result.steady, run.depth(), records.back().cycles, kClose, control);
       result.solves += last.solves;
       result.jacobians += last.jacobians;
       result.finished = last.done;
@@ -180,13 +174,13 @@ History history(const std::shared_ptr<const response::CondensedModel>& model, do
         result.final_rate = last.steady.wear_rate;
       }
     }
-    result.final_volume = worn_volume(model->contact(), result.final_depth);
+    result.final_volume = worn_volume(joint.model->contact(), result.final_depth);
     return std::move(result);
   };
   const auto accept = [&](double cycles, const VectorXd& depth) {
     run.accept(depth, result.steady);
     records.push_back(run.record(cycles, result.steady));
-    if (observer) observer(static_cast<int>(records.size()) - 1, cycles, run.condition(), result.steady);
+    if (observer) observer(static_cast<int>(records.size()) - 1, cycles, run.joint().condition, result.steady);
   };
 
   const bool resumed = past != nullptr && past->cycles.size() > 0;
@@ -207,9 +201,9 @@ History history(const std::shared_ptr<const response::CondensedModel>& model, do
   accept(cycles, VectorXd(run.depth()));
   const double reference = options.reference_rate > 0.0 ? options.reference_rate : result.steady.wear_rate.maxCoeff();
   if (!(result.memory.no_wear > 0.0))
-    result.memory.no_wear = no_wear_rate(options.rate_threshold, *model, result.steady);
+    result.memory.no_wear = no_wear_rate(options.rate_threshold, *joint.model, result.steady);
   const double worn_out = std::max(result.memory.no_wear, options.rate_fraction * reference);
-  if (result.memory.penetration == 0.0) result.memory.penetration = largest_penetration(*model, result.steady);
+  if (result.memory.penetration == 0.0) result.memory.penetration = largest_penetration(*joint.model, result.steady);
   const double penetration = result.memory.penetration;
   double longest = options.tolerance > 0.0 && result.memory.step > 0.0
                        ? result.memory.step
@@ -228,9 +222,8 @@ History history(const std::shared_ptr<const response::CondensedModel>& model, do
       if (control.stopped()) return finish(HistoryEnd::interrupted, Status::interrupted);
       change = jump * rate;
       MatrixXd guess = result.steady.displacement;
-      if (options.predictor && result.steady.linearisation)
-        guess += result.steady.linearisation->response_to_wear(change);
-      next = run.solve(result.steady.omega, run.depth() + change, guess, result.steady.linearisation);
+      if (options.predictor && result.steady.tangent) guess += result.steady.tangent->response_to_wear(change);
+      next = run.solve(result.steady.omega, run.depth() + change, guess, result.steady.tangent);
       count(next);
       if (next.status != Status::converged) {
         ++result.rejected;

@@ -9,8 +9,8 @@
 
 #include "core/options.hpp"
 #include "core/status.hpp"
-#include "response/resonance.hpp"
-#include "response/steady_state.hpp"
+#include "paths/resonance.hpp"
+#include "steady/steady_state.hpp"
 #include "wear/control.hpp"
 #include "wear/no_wear.hpp"
 
@@ -76,17 +76,17 @@ struct StepMemory {
 struct History {
   Status status = Status::converged;  ///< converged unless a step could not be solved however short, or interrupted
   HistoryEnd end = HistoryEnd::steps;
-  Eigen::VectorXd cycles;        ///< [S]
-  Eigen::VectorXd worn_volume;   ///< [S] m^3
-  Eigen::MatrixXd depth;         ///< [S, Nc] m
-  Eigen::MatrixXd rate;          ///< [S, Nc] m per cycle, at that depth
-  Eigen::VectorXd amplitude;     ///< [S] m, of the followed output at the exciting frequency
-  Eigen::VectorXd frequency;     ///< [S] exciting omega, rad/s
-  response::SteadyState steady;  ///< of the last accepted state
-  Eigen::VectorXd final_depth;   ///< [Nc] m, of the direct method when `finished`, otherwise the last depth
-  Eigen::VectorXd final_rate;    ///< [Nc] m per cycle, at that depth; empty when there is no state
-  double final_volume = 0;       ///< m^3
-  bool finished = false;         ///< by the direct method
+  Eigen::VectorXd cycles;       ///< [S]
+  Eigen::VectorXd worn_volume;  ///< [S] m^3
+  Eigen::MatrixXd depth;        ///< [S, Nc] m
+  Eigen::MatrixXd rate;         ///< [S, Nc] m per cycle, at that depth
+  Eigen::VectorXd amplitude;    ///< [S] m, of the followed output at the exciting frequency
+  Eigen::VectorXd frequency;    ///< [S] exciting omega, rad/s
+  steady::State steady;         ///< of the last accepted state
+  Eigen::VectorXd final_depth;  ///< [Nc] m, of the direct method when `finished`, otherwise the last depth
+  Eigen::VectorXd final_rate;   ///< [Nc] m per cycle, at that depth; empty when there is no state
+  double final_volume = 0;      ///< m^3
+  bool finished = false;        ///< by the direct method
   StepMemory memory;
   int solves = 0;     ///< steady states computed, failed ones included
   int jacobians = 0;  ///< factorised Jacobians over all of them
@@ -95,33 +95,31 @@ struct History {
 
 /// Called for every accepted state, the first included, e.g. to store a response curve of the joint as worn:
 /// `condition` has its depth and slip origin.
-using StateObserver = std::function<void(int step, double cycles, const response::ContactCondition& condition,
-                                         const response::SteadyState& state)>;
+using StateObserver =
+    std::function<void(int step, double cycles, const steady::Condition& condition, const steady::State& state)>;
 
 /// What continues a stored history: depth, slip and cycles of its last state.
 struct Resumption {
   double omega = 0;  ///< rad/s
-  response::ContactCondition start;
+  steady::Joint joint;
   HistoryOptions options;
 };
-[[nodiscard]] Resumption resume(const History& stored, const response::ContactCondition& start,
-                                const HistoryOptions& options);
+[[nodiscard]] Resumption resume(const History& stored, const steady::Joint& joint, const HistoryOptions& options);
 
 /// Wear history by cycle jumps of constant largest increment: with the rate dW of the state at W, N += dN,
 /// W += dN dW, dN = increment / max dW [Salles 2009, eq. 20-22]. A state that did not converge is never built on:
 /// the step is halved from the last converged one. With `tolerance` steps are shortened to their local error besides.
 ///
 /// @param omega      exciting frequency rad/s; with follow = resonance where the first search starts
-/// @param start      wear depth to start from and slip origin; nodes released in it never touch
+/// @param joint      with the wear depth to start from; nodes released in it never touch
 /// @param resonance  names the output whose amplitude is recorded and, when asked for, followed
-/// @param past       a history to go on with, or null: `start` and `options` are then those of resume(). Its states
+/// @param past       a history to go on with, or null: the condition of `joint` and `options` are then those of
+/// resume(). Its states
 ///                   come first in the result and `steady.displacement`, if any, starts the first solve
 /// Cost: one steady state per step (or one resonance). Throws InputError for options out of range.
-[[nodiscard]] History history(const std::shared_ptr<const response::CondensedModel>& model, double omega,
-                              const response::ContactCondition& start, const response::SteadyOptions& steady,
-                              const HistoryOptions& options = {}, const response::ResonanceOptions& resonance = {},
-                              const Control& control = {}, const StateObserver& observer = {},
-                              const History* past = nullptr);
+[[nodiscard]] History history(const steady::Joint& joint, double omega, const HistoryOptions& options = {},
+                              const paths::ResonanceOptions& resonance = {}, const Control& control = {},
+                              const StateObserver& observer = {}, const History* past = nullptr);
 
 }  // namespace dovetail::wear
 

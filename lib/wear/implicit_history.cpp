@@ -46,19 +46,17 @@ bool levelled_out(const std::vector<Record>& records, double penetration, const 
 
 }  // namespace
 
-ImplicitHistory implicit_history(const std::shared_ptr<const response::CondensedModel>& model, double omega,
-                                 const response::ContactCondition& start, const response::SteadyOptions& steady,
-                                 const ImplicitHistoryOptions& options, const response::SteadyState* unworn,
-                                 const Control& control, const History* past) {
+ImplicitHistory implicit_history(const steady::Joint& joint, double omega, const ImplicitHistoryOptions& options,
+                                 const steady::State* unworn, const Control& control, const History* past) {
   if (std::vector<Violation> wrong = violations(options, "implicit_history"); !wrong.empty())
     throw InputError(std::move(wrong));
-  require_nothing_released(start);
+  require_nothing_released(joint.condition);
   ImplicitHistory result;
   std::vector<Record> records;
   const auto finish = [&](HistoryEnd end, Status status) {
     result.end = end;
-    result.status = within(steady.budget, status);
-    store(model->contact(), records, result);
+    result.status = within(joint.options.budget, status);
+    store(joint.model->contact(), records, result);
     return std::move(result);
   };
   const bool resumed = past != nullptr && past->cycles.size() > 0;
@@ -72,23 +70,23 @@ ImplicitHistory implicit_history(const std::shared_ptr<const response::Condensed
     result.steady.displacement = past->steady.displacement;
   }
   if (control.stopped()) return finish(HistoryEnd::interrupted, Status::interrupted);
-  response::SteadyOptions settings = steady;
-  settings.linearise = true;
-  if (unworn != nullptr && unworn->linearisation) {
+  steady::Joint solved = joint;
+  solved.options.linearise = true;
+  if (unworn != nullptr && unworn->tangent) {
     result.steady = *unworn;
   } else {
-    result.steady =
-        response::steady_state(model, omega, start, settings, resumed ? past->steady.displacement : MatrixXd());
+    result.steady = steady::steady_state(solved, omega, resumed ? past->steady.displacement : MatrixXd());
     result.solves = 1;
     result.jacobians = result.steady.iterations;
     result.evaluations = result.steady.evaluations;
   }
   if (result.steady.status != Status::converged) return finish(HistoryEnd::failed, result.steady.status);
 
-  if (memory.penetration == 0.0) memory.penetration = largest_penetration(*model, result.steady);
+  if (memory.penetration == 0.0) memory.penetration = largest_penetration(*joint.model, result.steady);
   result.largest_penetration = memory.penetration;
   WearPoint point{.displacement = result.steady.displacement,
-                  .depth = start.wear_depth.size() > 0 ? start.wear_depth : VectorXd(VectorXd::Zero(model->nodes())),
+                  .depth = joint.condition.wear_depth.size() > 0 ? joint.condition.wear_depth
+                                                                 : VectorXd(VectorXd::Zero(joint.model->nodes())),
                   .rate = result.steady.wear_rate};
   const VectorXd first_depth = resumed ? VectorXd(past->depth.row(0).transpose()) : point.depth;
   double cycles = options.start_cycles;
@@ -96,12 +94,12 @@ ImplicitHistory implicit_history(const std::shared_ptr<const response::Condensed
   records.push_back({.cycles = cycles, .depth = point.depth, .rate = point.rate});
   const double start_rate = point.rate.size() > 0 ? point.rate.maxCoeff() : 0.0;
   const double first_rate = options.reference_rate > 0.0 ? options.reference_rate : start_rate;
-  if (!(memory.no_wear > 0.0)) memory.no_wear = no_wear_rate(options.rate_threshold, *model, result.steady);
+  if (!(memory.no_wear > 0.0)) memory.no_wear = no_wear_rate(options.rate_threshold, *joint.model, result.steady);
   const double worn_out = std::max(memory.no_wear, options.rate_fraction * first_rate);
   // A resumed one may be following its tail below that.
   if (!(start_rate > (resumed ? 0.0 : worn_out))) return finish(HistoryEnd::worn_out, Status::converged);
 
-  ImplicitStage stage(model, start, settings, result.steady);
+  ImplicitStage stage(solved, result.steady);
   if (memory.factored_displacement.size() > 0)
     stage.factorise_at({.displacement = memory.factored_displacement, .depth = memory.factored_depth, .rate = {}});
   const auto count = [&] {
@@ -137,7 +135,7 @@ ImplicitHistory implicit_history(const std::shared_ptr<const response::Condensed
   Status failure = Status::iteration_limit;
   for (int i = 0; i < options.steps; ++i) {
     if (control.stopped()) return leave(HistoryEnd::interrupted, Status::interrupted);
-    if (spent(steady.budget)) return leave(HistoryEnd::failed, Status::budget_spent);
+    if (spent(joint.options.budget)) return leave(HistoryEnd::failed, Status::budget_spent);
     if (cycles >= limit) return leave(HistoryEnd::cycles, Status::converged);
     const bool last_step = jump >= limit - cycles;
     memory.step = jump;
@@ -158,11 +156,10 @@ ImplicitHistory implicit_history(const std::shared_ptr<const response::Condensed
       if (jump * point.rate.maxCoeff() >= smallest) continue;
       // The branch turns back in W, as where an amplitude jumps: a short explicit step looks for where it goes on.
       const double leap = cycle_jump(point.rate, kLeap * smallest);
-      response::ContactCondition beyond = start;
-      beyond.wear_depth = point.depth + leap * point.rate;
-      response::SteadyState found;
+      const VectorXd beyond = point.depth + leap * point.rate;
+      steady::State found;
       if (result.jumps < kJumps) {
-        found = response::steady_state(model, omega, beyond, settings, point.displacement);
+        found = steady::steady_state(solved.worn(beyond), omega, point.displacement);
         ++result.solves;
         result.jacobians += found.iterations;
         result.evaluations += found.evaluations;
@@ -171,8 +168,8 @@ ImplicitHistory implicit_history(const std::shared_ptr<const response::Condensed
         return leave(HistoryEnd::failed, failure == Status::converged ? Status::stalled : failure);
       memory.jumps = ++result.jumps;
       count();
-      stage = ImplicitStage(model, start, settings, found);
-      point = {.displacement = found.displacement, .depth = beyond.wear_depth, .rate = found.wear_rate};
+      stage = ImplicitStage(solved, found);
+      point = {.displacement = found.displacement, .depth = beyond, .rate = found.wear_rate};
       cycles += leap;
       jump = memory.step = leap;
       records.push_back({.cycles = cycles, .depth = point.depth, .rate = point.rate});
@@ -181,7 +178,7 @@ ImplicitHistory implicit_history(const std::shared_ptr<const response::Condensed
     point = std::move(next);
     cycles = last_step ? limit : cycles + jump;
     records.push_back({.cycles = cycles, .depth = point.depth, .rate = point.rate});
-    control.report(static_cast<int>(records.size()) - 1, worn_volume(model->contact(), point.depth),
+    control.report(static_cast<int>(records.size()) - 1, worn_volume(joint.model->contact(), point.depth),
                    point.rate.maxCoeff());
     const double fastest = point.rate.maxCoeff();
     const bool quiet = fastest <= worn_out;
@@ -191,11 +188,10 @@ ImplicitHistory implicit_history(const std::shared_ptr<const response::Condensed
       return finish(HistoryEnd::worn_out, Status::converged);
     }
     if (quiet || fastest <= memory.finish_below * first_rate) {
-      const response::SteadyState reached = stage.described(point);
+      const steady::State reached = stage.described(point);
       Finish last;
       if (fastest <= memory.finish_below * first_rate) {
-        last = finish_by_release(model, omega, start, steady, reached, point.depth, cycles,
-                                 quiet ? kCloseAtEnd : kCloseBefore, control);
+        last = finish_by_release(joint, reached, point.depth, cycles, quiet ? kCloseAtEnd : kCloseBefore, control);
         result.solves += last.solves;
         result.jacobians += last.jacobians;
         memory.finish_below = 0.1 * fastest / first_rate;
@@ -224,7 +220,7 @@ ImplicitHistory implicit_history(const std::shared_ptr<const response::Condensed
   return leave(HistoryEnd::steps, failure == Status::converged ? Status::iteration_limit : failure);
 }
 
-History as_history(const ImplicitHistory& implicit, const response::CondensedModel& model) {
+History as_history(const ImplicitHistory& implicit, const dynamics::CondensedModel& model) {
   const Index count = implicit.cycles.size() - (implicit.finished ? 1 : 0);
   History history{
       .status = implicit.status,

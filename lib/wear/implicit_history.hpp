@@ -6,7 +6,7 @@
 
 #include "core/options.hpp"
 #include "core/status.hpp"
-#include "response/steady_state.hpp"
+#include "steady/steady_state.hpp"
 #include "wear/control.hpp"
 #include "wear/history.hpp"
 #include "wear/no_wear.hpp"
@@ -49,12 +49,12 @@ struct ImplicitHistoryOptions {
 struct ImplicitHistory {
   Status status = Status::converged;
   HistoryEnd end = HistoryEnd::steps;
-  Eigen::VectorXd cycles;        ///< [S]; infinite for the finished state
-  Eigen::VectorXd worn_volume;   ///< [S] m^3
-  Eigen::MatrixXd depth;         ///< [S, Nc] m
-  Eigen::MatrixXd rate;          ///< [S, Nc] m per cycle
-  response::SteadyState steady;  ///< of the last state
-  bool finished = false;         ///< the last state is that of the direct method
+  Eigen::VectorXd cycles;       ///< [S]; infinite for the finished state
+  Eigen::VectorXd worn_volume;  ///< [S] m^3
+  Eigen::MatrixXd depth;        ///< [S, Nc] m
+  Eigen::MatrixXd rate;         ///< [S, Nc] m per cycle
+  steady::State steady;         ///< of the last state
+  bool finished = false;        ///< the last state is that of the direct method
   StepMemory memory;
   double finish_change = 0.0;        ///< largest change of depth by finishing, m
   double largest_penetration = 0.0;  ///< of the unworn contact, m
@@ -74,23 +74,21 @@ struct ImplicitHistory {
 /// step goes to the state that the joint has there. No node loses depth, and none is worn past the load that wears it.
 ///
 /// @param omega   excitation frequency rad/s, held
-/// @param start   wear depth to start from and slip origin; it must release no node
-/// @param unworn  steady state of `start` at omega with its linearisation to begin with, or null
-/// @param past    a history to go on with, or null: `start`, start_cycles and reference_rate are then those of
-/// resume().
+/// @param joint   with the wear depth to start from; it must release no node
+/// @param unworn  steady state of `joint` at omega with its tangent to begin with, or null
+/// @param past    a history to go on with, or null: the condition of `joint`, start_cycles and reference_rate are then
+/// those of resume().
 ///                Its states come first in the result and `steady.displacement`, if any, starts the first solve
 /// Cost: two to five Jacobians per step, 20 to 40 steps. Throws InputError for options out of range and for nodes
 /// released at the start.
-[[nodiscard]] ImplicitHistory implicit_history(const std::shared_ptr<const response::CondensedModel>& model,
-                                               double omega, const response::ContactCondition& start,
-                                               const response::SteadyOptions& steady,
+[[nodiscard]] ImplicitHistory implicit_history(const steady::Joint& joint, double omega,
                                                const ImplicitHistoryOptions& options = {},
-                                               const response::SteadyState* unworn = nullptr,
-                                               const Control& control = {}, const History* past = nullptr);
+                                               const steady::State* unworn = nullptr, const Control& control = {},
+                                               const History* past = nullptr);
 
 /// The same as a history like the explicit ones: a finish at the end becomes its final depth, and the amplitude is
 /// known of the last state only.
-[[nodiscard]] History as_history(const ImplicitHistory& implicit, const response::CondensedModel& model);
+[[nodiscard]] History as_history(const ImplicitHistory& implicit, const dynamics::CondensedModel& model);
 
 }  // namespace dovetail::wear
 

@@ -14,53 +14,44 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-ImplicitStage::ImplicitStage(std::shared_ptr<const response::CondensedModel> model,
-                             response::ContactCondition condition, response::SteadyOptions steady,
-                             const response::SteadyState& from)
-    : model_(std::move(model)),
-      condition_(std::move(condition)),
-      steady_(std::move(steady)),
-      ratio_(from.penalty_ratio),
-      basis_(steady_.harmonics, steady_.samples),
-      system_(from.linearisation->residual().shared_system()) {
-  adopt(from.linearisation);
+ImplicitStage::ImplicitStage(const steady::Joint& joint, const steady::State& from)
+    : problem_(joint, from.tangent->problem().shared_system(), from.penalty_ratio) {
+  adopt(from.tangent);
 }
 
-response::SteadyResidual ImplicitStage::problem(const VectorXd& depth) const {
-  response::ContactCondition condition = condition_;
-  condition.wear_depth = depth;
-  return response::steady_problem(model_, system_, basis_, condition, steady_, ratio_);
+std::shared_ptr<const steady::Problem> ImplicitStage::problem(const VectorXd& depth) const {
+  return std::make_shared<const steady::Problem>(problem_.worn(depth));
 }
 
-VectorXd ImplicitStage::rate(const response::ResidualState& state) const {
-  const reduction::ContactNodes& contact = model_->contact();
-  VectorXd rate(model_->nodes());
+VectorXd ImplicitStage::rate(const steady::Point& point) const {
+  const reduction::ContactNodes& contact = problem_.model().contact();
+  VectorXd rate(contact.count());
   for (Index i = 0; i < rate.size(); ++i)
-    rate[i] = contact.wear_coefficient[i] / contact.area[i] * state.nodes[static_cast<std::size_t>(i)].slip_load;
+    rate[i] = contact.wear_coefficient[i] / contact.area[i] * point.nodes[static_cast<std::size_t>(i)].slip_load;
   return rate;
 }
 
-void ImplicitStage::adopt(const std::shared_ptr<const response::Linearisation>& linear) {
-  linear_ = linear;
-  const Index nodes = model_->nodes();
+void ImplicitStage::adopt(const std::shared_ptr<const steady::Tangent>& tangent) {
+  tangent_ = tangent;
+  const Index nodes = problem_.model().nodes();
   std::vector<Index> all(static_cast<std::size_t>(nodes));
   std::iota(all.begin(), all.end(), Index{0});
-  response_ = linear->solve(-linear->residual_to_wear(all));
+  response_ = tangent->solve(-tangent->residual_to_wear(all));
   slope_.resize(nodes, nodes);
   for (Index i = 0; i < nodes; ++i) {
-    const MatrixXd change = response_.col(i).reshaped(model_->contact_size(), basis_.coefficients());
-    slope_.col(i) = linear->wear_rate_change(change, VectorXd::Unit(nodes, i));
+    const MatrixXd change = response_.col(i).reshaped(problem_.model().contact_size(), problem_.basis().coefficients());
+    slope_.col(i) = tangent->wear_rate_change(change, VectorXd::Unit(nodes, i));
   }
 }
 
-void ImplicitStage::factorise_at(const WearPoint& point) {
-  const response::SteadyResidual here = problem(point.depth);
-  response::ResidualState state;
-  here.evaluate(point.displacement, true, state);
-  auto linear = std::make_shared<const response::Linearisation>(here, state, linear_.get());
-  if (linear->status() != Status::converged) return;
-  adopt(linear);
-  factored_at_ = point;
+void ImplicitStage::factorise_at(const WearPoint& at) {
+  auto point = std::make_shared<steady::Point>();
+  steady::evaluate(problem(at.depth), at.displacement, *point);
+  steady::differentiate(*point);
+  auto tangent = std::make_shared<const steady::Tangent>(std::move(point), tangent_.get());
+  if (tangent->status() != Status::converged) return;
+  adopt(tangent);
+  factored_at_ = at;
 }
 
 VectorXd ImplicitStage::damp(const VectorXd& cycles, const VectorXd& error) const {
@@ -70,95 +61,86 @@ VectorXd ImplicitStage::damp(const VectorXd& cycles, const VectorXd& error) cons
 }
 
 Status ImplicitStage::solve(const VectorXd& base, const VectorXd& cycles, int max_iterations, WearPoint& point) {
-  const Index nodes = model_->nodes();
-  const Index unknowns = point.displacement.size();
-  const double force = system_->force_scale;
-  const contact::PseudoPenalty penalty = problem(base).penalty();
+  const Index nodes = problem_.model().nodes();
+  const Index unknowns = problem_.unknowns();
+  const double force = problem_.system().force_scale;
   VectorXd unit(unknowns + nodes);  // m per unit unknown
-  for (Index j = 0; j < unknowns; ++j) {
-    const Index dof = j % model_->contact_size();
-    const Index node = dof / model_->directions();
-    unit[j] = force / (dof % model_->directions() == 0 ? penalty.normal(node) : penalty.tangential(node));
-  }
-  for (Index i = 0; i < nodes; ++i) unit[unknowns + i] = force / penalty.normal(i);
+  unit << problem_.unit_displacement(), force * problem_.penalty().normal.cwiseInverse();
 
   ++solves_;
-  response::ResidualState state;
+  auto at = std::make_shared<steady::Point>();
   VectorXd depth;   // W, never below the base
   VectorXd excess;  // g = x - B - c r
   VectorXd rates;
+  const auto shaped = [&](const VectorXd& u) -> MatrixXd {
+    return u.reshaped(point.displacement.rows(), point.displacement.cols());
+  };
   const auto residual = [&](const VectorXd& x) {
-    const VectorXd at = x.cwiseProduct(unit);
-    depth = at.tail(nodes).cwiseMax(base);
-    problem(depth).evaluate(at.head(unknowns).reshaped(point.displacement.rows(), point.displacement.cols()), false,
-                            state);
+    const VectorXd u = x.cwiseProduct(unit);
+    depth = u.tail(nodes).cwiseMax(base);
+    if (at.use_count() > 1) at = std::make_shared<steady::Point>();
+    steady::evaluate(problem(depth), shaped(u.head(unknowns)), *at);
     ++evaluations_;
-    rates = rate(state);
-    excess = at.tail(nodes) - base - cycles.cwiseProduct(rates);
+    rates = rate(*at);
+    excess = u.tail(nodes) - base - cycles.cwiseProduct(rates);
     VectorXd all(unknowns + nodes);
-    all << state.residual.reshaped() / force, excess.cwiseQuotient(unit.tail(nodes));
+    all << at->residual.reshaped() / force, excess.cwiseQuotient(unit.tail(nodes));
     return all;
   };
   Eigen::PartialPivLU<MatrixXd> rates_lu;
-  const response::Linearisation* factored = nullptr;
+  const steady::Tangent* factored = nullptr;
   const auto direction = [&](VectorXd& step) {
-    const VectorXd free = linear_->solve(-state.residual.reshaped());
-    const VectorXd driven = linear_->wear_rate_change(
-        free.reshaped(point.displacement.rows(), point.displacement.cols()), VectorXd::Zero(nodes));
-    if (factored != linear_.get()) {
+    const VectorXd free = tangent_->solve(-at->residual.reshaped());
+    const VectorXd driven = tangent_->wear_rate_change(shaped(free), VectorXd::Zero(nodes));
+    if (factored != tangent_.get()) {
       rates_lu.compute(MatrixXd::Identity(nodes, nodes) - cycles.asDiagonal() * slope_);
-      factored = linear_.get();
+      factored = tangent_.get();
     }
     const VectorXd deeper = rates_lu.solve(cycles.cwiseProduct(driven) - excess);
     step.resize(unknowns + nodes);
     step << free + response_ * deeper, deeper;
     step = step.cwiseQuotient(unit).eval();
   };
-  const numerics::NewtonSystem system{.residual = residual,
-                                      .newton_step =
-                                          [&](VectorXd& step) {
-                                            if (spent(steady_.budget)) return Status::budget_spent;
-                                            const response::SteadyResidual here = problem(depth);
-                                            const MatrixXd at = state.displacement;
-                                            here.evaluate(at, true, state);
-                                            auto linear = std::make_shared<const response::Linearisation>(
-                                                here, state, linear_.get());
-                                            if (linear->status() != Status::converged) return linear->status();
-                                            ++jacobians_;
-                                            adopt(linear);
-                                            factored_at_ = {.displacement = at, .depth = depth, .rate = {}};
-                                            direction(step);
-                                            return Status::converged;
-                                          },
-                                      .chord_step =
-                                          [&](VectorXd& step) {
-                                            if (linear_->regularised()) return false;
-                                            direction(step);
-                                            return true;
-                                          }};
+  const auto newton_step = [&](VectorXd& step) {
+    if (spent(problem_.budget())) return Status::budget_spent;
+    steady::differentiate(*at);
+    auto tangent = std::make_shared<const steady::Tangent>(at, tangent_.get());
+    if (tangent->status() != Status::converged) return tangent->status();
+    ++jacobians_;
+    adopt(tangent);
+    factored_at_ = {.displacement = at->displacement, .depth = depth, .rate = {}};
+    direction(step);
+    return Status::converged;
+  };
+  const auto chord_step = [&](VectorXd& step) {
+    if (tangent_->regularised()) return false;
+    direction(step);
+    return true;
+  };
   // Depth that the base adds moves the joint with it.
   const VectorXd moved = point.depth.cwiseMax(base);
   VectorXd x(unknowns + nodes);
   x << point.displacement.reshaped() + response_ * (moved - point.depth), moved;
   x = x.cwiseQuotient(unit).eval();
   residual(x);
-  const double floor = response::rounding_floor(problem(depth), state);
-  const double goal = std::max(steady_.tolerance, std::min(4.0 * floor, response::kLargestFloor));
+  constexpr double kStages = 4.0;  // the second equation has a floor of its own
+  const double goal =
+      std::max(problem_.options().tolerance, std::min(kStages * steady::rounding_floor(*at), steady::kLargestFloor));
   const numerics::NewtonStats stats =
-      numerics::newton(system, x, {.tolerance = goal, .max_iterations = max_iterations, .chord_ratio = 0.4});
+      numerics::newton({.residual = residual, .newton_step = newton_step, .chord_step = chord_step}, x,
+                       {.tolerance = goal, .max_iterations = max_iterations, .chord_ratio = 0.4});
   if (stats.status != Status::converged) return stats.status;
   residual(x);
-  if (state.status != Status::converged) return state.status;
-  if (!response::is_held(problem(depth), state)) return Status::singular;
-  point = {.displacement = state.displacement, .depth = depth, .rate = rates};
+  if (at->status != Status::converged) return at->status;
+  if (!steady::is_held(*at)) return Status::singular;
+  point = {.displacement = at->displacement, .depth = depth, .rate = rates};
   return Status::converged;
 }
 
-response::SteadyState ImplicitStage::described(const WearPoint& point) const {
-  response::SteadyState state = response::described(problem(point.depth), point.displacement, Status::converged,
-                                                    response::AtSolution::linearise, linear_.get());
-  state.penalty_ratio = ratio_;
-  return state;
+steady::State ImplicitStage::described(const WearPoint& at) const {
+  steady::Point point;
+  steady::evaluate(problem(at.depth), at.displacement, point);
+  return steady::described(std::move(point), Status::converged, steady::AtSolution::linearise, tangent_.get());
 }
 
 }  // namespace dovetail::wear

@@ -3,8 +3,7 @@
 #include <Eigen/Core>
 #include <memory>
 
-#include "response/problem.hpp"
-#include "response/steady_state.hpp"
+#include "steady/state.hpp"
 
 namespace dovetail::wear {
 
@@ -20,9 +19,8 @@ struct WearPoint {
 /// those of the second equation through the pseudo-penalty, eps_N (W - B - c r).
 class ImplicitStage {
  public:
-  /// `from` is a steady state of the same model, condition and options with its linearisation.
-  ImplicitStage(std::shared_ptr<const response::CondensedModel> model, response::ContactCondition condition,
-                response::SteadyOptions steady, const response::SteadyState& from);
+  /// `from` is a steady state of this joint, as worn as it may be, with its tangent.
+  ImplicitStage(const steady::Joint& joint, const steady::State& from);
 
   /// Solves from `point` and writes the solution there if it converges. `base` B [Nc] m, a lower bound of W;
   /// `cycles` c [Nc] >= 0.
@@ -30,10 +28,10 @@ class ImplicitStage {
                              WearPoint& point);
   /// (I - c R)^-1 v with the factors of the last stage: an error as the equations damp it.
   [[nodiscard]] Eigen::VectorXd damp(const Eigen::VectorXd& cycles, const Eigen::VectorXd& error) const;
-  /// The point as a steady state, with its linearisation.
-  [[nodiscard]] response::SteadyState described(const WearPoint& point) const;
+  /// The point as a steady state, with its tangent.
+  [[nodiscard]] steady::State described(const WearPoint& point) const;
   /// Factors of a steady state computed elsewhere.
-  void adopt(const std::shared_ptr<const response::Linearisation>& linear);
+  void adopt(const std::shared_ptr<const steady::Tangent>& tangent);
 
   /// Takes the factors at a point, which need not be a solution.
   void factorise_at(const WearPoint& point);
@@ -45,16 +43,11 @@ class ImplicitStage {
   [[nodiscard]] int evaluations() const { return evaluations_; }
 
  private:
-  [[nodiscard]] response::SteadyResidual problem(const Eigen::VectorXd& depth) const;
-  [[nodiscard]] Eigen::VectorXd rate(const response::ResidualState& state) const;
+  [[nodiscard]] std::shared_ptr<const steady::Problem> problem(const Eigen::VectorXd& depth) const;
+  [[nodiscard]] Eigen::VectorXd rate(const steady::Point& point) const;
 
-  std::shared_ptr<const response::CondensedModel> model_;
-  response::ContactCondition condition_;
-  response::SteadyOptions steady_;
-  double ratio_;
-  numerics::FourierBasis basis_;
-  std::shared_ptr<const response::HarmonicSystem> system_;
-  std::shared_ptr<const response::Linearisation> linear_;
+  steady::Problem problem_;
+  std::shared_ptr<const steady::Tangent> tangent_;
   WearPoint factored_at_;     // without its rate
   Eigen::MatrixXd response_;  // dU/dW along f = 0, [nc (2H+1), Nc]
   Eigen::MatrixXd slope_;     // R = dr/dW along f = 0, [Nc, Nc]

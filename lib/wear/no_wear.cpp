@@ -6,7 +6,7 @@
 
 namespace dovetail::wear {
 
-double no_wear_rate(double given, const response::CondensedModel& model, const response::SteadyState& unworn) {
+double no_wear_rate(double given, const dynamics::CondensedModel& model, const steady::State& unworn) {
   if (given >= 0.0) return given;
   constexpr double kShare = 4e-6;
   const reduction::ContactNodes& contact = model.contact();

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "response/steady_state.hpp"
+#include "steady/steady_state.hpp"
 
 namespace dovetail::wear {
 
@@ -16,7 +16,6 @@ inline constexpr double kFromModel = -1.0;
 /// that a spin-up left at their friction limit slide by less than that in every cycle, which is noise. The rate
 /// scales with loads, lengths, moduli and wear coefficients as genuine rates do. For a titanium dovetail of k_w = 1e-13
 /// 1/Pa it is about 1e-15 m: 1 um in 1e9 cycles.
-[[nodiscard]] double no_wear_rate(double given, const response::CondensedModel& model,
-                                  const response::SteadyState& unworn);
+[[nodiscard]] double no_wear_rate(double given, const dynamics::CondensedModel& model, const steady::State& unworn);
 
 }  // namespace dovetail::wear

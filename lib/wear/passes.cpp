@@ -11,7 +11,7 @@ using Eigen::Index;
 
 namespace {
 
-std::vector<bool> loaded_nodes(const response::SteadyState& state, const std::vector<bool>& released) {
+std::vector<bool> loaded_nodes(const steady::State& state, const std::vector<bool>& released) {
   std::vector<bool> loaded(released.size());
   for (std::size_t i = 0; i < loaded.size(); ++i) loaded[i] = !released[i] && state.nodes[i].carries_load;
   return loaded;
@@ -23,14 +23,14 @@ Passes::Passes(Index nodes) : released(static_cast<std::size_t>(nodes), false), 
   trail.released_in.assign(released.size(), -1);
 }
 
-std::vector<bool> wear_off(const response::SteadyState& state, const std::vector<bool>& done, double threshold) {
+std::vector<bool> wear_off(const steady::State& state, const std::vector<bool>& done, double threshold) {
   constexpr double kWaits = 0.02;
   double fastest = 0.0;
   for (std::size_t i = 0; i < done.size(); ++i)
     if (!done[i]) fastest = std::max(fastest, state.nodes[i].wear_rate);
   std::vector<bool> off(done.size());
   for (std::size_t i = 0; i < off.size(); ++i) {
-    const response::NodeSummary& node = state.nodes[i];
+    const steady::NodeSummary& node = state.nodes[i];
     off[i] = !done[i] && node.carries_load && node.wear_rate > threshold &&
              !(node.separates && node.wear_rate < kWaits * fastest);
   }
@@ -53,7 +53,7 @@ Ending release_slipping(Release& release, double threshold, int limit, const Con
       passes.status = Status::iteration_limit;
       return Ending::failed;
     }
-    response::SteadyState state = release.solve(next, passes.state.displacement, !held);
+    steady::State state = release.solve(next, passes.state.displacement, !held);
     if (state.status != Status::converged) {
       passes.status = state.status;
       return held || cut_short(state.status) ? Ending::failed : Ending::nothing_holds;
@@ -72,9 +72,9 @@ Ending release_slipping(Release& release, double threshold, int limit, const Con
   }
 }
 
-SlowRelease release_slowly(Release& release, const response::SteadyState& unworn, double threshold, int limit) {
+SlowRelease release_slowly(Release& release, const steady::State& unworn, double threshold, int limit) {
   constexpr double kShare = 0.5;
-  response::SteadyState state = unworn;
+  steady::State state = unworn;
   std::vector<bool> released(static_cast<std::size_t>(release.model().nodes()), false);
   SlowRelease slow;
   slow.depth = slow.deepest = release.depth(released, state);

@@ -19,11 +19,11 @@ enum class Ending {
 struct Passes {
   explicit Passes(Eigen::Index nodes);
 
-  std::vector<bool> released;   ///< [Nc]
-  response::SteadyState state;  ///< with `released`
-  int count = 0;                ///< passes done
-  Eigen::VectorXd deepest;      ///< [Nc] largest depth that any pass asked for, m
-  std::vector<bool> touching;   ///< [Nc] carried load at times only when it was released
+  std::vector<bool> released;  ///< [Nc]
+  steady::State state;         ///< with `released`
+  int count = 0;               ///< passes done
+  Eigen::VectorXd deepest;     ///< [Nc] largest depth that any pass asked for, m
+  std::vector<bool> touching;  ///< [Nc] carried load at times only when it was released
   ReleaseTrail trail;
   Status status = Status::converged;
 };
@@ -32,8 +32,7 @@ struct Passes {
 /// A node that touches at times only waits, however, while another is more than 50 times as fast: it slips a little
 /// where it touches down and lifts off as long as the joint moves as it does, and when the fast nodes have come to rest
 /// it has hardly worn and may touch without slip.
-[[nodiscard]] std::vector<bool> wear_off(const response::SteadyState& state, const std::vector<bool>& done,
-                                         double threshold);
+[[nodiscard]] std::vector<bool> wear_off(const steady::State& state, const std::vector<bool>& done, double threshold);
 
 /// Releases every loaded node that wears by more than `threshold` m per cycle (`wear_off`), solves again, and so on,
 /// beginning with `passes.state`. At most `limit` passes.
@@ -47,7 +46,6 @@ struct SlowRelease {
   Eigen::VectorXd depth;    ///< [Nc] of the state it ends in, when settled
   Eigen::VectorXd deepest;  ///< [Nc] largest depth that any pass asked for
 };
-[[nodiscard]] SlowRelease release_slowly(Release& release, const response::SteadyState& unworn, double threshold,
-                                         int limit);
+[[nodiscard]] SlowRelease release_slowly(Release& release, const steady::State& unworn, double threshold, int limit);
 
 }  // namespace dovetail::wear

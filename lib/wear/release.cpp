@@ -11,13 +11,13 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-double friction_margin(const response::SteadyState& state, Index node, double friction) {
+double friction_margin(const steady::State& state, Index node, double friction) {
   // Samples close to separation carry next to nothing: their ratio of forces is noise.
   constexpr double kLightLoad = 1e-3;
   const double largest = state.nodes[static_cast<std::size_t>(node)].max_normal_force;
   double margin = std::numeric_limits<double>::infinity();
-  if (!(largest > 0.0) || friction == 0.0 || !state.linearisation) return margin;
-  const MatrixXd& force = state.linearisation->state().nodes[static_cast<std::size_t>(node)].force;
+  if (!(largest > 0.0) || friction == 0.0 || !state.tangent) return margin;
+  const MatrixXd& force = state.tangent->point().nodes[static_cast<std::size_t>(node)].force;
   const Index tangential = force.cols() - 1;
   for (Index n = 0; n < force.rows(); ++n) {
     if (force(n, 0) <= kLightLoad * largest) continue;
@@ -29,21 +29,16 @@ double friction_margin(const response::SteadyState& state, Index node, double fr
   return margin;
 }
 
-double slip_excess(const response::CondensedModel& model, const response::SteadyState& state, Index node) {
-  const response::NodeSummary& summary = state.nodes[static_cast<std::size_t>(node)];
+double slip_excess(const dynamics::CondensedModel& model, const steady::State& state, Index node) {
+  const steady::NodeSummary& summary = state.nodes[static_cast<std::size_t>(node)];
   const double limit = model.contact().friction[node] * summary.max_normal_force;
   return limit > 0.0 ? summary.slip_distance * model.local_stiffness()[node * model.directions() + 1] / (4.0 * limit)
                      : 0.0;
 }
 
-Release::Release(std::shared_ptr<const response::CondensedModel> model, double omega, response::ContactCondition start,
-                 response::SteadyOptions steady, const Control& control)
-    : model_(std::move(model)),
-      omega_(omega),
-      start_(std::move(start)),
-      steady_(std::move(steady)),
-      control_(&control) {
-  if (start_.wear_depth.size() == 0) start_.wear_depth = VectorXd::Zero(model_->nodes());
+Release::Release(const steady::Joint& joint, double omega, const Control& control)
+    : joint_(joint), omega_(omega), control_(&control) {
+  if (start().size() == 0) joint_.condition.wear_depth = VectorXd::Zero(model().nodes());
 }
 
 void Release::count(int solves, int jacobians) {
@@ -51,43 +46,38 @@ void Release::count(int solves, int jacobians) {
   jacobians_ += jacobians;
 }
 
-response::SteadyState Release::solve_on(const std::shared_ptr<const response::CondensedModel>& model,
-                                        const response::ContactCondition& condition,
-                                        const response::SteadyOptions& options, const MatrixXd& guess) {
-  response::SteadyState state;
+steady::State Release::solve_on(const steady::Joint& joint, const MatrixXd& guess) {
+  steady::State state;
   if (control_->stopped()) {
     state.status = Status::interrupted;
     return state;
   }
-  state = response::steady_state(model, omega_, condition, options, guess, last_);
+  state = steady::steady_state(joint, omega_, guess, last_);
   count(1, state.iterations);
-  if (state.linearisation) last_ = state.linearisation;
+  if (state.tangent) last_ = state.tangent;
   return state;
 }
 
-response::SteadyState Release::solve(const std::vector<bool>& released, const MatrixXd& guess, bool quick) {
-  response::ContactCondition condition = start_;
-  condition.released.assign(released.begin(), released.end());
-  response::SteadyOptions options = steady_;
+steady::State Release::solve(const std::vector<bool>& released, const MatrixXd& guess, bool quick) {
+  steady::Joint joint = joint_;
+  joint.condition.released.assign(released.begin(), released.end());
   if (quick) {
-    options.penalty_cascade = false;
-    options.max_iterations = std::min(options.max_iterations, 30);
+    joint.options.penalty_cascade = false;
+    joint.options.max_iterations = std::min(joint.options.max_iterations, 30);
   }
-  return solve_on(model_, condition, options, guess);
+  return solve_on(joint, guess);
 }
 
-response::SteadyState Release::solve_worn(const VectorXd& depth, const MatrixXd& guess) {
-  response::ContactCondition condition = start_;
-  condition.wear_depth = depth;
-  return solve_on(model_, condition, steady_, guess);
+steady::State Release::solve_worn(const VectorXd& depth, const MatrixXd& guess) {
+  return solve_on(joint_.worn(depth), guess);
 }
 
-VectorXd Release::depth(const std::vector<bool>& released, const response::SteadyState& state) const {
-  VectorXd depth = start_.wear_depth;
+VectorXd Release::depth(const std::vector<bool>& released, const steady::State& state) const {
+  VectorXd depth = start();
   for (Index i = 0; i < depth.size(); ++i)
     if (released[static_cast<std::size_t>(i)])
       depth[i] = std::max(depth[i],
-                          state.nodes[static_cast<std::size_t>(i)].max_normal_displacement - model_->contact().gap[i]);
+                          state.nodes[static_cast<std::size_t>(i)].max_normal_displacement - model().contact().gap[i]);
   return depth;
 }
 

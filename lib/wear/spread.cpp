@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "core/errors.hpp"
-#include "response/condensed_model.hpp"
-#include "response/traction_family.hpp"
+#include "dynamics/condensed_model.hpp"
+#include "tractions/traction_family.hpp"
 
 namespace dovetail {
 
@@ -35,8 +35,7 @@ namespace dovetail::wear {
 
 namespace {
 
-using response::CondensedModel;
-using response::ContactCondition;
+using dynamics::CondensedModel;
 
 /// A changed problem.
 struct Change {
@@ -70,9 +69,9 @@ std::vector<bool> second_side(const reduction::ContactNodes& contact) {
 }
 
 /// Corners of |m| <= 1 of the stuck nodes.
-std::vector<Change> corners(const CondensedModel& model, const response::SteadyState& unworn) {
+std::vector<Change> corners(const CondensedModel& model, const steady::State& unworn) {
   std::vector<Change> result;
-  const response::TractionFamily family(unworn);
+  const tractions::TractionFamily family(unworn);
   const Eigen::Index directions = model.directions() - 1;
   if (family.nodes().empty() || directions < 1) return result;
   const std::vector<bool> second = second_side(model.contact());
@@ -88,27 +87,27 @@ std::vector<Change> corners(const CondensedModel& model, const response::SteadyS
       }
       std::string name = std::string("first side ") + sign(first_sign) + ", second side " + sign(second_sign);
       if (directions > 1) name += ", direction " + std::to_string(direction + 1);
-      result.push_back(
-          {.name = std::move(name), .slip_origin = family.slip_origin(response::TractionFamily::admissible(traction))});
+      result.push_back({.name = std::move(name),
+                        .slip_origin = family.slip_origin(tractions::TractionFamily::admissible(traction))});
     }
   return result;
 }
 
 class Members {
  public:
-  Members(const std::shared_ptr<const CondensedModel>& model, ContactCondition start, const WornComputation& compute,
-          Spread& spread)
-      : model_(model), start_(std::move(start)), compute_(compute), spread_(spread) {}
+  Members(const steady::Joint& joint, const WornComputation& compute, Spread& spread)
+      : joint_(joint), compute_(compute), spread_(spread) {}
 
   void add(const std::string& source, const Change& change) {
-    const auto changed = std::make_shared<CondensedModel>(*model_);
-    if (change.friction != 1) changed->set_friction(change.friction * model_->contact().friction);
+    const auto changed = std::make_shared<CondensedModel>(*joint_.model);
+    if (change.friction != 1) changed->set_friction(change.friction * joint_.model->contact().friction);
     if (change.load != 1) changed->scale_excitation(change.load);
     if (change.wear_coefficient != 1)
-      changed->set_wear_coefficient(change.wear_coefficient * model_->contact().wear_coefficient);
-    ContactCondition condition = start_;
-    if (change.slip_origin.size() > 0) condition.slip_origin = change.slip_origin;
-    SpreadMember member{.source = source, .change = change.name, .end = compute_(changed, condition)};
+      changed->set_wear_coefficient(change.wear_coefficient * joint_.model->contact().wear_coefficient);
+    steady::Joint joint = joint_;
+    joint.model = changed;
+    if (change.slip_origin.size() > 0) joint.condition.slip_origin = change.slip_origin;
+    SpreadMember member{.source = source, .change = change.name, .end = compute_(joint)};
     spread_.solves += member.end.solves;
     spread_.members.push_back(std::move(member));
   }
@@ -128,8 +127,7 @@ class Members {
   }
 
  private:
-  const std::shared_ptr<const CondensedModel>& model_;
-  ContactCondition start_;
+  const steady::Joint& joint_;
   const WornComputation& compute_;
   Spread& spread_;
 };
@@ -165,12 +163,12 @@ SpreadRange range_of(const Spread& spread, const std::string& source, bool all) 
 
 }  // namespace
 
-Spread spread(const std::shared_ptr<const CondensedModel>& model, const ContactCondition& start, const WornEnd& nominal,
-              const WornComputation& compute, const response::SteadyState* unworn, const SpreadOptions& options) {
+Spread spread(const steady::Joint& joint, const WornEnd& nominal, const WornComputation& compute,
+              const steady::State* unworn, const SpreadOptions& options) {
   if (std::vector<Violation> found = violations(options, "spread"); !found.empty()) throw InputError(std::move(found));
   Spread result;
   result.nominal = nominal;
-  Members members(model, start, compute, result);
+  Members members(joint, compute, result);
   std::vector<std::string> sources;
   std::vector<std::pair<Change, Change>> extremes;
   const auto vary = [&](const std::string& source, const std::vector<Change>& changes) {
@@ -189,7 +187,7 @@ Spread spread(const std::shared_ptr<const CondensedModel>& model, const ContactC
   both("wear_coefficient", options.wear_coefficient, &Change::wear_coefficient);
   both("friction", options.friction, &Change::friction);
   both("load", options.load, &Change::load);
-  if (options.tractions && unworn && unworn->linearisation) vary("residual_tractions", corners(*model, *unworn));
+  if (options.tractions && unworn && unworn->tangent) vary("residual_tractions", corners(*joint.model, *unworn));
 
   constexpr const char* kCombined = "combined";
   if (options.combined && sources.size() > 1)

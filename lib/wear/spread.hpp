@@ -9,7 +9,7 @@
 
 #include "core/options.hpp"
 #include "core/status.hpp"
-#include "response/steady_state.hpp"
+#include "steady/steady_state.hpp"
 #include "wear/asymptote.hpp"
 
 namespace dovetail::wear {
@@ -39,9 +39,8 @@ struct WornEnd {
   [[nodiscard]] double largest_depth() const { return depth.size() > 0 ? depth.maxCoeff() : 0.0; }
 };
 
-/// Computes the worn state of a model from a condition; the same way for every member of a spread.
-using WornComputation =
-    std::function<WornEnd(const std::shared_ptr<const response::CondensedModel>&, const response::ContactCondition&)>;
+/// Computes the worn state of a joint; the same way for every member of a spread.
+using WornComputation = std::function<WornEnd(const steady::Joint&)>;
 
 /// One changed problem.
 struct SpreadMember {
@@ -76,12 +75,10 @@ struct Spread {
 /// `unworn`: the corners where every stuck node of a flank (of half of it, when there is one flank) is at its friction
 /// limit the same way.
 ///
-/// @param unworn  steady state of the unchanged unworn joint with its linearisation; without: no residual tractions
+/// @param unworn  steady state of the unchanged unworn joint with its tangent; without: no residual tractions
 /// Cost: ten to fifteen calls of `compute`. Throws InputError for options out of range.
-[[nodiscard]] Spread spread(const std::shared_ptr<const response::CondensedModel>& model,
-                            const response::ContactCondition& start, const WornEnd& nominal,
-                            const WornComputation& compute, const response::SteadyState* unworn = nullptr,
-                            const SpreadOptions& options = {});
+[[nodiscard]] Spread spread(const steady::Joint& joint, const WornEnd& nominal, const WornComputation& compute,
+                            const steady::State* unworn = nullptr, const SpreadOptions& options = {});
 
 }  // namespace dovetail::wear
 

@@ -6,7 +6,7 @@
 
 namespace dovetail::wear {
 
-void require_nothing_released(const response::ContactCondition& start) {
+void require_nothing_released(const steady::Condition& start) {
   if (std::ranges::all_of(start.released, [](char released) { return released == 0; })) return;
   throw InputError(Violation{.file = {},
                              .key = "start.released",

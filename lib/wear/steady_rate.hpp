@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "response/steady_state.hpp"
+#include "steady/steady_state.hpp"
 
 namespace dovetail::wear {
 
@@ -32,7 +32,7 @@ template <class Record>
 
 /// Whether wearing by `depth` (m, of the fastest node) at the rates of `state` moves no rate by more than `change` of
 /// the largest one, by their exact derivative: loads that do not depend on wear. False where nothing wears or without
-/// linearisation. Cost: one back substitution per node.
-[[nodiscard]] bool insensitive_to_wear(const response::SteadyState& state, double depth, double change);
+/// tangent. Cost: one back substitution per node.
+[[nodiscard]] bool insensitive_to_wear(const steady::State& state, double depth, double change);
 
 }  // namespace dovetail::wear

@@ -7,7 +7,7 @@ namespace dovetail::wear {
 
 using Eigen::Index;
 
-Eigen::VectorXd friction_reserve(const response::CondensedModel& model, const response::SteadyState& state,
+Eigen::VectorXd friction_reserve(const dynamics::CondensedModel& model, const steady::State& state,
                                  const std::vector<bool>& slips) {
   Eigen::VectorXd reserve(model.nodes());
   for (Index i = 0; i < reserve.size(); ++i) {

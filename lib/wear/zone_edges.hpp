@@ -17,8 +17,8 @@ struct ReleaseTrail {
 /// What a node has left of its friction: the margin of one that sticks (friction_margin), minus the excess of one that
 /// slips (slip_excess), both in units of mu lambda_N and zero at the edge between the two; NaN of one without load.
 /// Only nodes next to one that is slipping are looked at: NaN elsewhere, too.
-[[nodiscard]] Eigen::VectorXd friction_reserve(const response::CondensedModel& model,
-                                               const response::SteadyState& state, const std::vector<bool>& slips);
+[[nodiscard]] Eigen::VectorXd friction_reserve(const dynamics::CondensedModel& model, const steady::State& state,
+                                               const std::vector<bool>& slips);
 
 /// A place on a line of nodes where a worn zone ends: between a worn node and the one that bears next to it. Where the
 /// last pass that moved the end found a zone there already, it lies as far beyond the old end as the fraction says.

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "optimizer/evaluator.hpp"
-#include "response/frequency_response.hpp"
+#include "paths/frequency_response.hpp"
 #include "studies/report/design_record.hpp"
 #include "wear/asymptote.hpp"
 #include "wear/drift.hpp"
@@ -59,7 +59,7 @@ class Study {
     say("unworn resonance");
     const optimizer::CandidateModel& model = candidate_.model;
     const double glued = model.reduction.glued_frequencies(results_.scene.loading.mode - 1);
-    candidate_.unworn = response::resonance(model.condensed, glued, {}, steady_);
+    candidate_.unworn = paths::resonance({model.condensed, {}, steady_}, glued);
     if (candidate_.unworn->status != Status::converged) {
       fail("The unworn resonance was not found: " + std::string(to_string(candidate_.unworn->status)) + ".");
       return false;
@@ -72,16 +72,15 @@ class Study {
   }
 
   [[nodiscard]] double glued_amplitude(double omega) const {
-    const response::CondensedModel& model = *candidate_.model.condensed;
-    const response::HarmonicStiffness at = model.harmonic(1, omega);
+    const dynamics::CondensedModel& model = *candidate_.model.condensed;
+    const dynamics::HarmonicStiffness at = model.harmonic(1, omega);
     if (at.status != Status::converged) return kUnknown;
     return std::abs(model.outputs(at, Eigen::VectorXcd::Zero(model.contact_size()))(0));
   }
 
   void asymptote() {
     say("asymptote");
-    candidate_.asymptote = wear::asymptote(candidate_.model.condensed, candidate_.unworn->omega, {}, steady_,
-                                           {.arbitration = "unsettled"}, &candidate_.unworn->state);
+    candidate_.asymptote = wear::asymptote({candidate_.model.condensed, {}, steady_}, candidate_.unworn->omega, {.arbitration = "unsettled"}, &candidate_.unworn->state);
     const wear::Asymptote& found = *candidate_.asymptote;
     if (found.verdict != wear::Verdict::asymptote)
       fail("No worn state at rest was found: " + std::string(wear::to_string(found.verdict)) + ".");
@@ -109,7 +108,7 @@ class Study {
     options.increment = depth / options_.history_steps;
     options.steps = 5 * options_.history_steps;
     const wear::History found =
-        wear::history(candidate_.model.condensed, candidate_.unworn->omega, {}, steady_, options);
+        wear::history({candidate_.model.condensed, {}, steady_}, candidate_.unworn->omega, options);
     if (found.status != Status::converged)
       fail("The history ended early: " + std::string(to_string(found.status)) + ".");
     History& out = results_.history;
@@ -162,12 +161,12 @@ class Study {
   }
 
   void response_of(const Numbers& omega, WornState& state) {
-    const std::shared_ptr<const response::CondensedModel>& model = candidate_.model.condensed;
-    response::ContactCondition condition;
+    const std::shared_ptr<const dynamics::CondensedModel>& model = candidate_.model.condensed;
+    steady::Condition condition;
     condition.wear_depth =
         Eigen::Map<const Eigen::VectorXd>(state.depth_m.data(), static_cast<Eigen::Index>(state.depth_m.size()));
     int failed = 0;
-    for (const response::SteadyState& found : response::frequency_response(model, omega, condition, steady_)) {
+    for (const steady::State& found : paths::frequency_response({model, condition, steady_}, omega)) {
       const bool good = found.status == Status::converged;
       if (!good) ++failed;
       state.curve.amplitude_m.push_back(good ? found.amplitudes(0) : kUnknown);
@@ -179,7 +178,7 @@ class Study {
     state.peak_hz = drift.worn.omega / kTurn;
     state.peak_m = drift.worn.amplitude;
     if (!state.peak_found) fail("A worn resonance was not found: " + std::string(to_string(drift.worn.status)) + ".");
-    const response::SteadyState held = response::steady_state(model, candidate_.unworn->omega, condition, steady_);
+    const steady::State held = steady::steady_state({model, condition, steady_}, candidate_.unworn->omega);
     state.amplitude_m = held.status == Status::converged ? held.amplitudes(0) : kUnknown;
   }
 
@@ -194,10 +193,10 @@ class Study {
     if (model.converged()) optimizer::fit_contact(scene, {}, model);
     if (!model.converged()) return;
     const double glued = model.reduction.glued_frequencies(scene.loading.mode - 1);
-    const response::Resonance unworn = response::resonance(model.condensed, glued, {}, steady_);
+    const paths::Resonance unworn = paths::resonance({model.condensed, {}, steady_}, glued);
     if (unworn.status != Status::converged) return;
     const wear::Asymptote found =
-        wear::asymptote(model.condensed, unworn.omega, {}, steady_, {.arbitration = "unsettled"}, &unworn.state);
+        wear::asymptote({model.condensed, {}, steady_}, unworn.omega, {.arbitration = "unsettled"}, &unworn.state);
     if (found.verdict != wear::Verdict::asymptote) return;
     results_.unequal_flanks_degrees = kDegrees;
     results_.unequal_flanks_volume_m3.assign(2, 0.0);
@@ -207,7 +206,7 @@ class Study {
   }
 
   ComputeOptions options_;
-  response::SteadyOptions steady_;
+  steady::Options steady_;
   optimizer::CandidateResult candidate_;
   Results results_;
 };

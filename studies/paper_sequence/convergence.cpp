@@ -122,14 +122,14 @@ class Convergence {
     const Eigen::VectorXd& area = model.cells.area;
     row.pressure_mean_pa = pressure.dot(area) / area.sum();
     row.pressure_max_pa = pressure.maxCoeff();
-    const response::SteadyOptions steady = optimizer::steady_options(scene.solver);
+    const steady::Options steady = optimizer::steady_options(scene.solver);
     const double glued = model.reduction.glued_frequencies(scene.loading.mode - 1);
-    const response::Resonance unworn = response::resonance(model.condensed, glued, {}, steady);
+    const paths::Resonance unworn = paths::resonance({model.condensed, {}, steady}, glued);
     if (unworn.status != Status::converged) return "resonance: " + std::string(to_string(unworn.status));
     row.frequency_hz = unworn.omega / (2 * std::numbers::pi);
     row.energy_j = unworn.state.friction_energy;
     const wear::Asymptote found =
-        wear::asymptote(model.condensed, unworn.omega, {}, steady, {.arbitration = "unsettled"}, &unworn.state);
+        wear::asymptote({model.condensed, {}, steady}, unworn.omega, {.arbitration = "unsettled"}, &unworn.state);
     row.volume_m3 = found.worn_volume;
     return found.verdict == wear::Verdict::asymptote ? "converged" : std::string(wear::to_string(found.verdict));
   }

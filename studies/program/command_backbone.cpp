@@ -1,4 +1,4 @@
-#include "response/backbone.hpp"
+#include "paths/backbone.hpp"
 
 #include <fmt/format.h>
 
@@ -62,9 +62,9 @@ int output_index(const BackboneOptions& options, const LoadedModel& loaded) {
 }
 
 /// Wear whose largest depth is the parameter, in proportion to the rates of the unworn resonance.
-response::BackboneFamily worn_family(const LoadedModel& loaded, double omega, const response::ResonanceOptions& search,
+paths::BackboneFamily worn_family(const steady::Joint& joint, double omega, const paths::ResonanceOptions& search,
                                      const BackboneOptions& options) {
-  const response::Resonance unworn = response::resonance(loaded.condensed, omega, {}, loaded.steady, search);
+  const paths::Resonance unworn = paths::resonance(joint, omega, search);
   const double largest =
       unworn.status == Status::converged && unworn.state.wear_rate.size() > 0 ? unworn.state.wear_rate.maxCoeff() : 0;
   if (largest <= 0)
@@ -73,18 +73,18 @@ response::BackboneFamily worn_family(const LoadedModel& loaded, double omega, co
                ? "does not wear at its unworn resonance"
                : "its unworn resonance was not found: " + std::string(to_string(unworn.status)) +
                      "; give --frequency HZ near it");
-  return response::wear_levels(loaded.condensed, unworn.state.wear_rate / largest);
+  return paths::wear_levels(joint, unworn.state.wear_rate / largest);
 }
 
 std::string backbone_json(const BackboneOptions& options, const LoadedModel& loaded, int output,
-                          const response::Backbone& found) {
+                          const paths::Backbone& found) {
   Json json;
   json["over"] = options.over;
   json["output"] = loaded.model.output_names[static_cast<std::size_t>(output)];
   for (const char* key : {"parameter", "status", "frequency_hz", "amplitude", "frequency_error", "dissipated_energy_j",
                           "searched", "jumped", "checked", "jacobians"})
     json[key] = Json::array();
-  for (const response::BackbonePoint& point : found.points) {
+  for (const paths::BackbonePoint& point : found.points) {
     const bool valid = point.status == Status::converged;
     const auto known = [&](double value) { return valid ? number(value) : Json(nullptr); };
     json["parameter"].push_back(number(point.parameter));
@@ -98,17 +98,17 @@ std::string backbone_json(const BackboneOptions& options, const LoadedModel& loa
     json["checked"].push_back(point.checked);
     json["jacobians"].push_back(point.jacobians);
   }
-  json["settings"] = Json{{"harmonics", loaded.steady.harmonics},
-                          {"samples", loaded.steady.samples},
-                          {"tolerance", loaded.steady.tolerance},
-                          {"solver", loaded.steady.solver}};
+  json["settings"] = Json{{"harmonics", loaded.joint.options.harmonics},
+                          {"samples", loaded.joint.options.samples},
+                          {"tolerance", loaded.joint.options.tolerance},
+                          {"solver", loaded.joint.options.solver}};
   return text(json);
 }
 
-std::string table(const BackboneOptions& options, const response::Backbone& found) {
+std::string table(const BackboneOptions& options, const paths::Backbone& found) {
   std::string text = fmt::format("{:>16} {:>16} {:>16} {:>16}\n", options.over == "wear" ? "depth_m" : "force factor",
                                  "status", "frequency_hz", "amplitude");
-  for (const response::BackbonePoint& point : found.points) {
+  for (const paths::BackbonePoint& point : found.points) {
     text += fmt::format("{:>16.9g} {:>16}", point.parameter, to_string(point.status));
     if (point.status == Status::converged)
       text += fmt::format(" {:>16.10g} {:>16.8g}", point.omega / kTurn, point.amplitude);
@@ -127,20 +127,21 @@ int run_backbone(const BackboneOptions& options, const Streams& streams) {
     streams.err << "dovetail: " << options.input << ": not converged: " << loaded.failure << "\n";
     return kNotConverged;
   }
-  response::BackboneOptions settings;
+  paths::BackboneOptions settings;
   const int output = output_index(options, loaded);
   settings.resonance.output = output;
   const double omega = options.frequency_hz ? kTurn * *options.frequency_hz : loaded.glued_omega;
   if (omega <= 0) refuse(options.input, "", "has no natural frequency to start from; give --frequency HZ");
 
   const OrderlyInterrupt interrupt;
-  const response::BackboneFamily family = options.over == "wear"
-                                              ? worn_family(loaded, omega, settings.resonance, options)
-                                              : response::excitation_levels(loaded.condensed);
-  loaded.steady.linearise = false;
+  steady::Joint joint = loaded.joint;
+  joint.options.linearise = false;
+  const paths::BackboneFamily family = options.over == "wear"
+                                              ? worn_family(joint, omega, settings.resonance, options)
+                                              : paths::excitation_levels(joint);
   const bool terminal = error_is_terminal();
-  const response::Backbone found =
-      response::backbone(family, values, omega, loaded.steady, settings, [&](const response::BackbonePoint& point) {
+  const paths::Backbone found =
+      paths::backbone(family, values, omega, settings, [&](const paths::BackbonePoint& point) {
         if (terminal) streams.err << fmt::format("\r\033[K{:.6g}", point.parameter) << std::flush;
         return !interrupt.requested();
       });

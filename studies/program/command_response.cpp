@@ -6,7 +6,7 @@
 #include <numbers>
 #include <ostream>
 
-#include "response/frequency_response.hpp"
+#include "paths/frequency_response.hpp"
 #include "studies/program/commands.hpp"
 #include "studies/program/engine.hpp"
 #include "studies/program/interrupt.hpp"
@@ -54,10 +54,10 @@ class CurveRun {
   CurveRun(const LoadedModel& loaded, const ResponseOptions& options, const Streams& streams)
       : loaded_(loaded), options_(options), streams_(streams), terminal_(error_is_terminal()) {
     curve_.output_names = loaded.model.output_names;
-    curve_.settings = loaded.steady;
+    curve_.settings = loaded.joint.options;
     curve_.choice = options.choice;
-    curve_.penalty = contact::pseudo_penalty(loaded.condensed->local_stiffness(), loaded.condensed->directions(),
-                                             loaded.steady.normal_penalty, loaded.steady.tangential_penalty);
+    curve_.penalty = contact::pseudo_penalty(loaded.joint.model->local_stiffness(), loaded.joint.model->directions(),
+                                             loaded.joint.options.normal_penalty, loaded.joint.options.tangential_penalty);
   }
   ~CurveRun() {
     if (terminal_) streams_.err << "\r\033[K" << std::flush;
@@ -69,25 +69,21 @@ class CurveRun {
     std::vector<double> omega;
     for (const double f : hz) omega.push_back(kTurn * f);
     curve_.frequency_hz = hz;
-    curve_.states = response::frequency_response(
-        loaded_.condensed, omega, {}, loaded_.steady,
-        [&](std::size_t, const response::SteadyState& state) { return take(state, interrupt, hz.size()); });
+    curve_.states = paths::frequency_response(loaded_.joint, omega, [&](std::size_t, const steady::State& state) { return take(state, interrupt, hz.size()); });
     curve_.analyses.resize(curve_.states.size());
     return std::move(curve_);
   }
 
   ResponseCurve along(const OrderlyInterrupt& interrupt) {
-    response::SteadyOptions steady = loaded_.steady;
+    steady::Options steady = loaded_.joint.options;
     steady.linearise = false;
-    response::ContinuationOptions follow;
+    paths::ContinuationOptions follow;
     if (options_.points > 1)
       follow.largest_frequency_step = std::min(follow.largest_frequency_step, 1.0 / (options_.points - 1));
     follow.max_points = std::max(follow.max_points, 20 * options_.points);
-    curve_.branch = response::continuation(
-        loaded_.condensed, kTurn * options_.from_hz, kTurn * options_.to_hz, {}, steady, follow,
-        [&](const response::ContinuationPoint& point) { return take(point.state, interrupt, 0); });
+    curve_.branch = paths::continuation({loaded_.joint.model, {}, steady}, kTurn * options_.from_hz, kTurn * options_.to_hz, follow, [&](const paths::ContinuationPoint& point) { return take(point.state, interrupt, 0); });
     require_end();
-    for (response::ContinuationPoint& point : curve_.branch->points) {
+    for (paths::ContinuationPoint& point : curve_.branch->points) {
       curve_.frequency_hz.push_back(hertz(point.state.omega));
       curve_.states.push_back(std::move(point.state));
     }
@@ -96,7 +92,7 @@ class CurveRun {
   }
 
  private:
-  bool take(const response::SteadyState& state, const OrderlyInterrupt& interrupt, std::size_t all) {
+  bool take(const steady::State& state, const OrderlyInterrupt& interrupt, std::size_t all) {
     ++done_;
     if (terminal_)
       streams_.err << (all > 0 ? fmt::format("\r\033[Kfrequency {}/{}", done_, all)
@@ -108,7 +104,7 @@ class CurveRun {
 
   /// A branch that claims to have left the interval has its last point on an end of it.
   void require_end() {
-    response::Branch& branch = *curve_.branch;
+    paths::Branch& branch = *curve_.branch;
     const double last = branch.points.back().state.omega;
     if (branch.status == Status::converged && last != kTurn * options_.from_hz && last != kTurn * options_.to_hz)
       branch.status = Status::stalled;
@@ -133,7 +129,7 @@ class CurveRun {
 std::string failures(const ResponseCurve& curve) {
   std::map<std::string_view, int> counts;
   std::size_t failed = 0;
-  for (const response::SteadyState& state : curve.states)
+  for (const steady::State& state : curve.states)
     if (state.status != Status::converged) {
       ++counts[to_string(state.status)];
       ++failed;
@@ -149,8 +145,8 @@ std::string failures(const ResponseCurve& curve) {
 
 /// Whether some node slips or separates in a state that converged.
 bool contact_changes(const ResponseCurve& curve) {
-  return std::ranges::any_of(curve.states, [](const response::SteadyState& state) {
-    return state.status == Status::converged && std::ranges::any_of(state.nodes, [](const response::NodeSummary& node) {
+  return std::ranges::any_of(curve.states, [](const steady::State& state) {
+    return state.status == Status::converged && std::ranges::any_of(state.nodes, [](const steady::NodeSummary& node) {
              return node.slips || node.separates;
            });
   });
@@ -177,7 +173,7 @@ int run_response(const ResponseOptions& options, const Streams& streams) {
   deliver_json(options.json, response_json(curve), streams);
   if (options.json.empty()) streams.out << response_table(curve);
   if (interrupt.requested()) return kInterrupted;
-  if (!loaded.condensed->massless_contact() && contact_changes(curve))
+  if (!loaded.joint.model->massless_contact() && contact_changes(curve))
     streams.err << "dovetail: " << options.input
                 << ": remark: contact dofs carry mass and slip or lift off: the harmonics converge slowly there and "
                    "lift-off has no unique answer; move that mass inward, or look at --error-bars\n";
@@ -191,7 +187,7 @@ int run_response(const ResponseOptions& options, const Streams& streams) {
                              curve.frequency_hz.back(), to_string(curve.branch->status)));
   if (const std::string failed = analysis_failures(curve.analyses); !failed.empty()) status = complain(failed);
   if (automatic && *automatic != Status::converged && status == kDone)
-    status = complain(truncation_complaint(*automatic, loaded.steady, options.solver));
+    status = complain(truncation_complaint(*automatic, loaded.joint.options, options.solver));
   return status;
 }
 

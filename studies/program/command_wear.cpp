@@ -7,8 +7,8 @@
 #include <ostream>
 #include <utility>
 
-#include "response/resonance.hpp"
-#include "response/truncation.hpp"
+#include "paths/resonance.hpp"
+#include "quality/truncation.hpp"
 #include "studies/program/commands.hpp"
 #include "studies/program/engine.hpp"
 #include "studies/program/interrupt.hpp"
@@ -75,32 +75,32 @@ WornState worn_state(const WearAnswer& answer) {
   return answer.worn_out() ? WornState{.volume = answer.volume, .depth = answer.largest_depth()} : WornState{};
 }
 
-/// Error bars of a worn state: it is computed again from the start at the settings of response::error_bars.
+/// Error bars of a worn state: it is computed again from the start at the settings of quality::error_bars.
 WearBars worn_bars(const LoadedModel& loaded, const WornState& nominal,
                    const std::function<WornState(const LoadedModel&)>& compute) {
-  const auto changed = [&](response::SteadyOptions settings) {
+  const auto changed = [&](steady::Options settings) {
     LoadedModel again = loaded;
-    again.steady = std::move(settings);
+    again.joint.options = std::move(settings);
     return compute(again);
   };
   const auto scaled = [&](double ratio) {
-    response::SteadyOptions settings = loaded.steady;
+    steady::Options settings = loaded.joint.options;
     settings.penalty_scale *= ratio;
     return changed(settings);
   };
-  const WornState harmonics = changed(response::more_harmonics(loaded.steady));
-  const WornState samples = changed(response::more_samples(loaded.steady));
+  const WornState harmonics = changed(quality::more_harmonics(loaded.joint.options));
+  const WornState samples = changed(quality::more_samples(loaded.joint.options));
   const WornState softer = scaled(0.5), stiffer = scaled(2);
   const auto bar = [&](double WornState::*value) {
     const auto change = [&](const WornState& other) {
       const double difference = std::abs(other.*value - nominal.*value);
       return std::isnan(difference) ? kInfinity : difference;  // not computed: unknown
     };
-    return response::bar_from({.harmonics = change(harmonics),
+    return quality::bar_from({.harmonics = change(harmonics),
                                .samples = change(samples),
                                .softer = change(softer),
                                .stiffer = change(stiffer)},
-                              loaded.condensed->massless_contact());
+                              loaded.joint.model->massless_contact());
   };
   return {.worn_volume = bar(&WornState::volume), .largest_depth = bar(&WornState::depth)};
 }
@@ -117,22 +117,21 @@ wear::WornEnd worn_end(const WearAnswer& answer) {
 /// Every member is computed as the answer was: at the frequency given, or at its own resonance.
 wear::Spread spread_of(const WearOptions& options, const LoadedModel& loaded, const WearStart& at,
                        const WearAnswer& answer, const wear::Control& control) {
-  std::optional<response::SteadyState> unworn;
+  std::optional<steady::State> unworn;
   if (at.resonance)
     unworn = at.resonance->state;
   else
-    unworn = response::steady_state(loaded.condensed, at.omega, {}, loaded.steady);
-  const auto compute = [&](const std::shared_ptr<const response::CondensedModel>& model,
-                           const response::ContactCondition& condition) {
+    unworn = steady::steady_state(loaded.joint, at.omega);
+  const auto compute = [&](const steady::Joint& joint) {
     wear::WornEnd failed;
     failed.status = Status::interrupted;
     if (control.stopped()) return failed;
     LoadedModel changed = loaded;
-    changed.condensed = model;
+    changed.joint = joint;
     WearStart from = at;
     if (at.resonance) {
       from.resonance =
-          response::resonance(model, at.omega, condition, loaded.steady, {}, at.resonance->state.displacement);
+          paths::resonance(joint, at.omega, {}, at.resonance->state.displacement);
       if (!from.found()) {
         failed.status = from.resonance->status;
         failed.solves = from.resonance->solves;
@@ -141,10 +140,10 @@ wear::Spread spread_of(const WearOptions& options, const LoadedModel& loaded, co
       from.omega = from.resonance->omega;
       from.hz = from.omega / (2 * std::numbers::pi);
     }
-    return worn_end(wear_answer(options, changed, from, condition, control));
+    return worn_end(wear_answer(options, changed, from, control));
   };
   const bool solved = unworn->status == Status::converged;
-  return wear::spread(loaded.condensed, {}, worn_end(answer), compute, solved ? &*unworn : nullptr);
+  return wear::spread(loaded.joint, worn_end(answer), compute, solved ? &*unworn : nullptr);
 }
 
 std::string follow_words(const std::string& follow) {
@@ -242,7 +241,7 @@ int run_wear(const WearOptions& given, const Streams& streams) {
     WearAnswer answer = unknown_answer(options, loaded.model.contact.count(), status);
     answer.reason = why;
     answer.solves = solves;
-    const WearQuestion question{.frequency_hz = std::nan(""), .follow = options.follow, .settings = loaded.steady};
+    const WearQuestion question{.frequency_hz = std::nan(""), .follow = options.follow, .settings = loaded.joint.options};
     if (!options.json.empty()) deliver_json(options.json, wear_json(question, answer), streams);
     return failed("not converged: " + why);
   };
@@ -276,7 +275,7 @@ int run_wear(const WearOptions& given, const Streams& streams) {
                                  volume, rate)
                   << std::flush;
     };
-  WearQuestion question{.frequency_hz = at.hz, .follow = options.follow, .settings = loaded.steady};
+  WearQuestion question{.frequency_hz = at.hz, .follow = options.follow, .settings = loaded.joint.options};
   std::optional<WearBand> band;
   WearAnswer answer;
   if (over_band) {
@@ -286,13 +285,13 @@ int run_wear(const WearOptions& given, const Streams& streams) {
     if (!band->frequencies_hz.empty()) question.frequency_hz = band->frequencies_hz[band->worst];
     at = wear_start_at(question.frequency_hz);
   } else {
-    answer = wear_answer(options, loaded, at, {}, control);
+    answer = wear_answer(options, loaded, at, control);
   }
   const auto again = [&](const LoadedModel& model) {
     if (interrupt.requested()) return WornState{};
     const WearStart from = over_band ? at : wear_start(options, model);
     if (!from.found()) return WornState{};
-    return worn_state(wear_answer(options, model, from, {}, control));
+    return worn_state(wear_answer(options, model, from, control));
   };
   if (answer.history && options.curves > 0) answer.curves = worn_curves(options, loaded, *answer.history, control);
   if (automatic) question.automatic = WearQuestion::Automatic{*automatic, accuracy(options.solver)};
@@ -303,7 +302,7 @@ int run_wear(const WearOptions& given, const Streams& streams) {
   if (options.json.empty()) streams.out << summary(question, answer);
   const int end = verdict(options.input, answer, interrupt.requested(), streams);
   if (end == kDone && automatic && *automatic != Status::converged)
-    return failed(truncation_complaint(*automatic, loaded.steady, options.solver));
+    return failed(truncation_complaint(*automatic, loaded.joint.options, options.solver));
   if (end == kDone && question.spread && !question.spread->ranges.empty() && question.spread->ranges.back().failed > 0)
     return failed(fmt::format("{} of {} members of the spread did not converge", question.spread->ranges.back().failed,
                               question.spread->ranges.back().members));

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "reduction/model_file.hpp"
-#include "response/condensed_model.hpp"
+#include "dynamics/condensed_model.hpp"
 #include "studies/program/model_toml.hpp"
 #include "studies/report/design_record.hpp"
 
@@ -95,7 +95,7 @@ LoadedModel from_study(const std::string& file, const std::vector<Override>& ove
   optimizer::CandidateModel candidate = scene_evaluator(study)->builder().build(study.scene);
   if (candidate.status == "infeasible") throw infeasible(file, candidate.messages);
   LoadedModel loaded;
-  loaded.steady = optimizer::steady_options(study.scene.solver);
+  loaded.joint.options = optimizer::steady_options(study.scene.solver);
   loaded.follow = study.scene.loading.follow;
   if (!candidate.converged()) {
     loaded.failure = candidate.status;
@@ -108,7 +108,7 @@ LoadedModel from_study(const std::string& file, const std::vector<Override>& ove
     return loaded;
   }
   loaded.model = candidate.reduction.model;
-  loaded.condensed = candidate.condensed;
+  loaded.joint.model = candidate.condensed;
   loaded.glued_omega = candidate.reduction.glued_frequencies(study.scene.loading.mode - 1);
   return loaded;
 }
@@ -138,7 +138,7 @@ optimizer::SolverSettings settings_of(const SolverOverrides& solver) {
 }
 
 /// Before a model is read: options that do not fit are told whatever the file is like.
-response::SteadyOptions model_options(const std::string& file, const std::vector<Override>& overrides,
+steady::Options model_options(const std::string& file, const std::vector<Override>& overrides,
                                       const SolverOverrides& solver) {
   if (!overrides.empty())
     throw InputError(Violation{.file = file,
@@ -158,7 +158,7 @@ int largest_harmonic(const reduction::ReducedModel& model) {
 /// No harmonic of the force may be left out: the default rises to it, and fewer are refused. The default samples
 /// rise with the harmonics. Throws InputError.
 void fit_to_force(const std::string& file, const SolverOverrides& solver, const reduction::ReducedModel& model,
-                  response::SteadyOptions& steady) {
+                  steady::Options& steady) {
   const int forced = largest_harmonic(model);
   const auto refuse = [&](const std::string& key, int value, const std::string& allowed) {
     throw InputError(Violation{.file = file, .key = key, .value = std::to_string(value), .allowed = allowed});
@@ -177,16 +177,16 @@ void fit_to_force(const std::string& file, const SolverOverrides& solver, const 
                std::to_string(steady.harmonics) + " harmonics");
 }
 
-LoadedModel from_model(const std::string& file, reduction::ReducedModel model, response::SteadyOptions steady,
+LoadedModel from_model(const std::string& file, reduction::ReducedModel model, steady::Options steady,
                        const SolverOverrides& solver) {
   fit_to_force(file, solver, model, steady);
   LoadedModel loaded;
-  loaded.steady = steady;
+  loaded.joint.options = steady;
   loaded.model = std::move(model);
-  loaded.condensed = std::make_shared<const response::CondensedModel>(loaded.model);
+  loaded.joint.model = std::make_shared<const dynamics::CondensedModel>(loaded.model);
   // Ascending; those of free motion are no resonance to start from.
   constexpr double kFree = 1e-6;
-  const Eigen::VectorXd glued = loaded.condensed->glued_frequencies();
+  const Eigen::VectorXd glued = loaded.joint.model->glued_frequencies();
   for (const double omega : glued)
     if (std::isfinite(omega) && omega > kFree * glued.maxCoeff()) {
       loaded.glued_omega = omega;
@@ -207,12 +207,12 @@ std::optional<reduction::ReducedModel> read_any_model(const std::string& input) 
 LoadedModel load_model(const std::string& input, const std::vector<Override>& overrides,
                        const SolverOverrides& solver) {
   if (is_hdf5_file(input)) {
-    const response::SteadyOptions steady = model_options(input, overrides, solver);
+    const steady::Options steady = model_options(input, overrides, solver);
     return from_model(input, reduction::read_model(input), steady, solver);
   }
   const Document document = load_document(input);
   if (!is_model_document(document)) return from_study(input, with_solver(overrides, solver));
-  const response::SteadyOptions steady = model_options(input, overrides, solver);
+  const steady::Options steady = model_options(input, overrides, solver);
   return from_model(input, read_model_document(document), steady, solver);
 }
 

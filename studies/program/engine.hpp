@@ -6,8 +6,8 @@
 
 #include "optimizer/evaluator.hpp"
 #include "reduction/reduced_model.hpp"
-#include "response/condensed_model.hpp"
-#include "response/options.hpp"
+#include "dynamics/condensed_model.hpp"
+#include "steady/options.hpp"
 #include "studies/program/commands.hpp"
 
 namespace dovetail::studies {
@@ -26,8 +26,7 @@ namespace dovetail::studies {
 /// A reduced model to compute with, from a model file or from a study's candidate.
 struct LoadedModel {
   reduction::ReducedModel model;
-  std::shared_ptr<const response::CondensedModel> condensed;  ///< of that model
-  response::SteadyOptions steady;
+  steady::Joint joint;  ///< of that model, unworn
   double glued_omega = 0;        ///< rad/s, of the followed mode (a file: the lowest); 0 when the model has none
   std::string follow = "fixed";  ///< the study's choice of what drives the wear
   std::string failure;           ///< not empty: the candidate's model did not converge, and why

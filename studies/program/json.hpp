@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "optimizer/evaluation.hpp"
-#include "response/options.hpp"
+#include "steady/options.hpp"
 #include "wear/asymptote.hpp"
 #include "wear/history.hpp"
 #include "wear/spread.hpp"
@@ -33,7 +33,7 @@ struct WearBars {
 struct WearQuestion {
   double frequency_hz = 0;       ///< excitation, at the start
   std::string follow = "fixed";  ///< fixed, tracking the resonance, or the worst of a band
-  response::SteadyOptions settings = {};
+  steady::Options settings = {};
   struct Automatic {
     Status status;
     double accuracy;

@@ -10,19 +10,18 @@ namespace dovetail::studies {
 namespace {
 
 /// The same state with its linearisation: solved again from itself, which takes no iteration.
-response::SteadyState linearised(const LoadedModel& loaded, const response::SteadyState& state) {
-  if (state.linearisation) return state;
-  response::SteadyOptions options = loaded.steady;
+steady::State linearised(const LoadedModel& loaded, const steady::State& state) {
+  if (state.tangent) return state;
+  steady::Options options = loaded.joint.options;
   options.linearise = true;
   options.penalty_scale *= state.penalty_ratio;
-  return response::steady_state(loaded.condensed, state.omega, {}, options, state.displacement);
+  return steady::steady_state({loaded.joint.model, {}, options}, state.omega, state.displacement);
 }
 
-TractionRanges traction_ranges(const LoadedModel& loaded, const response::SteadyState& state) {
-  using response::BoundedQuantity;
+TractionRanges traction_ranges(const LoadedModel& loaded, const steady::State& state) {
+  using tractions::BoundedQuantity;
   const auto range = [&](BoundedQuantity quantity, int output) {
-    return response::traction_bounds(loaded.condensed, state.omega, {}, loaded.steady, quantity, {.output = output},
-                                     state.displacement);
+    return tractions::traction_bounds(loaded.joint, state.omega, quantity, {.output = output}, state.displacement);
   };
   TractionRanges ranges;
   for (std::size_t i = 0; i < loaded.model.output_names.size(); ++i)
@@ -46,7 +45,7 @@ std::optional<Status> of_sensitivity(const PointAnalysis& at) {
 std::optional<Status> of_tractions(const PointAnalysis& at) {
   if (!at.tractions) return std::nullopt;
   std::vector<Status> all{at.tractions->friction_energy.status, at.tractions->wear_rate.status};
-  for (const response::TractionBounds& bounds : at.tractions->amplitudes) all.push_back(bounds.status);
+  for (const tractions::TractionBounds& bounds : at.tractions->amplitudes) all.push_back(bounds.status);
   const auto failed = std::ranges::find_if(all, [](Status status) { return status != Status::converged; });
   return failed == all.end() ? Status::converged : *failed;
 }
@@ -70,13 +69,13 @@ void describe_failures(const std::vector<PointAnalysis>& analyses, const char* w
 
 }  // namespace
 
-PointAnalysis analyse(const LoadedModel& loaded, const response::SteadyState& state, const AnalysisChoice& choice) {
+PointAnalysis analyse(const LoadedModel& loaded, const steady::State& state, const AnalysisChoice& choice) {
   PointAnalysis result;
   if (state.status != Status::converged) return result;
-  if (choice.error_bars) result.bars = response::error_bars(loaded.condensed, state, {}, loaded.steady);
+  if (choice.error_bars) result.bars = quality::error_bars(loaded.joint, state);
   if (choice.penalty_sensitivity)
-    result.sensitivity = response::penalty_sensitivity(loaded.condensed, state, {}, loaded.steady);
-  if (choice.stability) result.stability = response::local_stability(loaded.model, linearised(loaded, state));
+    result.sensitivity = quality::penalty_sensitivity(loaded.joint, state);
+  if (choice.stability) result.stability = stability::local_stability(loaded.model, linearised(loaded, state));
   if (choice.traction_bounds) result.tractions = traction_ranges(loaded, state);
   return result;
 }

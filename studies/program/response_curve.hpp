@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "response/continuation.hpp"
+#include "paths/continuation.hpp"
 #include "studies/program/point_analysis.hpp"
 
 namespace dovetail::studies {
@@ -12,13 +12,13 @@ namespace dovetail::studies {
 /// The answer of the command response.
 struct ResponseCurve {
   std::vector<double> frequency_hz;  ///< [F]
-  std::vector<response::SteadyState> states;
+  std::vector<steady::State> states;
   std::vector<std::string> output_names;
-  response::SteadyOptions settings = {};   ///< with the harmonics and samples chosen
+  steady::Options settings = {};   ///< with the harmonics and samples chosen
   contact::PseudoPenalty penalty = {};     ///< of the nodes, before the cascade changes it at a point
   std::optional<Status> automatic = {};    ///< of the choice of harmonics and samples, when it was asked for
   double accuracy = 0;                     ///< asked for with it
-  std::optional<response::Branch> branch;  ///< of an arc-length run; its points have no states any more
+  std::optional<paths::Branch> branch;  ///< of an arc-length run; its points have no states any more
   AnalysisChoice choice = {};
   std::vector<PointAnalysis> analyses = {};  ///< [F] when something is chosen
 };

@@ -6,7 +6,7 @@
 namespace dovetail::studies {
 namespace {
 
-using response::Quantities;
+using quality::Quantities;
 
 /// cosine[h] and sine[h], h = 0..H, of coefficients [c0, c1, s1, ...]; NaN when the point did not converge.
 std::pair<Eigen::VectorXd, Eigen::VectorXd> cosine_and_sine(const Eigen::RowVectorXd& coefficients, bool valid) {
@@ -56,11 +56,11 @@ class QuantityLists {
 Json error_bars_json(const ResponseCurve& curve) {
   Json json;
   json["status"] = Json::array();
-  const std::array<std::pair<const char*, Quantities response::ErrorBars::*>, 4> parts{
-      {{"total", &response::ErrorBars::total},
-       {"harmonics", &response::ErrorBars::harmonics},
-       {"samples", &response::ErrorBars::samples},
-       {"penalty", &response::ErrorBars::penalty}}};
+  const std::array<std::pair<const char*, Quantities quality::ErrorBars::*>, 4> parts{
+      {{"total", &quality::ErrorBars::total},
+       {"harmonics", &quality::ErrorBars::harmonics},
+       {"samples", &quality::ErrorBars::samples},
+       {"penalty", &quality::ErrorBars::penalty}}};
   for (const PointAnalysis& point : curve.analyses)
     json["status"].push_back(point.bars ? Json(std::string(to_string(point.bars->status))) : Json(nullptr));
   for (const auto& [name, member] : parts) {
@@ -87,7 +87,7 @@ Json sensitivity_json(const ResponseCurve& curve) {
       slopes.add_nothing();
       continue;
     }
-    const response::PenaltySensitivity& found = *point.sensitivity;
+    const quality::PenaltySensitivity& found = *point.sensitivity;
     json["ratios"] = numbers(found.ratios);
     Json statuses = Json::array();
     for (const Status status : found.statuses) statuses.push_back(std::string(to_string(status)));
@@ -113,9 +113,9 @@ Json stability_json(const ResponseCurve& curve) {
       for (auto& list : json) list.push_back(nullptr);
       continue;
     }
-    const response::Stability& found = *point.stability;
-    const bool filled = found.verdict != response::StabilityVerdict::not_meaningful &&
-                        found.verdict != response::StabilityVerdict::undetermined;
+    const stability::Stability& found = *point.stability;
+    const bool filled = found.verdict != stability::StabilityVerdict::not_meaningful &&
+                        found.verdict != stability::StabilityVerdict::undetermined;
     json["verdict"].push_back(std::string(to_string(found.verdict)));
     json["reason"].push_back(found.reason);
     json["largest_modulus"].push_back(filled ? number(found.largest_modulus) : Json(nullptr));
@@ -141,7 +141,7 @@ Json bounds_json(const ResponseCurve& curve, const Get& get) {
       for (auto& list : json) list.push_back(nullptr);
       continue;
     }
-    const response::TractionBounds& bounds = get(*point.tractions);
+    const tractions::TractionBounds& bounds = get(*point.tractions);
     const bool known = bounds.status == Status::converged || bounds.status == Status::iteration_limit;
     json["minimum"].push_back(known ? number(bounds.minimum.value) : Json(nullptr));
     json["maximum"].push_back(known ? number(bounds.maximum.value) : Json(nullptr));
@@ -178,14 +178,14 @@ Json settings_json(const ResponseCurve& curve) {
   return json;
 }
 
-Json branch_json(const response::Branch& branch) {
+Json branch_json(const paths::Branch& branch) {
   Json json;
   json["status"] = std::string(to_string(branch.status));
   json["turns"] = branch.turns();
   json["jacobians"] = branch.jacobians;
   json["rejected"] = branch.rejected;
   for (const char* key : {"arc_length", "direction", "is_turn"}) json[key] = Json::array();
-  for (const response::ContinuationPoint& point : branch.points) {
+  for (const paths::ContinuationPoint& point : branch.points) {
     json["arc_length"].push_back(number(point.arc_length));
     json["direction"].push_back(number(point.direction));
     json["is_turn"].push_back(point.is_turn);
@@ -206,7 +206,7 @@ std::string response_json(const ResponseCurve& curve) {
     json[key] = Json::array();
   const Eigen::Index columns = 2 * curve.settings.harmonics + 1;
   for (std::size_t point = 0; point < curve.states.size(); ++point) {
-    const response::SteadyState& state = curve.states[point];
+    const steady::State& state = curve.states[point];
     const bool valid = state.status == Status::converged;
     const auto known = [&](double value) { return valid ? number(value) : Json(nullptr); };
     json["frequency_hz"].push_back(number(curve.frequency_hz[point]));

@@ -31,7 +31,7 @@ std::string response_table(const ResponseCurve& curve) {
   if (choice.stability) text += cell("stability") + cell("modulus");
   text += "\n";
   for (std::size_t i = 0; i < curve.states.size(); ++i) {
-    const response::SteadyState& state = curve.states[i];
+    const steady::State& state = curve.states[i];
     const bool turn = curve.branch && curve.branch->points[i].is_turn;
     text += fmt::format("{:>16.9g}", curve.frequency_hz[i]) +
             cell(turn ? std::string("turning point") : std::string(to_string(state.status)));
@@ -43,7 +43,7 @@ std::string response_table(const ResponseCurve& curve) {
         if (point.bars) text += bar(point.bars->total.amplitudes(k));
         if (point.sensitivity) text += bar(point.sensitivity->slope.amplitudes(k));
         if (point.tractions) {
-          const response::TractionBounds& bounds = point.tractions->amplitudes[static_cast<std::size_t>(k)];
+          const tractions::TractionBounds& bounds = point.tractions->amplitudes[static_cast<std::size_t>(k)];
           text += cell(bounds.minimum.value) + cell(bounds.maximum.value);
         }
       }

@@ -142,7 +142,7 @@ std::string checksum(const reduction::ReducedModel& model) {
 }
 
 std::vector<IdentityEntry> history_identity(const WearOptions& options, const LoadedModel& loaded, double hz) {
-  const response::SteadyOptions& steady = loaded.steady;
+  const steady::Options& steady = loaded.joint.options;
   return {{"model", checksum(loaded.model)},
           {"integrator", options.integrator},
           {"follow", options.follow == "resonance" ? "resonance" : "fixed"},

@@ -4,8 +4,8 @@
 
 #include <numbers>
 
-#include "response/automatic.hpp"
-#include "response/resonance.hpp"
+#include "quality/automatic.hpp"
+#include "paths/resonance.hpp"
 
 namespace dovetail::studies {
 namespace {
@@ -15,7 +15,7 @@ constexpr Range kAccuracies{.lower = 1e-8, .upper = 1};
 }  // namespace
 
 double accuracy(const SolverOverrides& solver) {
-  return solver.accuracy.value_or(response::AutomaticOptions{}.amplitude_tolerance);
+  return solver.accuracy.value_or(quality::AutomaticOptions{}.amplitude_tolerance);
 }
 
 void check_accuracy(const SolverOverrides& solver) {
@@ -33,14 +33,14 @@ std::optional<Status> choose_truncation(LoadedModel& loaded, const std::vector<d
   if (!solver.automatic()) return std::nullopt;
   std::vector<double> omega;
   for (const double f : hz) omega.push_back(2 * std::numbers::pi * f);
-  response::AutomaticOptions options;
+  quality::AutomaticOptions options;
   options.harmonics = solver.automatic_harmonics;
   options.samples = solver.automatic_samples;
   options.amplitude_tolerance = accuracy(solver);
   options.energy_tolerance = 10 * accuracy(solver);
-  const response::AutomaticSettings chosen =
-      response::automatic_settings(loaded.condensed, omega, {}, loaded.steady, options);
-  loaded.steady = chosen.options;
+  const quality::AutomaticSettings chosen =
+      quality::automatic_settings(loaded.joint, omega, options);
+  loaded.joint.options = chosen.options;
   return chosen.status;
 }
 
@@ -50,18 +50,18 @@ std::optional<Status> choose_truncation(optimizer::Scene& scene, const optimizer
   const optimizer::CandidateModel candidate = evaluator.builder().build(scene);
   if (!candidate.converged()) return std::nullopt;
   LoadedModel loaded;
-  loaded.condensed = candidate.condensed;
-  loaded.steady = optimizer::steady_options(scene.solver);
+  loaded.joint.model = candidate.condensed;
+  loaded.joint.options = optimizer::steady_options(scene.solver);
   const double glued = candidate.reduction.glued_frequencies(scene.loading.mode - 1);
-  const response::Resonance resonance = response::resonance(loaded.condensed, glued, {}, loaded.steady);
+  const paths::Resonance resonance = paths::resonance(loaded.joint, glued);
   if (resonance.status != Status::converged) return std::nullopt;
   const std::optional<Status> status = choose_truncation(loaded, {resonance.omega / (2 * std::numbers::pi)}, solver);
-  scene.solver.harmonics = loaded.steady.harmonics;
-  scene.solver.samples = loaded.steady.samples;
+  scene.solver.harmonics = loaded.joint.options.harmonics;
+  scene.solver.samples = loaded.joint.options.samples;
   return status;
 }
 
-std::string truncation_complaint(Status status, const response::SteadyOptions& reached, const SolverOverrides& solver) {
+std::string truncation_complaint(Status status, const steady::Options& reached, const SolverOverrides& solver) {
   if (status == Status::iteration_limit)
     return fmt::format("the accuracy {:g} is not reached with {} harmonics and {} samples", accuracy(solver),
                        reached.harmonics, reached.samples);

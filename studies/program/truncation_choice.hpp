@@ -14,8 +14,8 @@ namespace dovetail::studies {
 /// Throws InputError when an accuracy is given that is out of range, or without anything automatic.
 void check_accuracy(const SolverOverrides& solver);
 
-/// Chooses what `solver` leaves to be automatic for a response at these frequencies and writes it to loaded.steady.
-/// Returns how the choice ended (see response::AutomaticSettings), or nothing when nothing was to be chosen.
+/// Chooses what `solver` leaves to be automatic for a response at these frequencies and writes it to loaded.joint.options.
+/// Returns how the choice ended (see quality::AutomaticSettings), or nothing when nothing was to be chosen.
 std::optional<Status> choose_truncation(LoadedModel& loaded, const std::vector<double>& hz,
                                         const SolverOverrides& solver);
 
@@ -25,7 +25,7 @@ std::optional<Status> choose_truncation(optimizer::Scene& scene, const optimizer
                                         const SolverOverrides& solver);
 
 /// One sentence about a choice that did not reach the accuracy.
-[[nodiscard]] std::string truncation_complaint(Status status, const response::SteadyOptions& reached,
+[[nodiscard]] std::string truncation_complaint(Status status, const steady::Options& reached,
                                                const SolverOverrides& solver);
 
 }  // namespace dovetail::studies

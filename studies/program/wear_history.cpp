@@ -6,8 +6,8 @@
 #include <numbers>
 #include <utility>
 
-#include "response/frequency_response.hpp"
-#include "response/resonance.hpp"
+#include "paths/frequency_response.hpp"
+#include "paths/resonance.hpp"
 #include "studies/program/stored_history.hpp"
 #include "studies/program/wear_methods.hpp"
 #include "wear/depth_scale.hpp"
@@ -39,20 +39,19 @@ std::vector<double> curve_frequencies(const WearOptions& options, const LoadedMo
                                       const wear::History& history) {
   double low = options.curve_from_hz.value_or(0), high = options.curve_to_hz.value_or(0);
   if (!options.curve_from_hz) {
-    const response::ContactCondition unworn{.wear_depth = history.depth.row(0).transpose()},
-        worn{.wear_depth = history.final_depth};
+    const steady::Joint unworn = loaded.joint.worn(history.depth.row(0).transpose());
     const double start = history.frequency[0];
-    const response::Resonance first = response::resonance(loaded.condensed, start, unworn, loaded.steady);
-    const response::Resonance last =
-        response::resonance(loaded.condensed, history.frequency[history.frequency.size() - 1], worn, loaded.steady);
+    const paths::Resonance first = paths::resonance(unworn, start);
+    const paths::Resonance last =
+        paths::resonance(loaded.joint.worn(history.final_depth), history.frequency[history.frequency.size() - 1]);
     const double from = first.status == Status::converged ? first.omega : start;
     const double to = last.status == Status::converged ? last.omega : from;
-    const response::SteadyState peak = response::steady_state(loaded.condensed, from, unworn, loaded.steady);
+    const steady::State peak = steady::steady_state(unworn, from);
     constexpr double kFirst = 1e-5, kWidest = 0.1, kWidths = 3;
     double width = kFirst;
     while (width < kWidest) {
-      const response::SteadyState side =
-          response::steady_state(loaded.condensed, from * (1 - width), unworn, loaded.steady, peak.displacement);
+      const steady::State side =
+          steady::steady_state(unworn, from * (1 - width), peak.displacement);
       if (side.status == Status::converged && side.amplitudes[0] < 0.5 * peak.amplitudes[0]) break;
       width *= 2;
     }
@@ -67,8 +66,7 @@ std::vector<double> curve_frequencies(const WearOptions& options, const LoadedMo
 
 }  // namespace
 
-ComputedHistory compute_history(const WearOptions& options, const LoadedModel& loaded, const WearStart& at,
-                                const response::ContactCondition& condition, const wear::Control& control) {
+ComputedHistory compute_history(const WearOptions& options, const LoadedModel& loaded, const WearStart& at, const wear::Control& control) {
   constexpr double kShare = 0.01;
   ComputedHistory result;
   HistoryChoice& choice = result.choice;
@@ -81,12 +79,12 @@ ComputedHistory compute_history(const WearOptions& options, const LoadedModel& l
 
   choice.identity = history_identity(options, loaded, at.hz);
   double omega = at.omega;
-  response::ContactCondition start = condition;
+  steady::Joint joint = loaded.joint;
   std::optional<double> increment = options.increment_m;
   std::optional<StoredHistory> past;
   if (!options.resume.empty()) {
     choice.resumed_from = options.resume;
-    past = read_history(options.resume, loaded.condensed->nodes());
+    past = read_history(options.resume, loaded.joint.model->nodes());
     check_identity(*past, choice.identity, options.resume);
     const double done = past->history.cycles[past->history.cycles.size() - 1];
     if (options.cycles && *options.cycles <= done)
@@ -103,18 +101,18 @@ ComputedHistory compute_history(const WearOptions& options, const LoadedModel& l
       result.history = past->history;
       return result;
     }
-    const wear::Resumption next = wear::resume(past->history, condition, settings);
+    const wear::Resumption next = wear::resume(past->history, joint, settings);
     omega = next.omega;
-    start = next.start;
+    joint = next.joint;
     settings = next.options;
     if (!increment && past->increment > 0) increment = past->increment;
   }
   int solves = 0;
   if (options.integrator == "explicit" && !increment) {
-    const response::SteadyState* initial =
-        at.resonance && start.wear_depth.size() == 0 && start.slip_origin.size() == 0 ? &at.resonance->state : nullptr;
+    const steady::State* initial =
+        at.resonance && joint.condition.wear_depth.size() == 0 && joint.condition.slip_origin.size() == 0 ? &at.resonance->state : nullptr;
     const wear::DepthScale scale =
-        wear::depth_scale(loaded.condensed, omega, start, loaded.steady, settings.rate_threshold, initial, control);
+        wear::depth_scale(joint, omega, settings.rate_threshold, initial, control);
     solves = scale.solves;
     choice.depth_scale = scale.depth;
     if (scale.depth > 0) increment = kShare * scale.depth;
@@ -123,12 +121,10 @@ ComputedHistory compute_history(const WearOptions& options, const LoadedModel& l
   if (options.integrator == "implicit") {
     const wear::ImplicitHistoryOptions implicit = implicit_options(settings);
     settings.tolerance = implicit.tolerance;
-    result.history = wear::as_history(wear::implicit_history(loaded.condensed, omega, start, loaded.steady, implicit,
-                                                             nullptr, control, past ? &past->history : nullptr),
-                                      *loaded.condensed);
+    result.history = wear::as_history(wear::implicit_history(joint, omega, implicit, nullptr, control, past ? &past->history : nullptr),
+                                      *loaded.joint.model);
   } else {
-    result.history = wear::history(loaded.condensed, omega, start, loaded.steady, settings, {}, control, {},
-                                   past ? &past->history : nullptr);
+    result.history = wear::history(joint, omega, settings, {}, control, {}, past ? &past->history : nullptr);
   }
   result.history.solves += solves + (past ? past->history.solves : 0);
   return result;
@@ -151,11 +147,10 @@ std::vector<WornCurve> worn_curves(const WearOptions& options, const LoadedModel
     if (state <= before) continue;  // fewer states than curves
     before = state;
     WornCurve curve{.cycles = history.cycles[state], .worn_volume = history.worn_volume[state], .frequency_hz = hz};
-    response::SteadyOptions settings = loaded.steady;
-    const response::ContactCondition worn{.wear_depth = history.depth.row(state).transpose()};
-    const auto go_on = [&](std::size_t, const response::SteadyState&) { return !control.stopped(); };
-    for (const response::SteadyState& found :
-         response::frequency_response(loaded.condensed, omega, worn, settings, go_on))
+    const steady::Joint worn = loaded.joint.worn(history.depth.row(state).transpose());
+    const auto go_on = [&](std::size_t, const steady::State&) { return !control.stopped(); };
+    for (const steady::State& found :
+         paths::frequency_response(worn, omega, go_on))
       curve.amplitude.push_back(found.status == Status::converged ? found.amplitudes[0] : kUnknown);
     curves.push_back(std::move(curve));
   }

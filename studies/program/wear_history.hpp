@@ -40,8 +40,7 @@ struct ComputedHistory {
 /// state more: to the error of the steps). A file's history that had come to its end is the result itself. Throws
 /// InputError for a file that is no history of this model at these settings, or one that is past --cycles.
 [[nodiscard]] ComputedHistory compute_history(const WearOptions& options, const LoadedModel& loaded,
-                                              const WearStart& at, const response::ContactCondition& condition,
-                                              const wear::Control& control);
+                                              const WearStart& at, const wear::Control& control);
 
 /// Response curves of the joint as worn at --curves states, evenly spaced in worn volume from the first to the last.
 /// Without --curve-from and --curve-to their frequencies lie around the resonances of both, by three times the distance

@@ -15,9 +15,8 @@ namespace {
 constexpr double kTurn = 2 * std::numbers::pi;
 constexpr const char* kCyclesReached = "the cycles asked for were reached while wearing";
 
-WearAnswer by_history(const WearOptions& options, const LoadedModel& loaded, const WearStart& at,
-                      const response::ContactCondition& condition, const wear::Control& control) {
-  ComputedHistory computed = compute_history(options, loaded, at, condition, control);
+WearAnswer by_history(const WearOptions& options, const LoadedModel& loaded, const WearStart& at, const wear::Control& control) {
+  ComputedHistory computed = compute_history(options, loaded, at, control);
   const bool held = computed.choice.options.follow == "fixed";
   WearAnswer answer;
   answer.history = std::move(computed.history);
@@ -35,22 +34,22 @@ WearAnswer by_history(const WearOptions& options, const LoadedModel& loaded, con
   return answer;
 }
 
-WearAnswer by_asymptote(const WearOptions& options, const LoadedModel& loaded, const WearStart& at,
-                        const response::ContactCondition& condition, const wear::Control& control) {
+WearAnswer by_asymptote(const WearOptions& options, const LoadedModel& loaded, const WearStart& at, const wear::Control& control) {
+  const steady::Condition& condition = loaded.joint.condition;
   const bool unchanged = condition.slip_origin.size() == 0 && condition.wear_depth.size() == 0;
-  const response::SteadyState* initial = at.resonance && unchanged ? &at.resonance->state : nullptr;
+  const steady::State* initial = at.resonance && unchanged ? &at.resonance->state : nullptr;
   const wear::AsymptoteOptions settings;
   WearAnswer answer;
   answer.frequencies_hz = {at.hz};
   if (options.follow == "resonance") {
     wear::FollowedAsymptote found =
-        wear::followed_asymptote(loaded.condensed, at.omega, condition, loaded.steady, settings, {}, initial, control);
+        wear::followed_asymptote(loaded.joint, at.omega, settings, {}, initial, control);
     for (std::size_t i = 1; i < found.omegas.size(); ++i) answer.frequencies_hz.push_back(found.omegas[i] / kTurn);
     answer.solves = found.solves;
     answer.asymptote = std::move(found.asymptote);
   } else {
     answer.asymptote =
-        wear::asymptote(loaded.condensed, at.omega, condition, loaded.steady, settings, initial, control);
+        wear::asymptote(loaded.joint, at.omega, settings, initial, control);
     answer.solves = answer.asymptote->solves;
   }
   if (at.resonance) answer.solves += at.resonance->solves;
@@ -74,11 +73,11 @@ WearStart wear_start(const WearOptions& options, const LoadedModel& loaded) {
         Violation{.file = {}, .key = options.input, .value = {}, .allowed = why + "; give --frequency HZ"});
   };
   if (!options.resume.empty())
-    return wear_start_at(read_history(options.resume, loaded.condensed->nodes()).frequency_hz);
+    return wear_start_at(read_history(options.resume, loaded.joint.model->nodes()).frequency_hz);
   if (loaded.glued_omega <= 0) refuse("has no natural frequency to start from");
   if (loaded.model.output_names.empty()) refuse("has no output whose resonance could be found");
   WearStart at;
-  at.resonance = response::resonance(loaded.condensed, loaded.glued_omega, {}, loaded.steady);
+  at.resonance = paths::resonance(loaded.joint, loaded.glued_omega);
   at.omega = at.resonance->omega;
   at.hz = at.omega / kTurn;
   return at;
@@ -105,21 +104,20 @@ WearAnswer unknown_answer(const WearOptions& options, Eigen::Index nodes, Status
   return answer;
 }
 
-WearAnswer wear_answer(const WearOptions& options, const LoadedModel& loaded, const WearStart& at,
-                       const response::ContactCondition& condition, const wear::Control& control) {
-  return options.method == "history" ? by_history(options, loaded, at, condition, control)
-                                     : by_asymptote(options, loaded, at, condition, control);
+WearAnswer wear_answer(const WearOptions& options, const LoadedModel& loaded, const WearStart& at, const wear::Control& control) {
+  return options.method == "history" ? by_history(options, loaded, at, control)
+                                     : by_asymptote(options, loaded, at, control);
 }
 
 WearBand wear_band(const WearOptions& options, const LoadedModel& loaded, const wear::Control& control) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   WearBand band;
-  band.answer = unknown_answer(options, loaded.condensed->nodes(), Status::interrupted);
+  band.answer = unknown_answer(options, loaded.joint.model->nodes(), Status::interrupted);
   double worst = -1;
   for (int i = 0; i < options.band_points && !control.stopped(); ++i) {
     const double part = options.band_points == 1 ? 0 : static_cast<double>(i) / (options.band_points - 1);
     const double hz = *options.band_from_hz + part * (*options.band_to_hz - *options.band_from_hz);
-    WearAnswer answer = wear_answer(options, loaded, wear_start_at(hz), {}, control);
+    WearAnswer answer = wear_answer(options, loaded, wear_start_at(hz), control);
     band.solves += answer.solves;
     band.frequencies_hz.push_back(hz);
     band.status.push_back(answer.status);

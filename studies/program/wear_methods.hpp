@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "response/resonance.hpp"
+#include "paths/resonance.hpp"
 #include "studies/program/commands.hpp"
 #include "studies/program/engine.hpp"
 #include "studies/program/wear_history.hpp"
@@ -19,7 +19,7 @@ namespace dovetail::studies {
 struct WearStart {
   double hz = 0;  ///< exactly as asked for
   double omega = 0;
-  std::optional<response::Resonance> resonance;  ///< the unworn one, when no frequency was asked for
+  std::optional<paths::Resonance> resonance;  ///< the unworn one, when no frequency was asked for
 
   [[nodiscard]] bool found() const { return !resonance || resonance->status == Status::converged; }
 };
@@ -54,8 +54,7 @@ struct WearAnswer {
 [[nodiscard]] WearAnswer unknown_answer(const WearOptions& options, Eigen::Index nodes, Status why);
 
 /// The worn state by the method asked for, the excitation held or tracking the resonance.
-[[nodiscard]] WearAnswer wear_answer(const WearOptions& options, const LoadedModel& loaded, const WearStart& at,
-                                     const response::ContactCondition& condition, const wear::Control& control);
+[[nodiscard]] WearAnswer wear_answer(const WearOptions& options, const LoadedModel& loaded, const WearStart& at, const wear::Control& control);
 
 /// Worn states over a band of held frequencies.
 struct WearBand {

@@ -13,7 +13,7 @@
 #include "fem/element.hpp"
 #include "fem/stress.hpp"
 #include "geometry/flank_form.hpp"
-#include "response/frequency_response.hpp"
+#include "paths/frequency_response.hpp"
 #include "wear/history.hpp"
 
 namespace dovetail::report {
@@ -60,8 +60,8 @@ struct Band {
   double lower = 0, upper = 0;  ///< rad/s
 };
 
-double glued_amplitude(const response::CondensedModel& model, double omega, Status& status) {
-  const response::HarmonicStiffness at = model.harmonic(1, omega);
+double glued_amplitude(const dynamics::CondensedModel& model, double omega, Status& status) {
+  const dynamics::HarmonicStiffness at = model.harmonic(1, omega);
   status = at.status;
   return std::abs(model.outputs(at, Eigen::VectorXcd::Zero(model.contact_size()))(0));
 }
@@ -93,10 +93,10 @@ Numbers frequencies(const Band& range, double peak, int points) {
 }
 
 ResponseCurve frictional_curve(const Scene& scene, const CandidateModel& model, const Numbers& omega,
-                               const response::ContactCondition& condition) {
+                               const steady::Condition& condition) {
   ResponseCurve curve;
-  response::SteadyOptions steady = optimizer::steady_options(scene.solver);
-  for (const response::SteadyState& state : response::frequency_response(model.condensed, omega, condition, steady)) {
+  steady::Options steady = optimizer::steady_options(scene.solver);
+  for (const steady::State& state : paths::frequency_response({model.condensed, condition, steady}, omega)) {
     const bool good = state.status == Status::converged;
     curve.amplitude_m.push_back(good ? state.amplitudes(0) : std::numeric_limits<double>::quiet_NaN());
     curve.status.emplace_back(to_string(state.status));
@@ -216,8 +216,7 @@ void add_history(const Scene& scene, const CandidateResult& result, const Design
   history_options.steps = options.history_steps;
   // The fastest node is not always the one that ends deepest, so the steps add up to a little more than the depth.
   history_options.increment = 1.25 * result.asymptote->largest_depth / options.history_steps;
-  const wear::History history = wear::history(result.model.condensed, result.unworn->omega, {},
-                                              optimizer::steady_options(scene.solver), history_options);
+  const wear::History history = wear::history({result.model.condensed, {}, optimizer::steady_options(scene.solver)}, result.unworn->omega, history_options);
   HistoryRecord out{.status = std::string(to_string(history.status)),
                     .end = std::string(to_string(history.end)),
                     .cycles = list(history.cycles),

@@ -4,18 +4,18 @@
 #include <string>
 #include <vector>
 
-#include "response/steady_state.hpp"
+#include "steady/steady_state.hpp"
 #include "studies/work_precision/contact_patch.hpp"
 
 namespace dovetail::work_precision {
 
 /// A converged steady state of a contact patch, the point at which costs are measured.
 struct PatchState {
-  std::shared_ptr<const response::CondensedModel> model;
-  response::SteadyState state;
+  std::shared_ptr<const dynamics::CondensedModel> model;
+  steady::State state;
   int stuck = 0, slipping = 0, separating = 0;  ///< nodes; one that slips may also lift off
 
-  [[nodiscard]] const response::SteadyResidual& residual() const { return state.linearisation->residual(); }
+  [[nodiscard]] const steady::Problem& residual() const { return state.tangent->problem(); }
   [[nodiscard]] bool converged() const { return state.status == Status::converged; }
 };
 

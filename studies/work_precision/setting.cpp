@@ -6,25 +6,25 @@
 
 namespace dovetail::work_precision {
 
-Run timed_resonance(const std::shared_ptr<const response::CondensedModel>& model, double omega_start,
+Run timed_resonance(const std::shared_ptr<const dynamics::CondensedModel>& model, double omega_start,
                     const Setting& setting, double tolerance, double seconds) {
   // Without fall-backs, auto is Newton's method, and a search that fails is not continued along the branch.
   const bool bare = !setting.cascade;
-  const response::SteadyOptions steady{.harmonics = setting.harmonics,
+  const steady::Options steady{.harmonics = setting.harmonics,
                                        .samples = setting.samples,
                                        .tolerance = tolerance,
                                        .solver = bare && setting.solver == "auto" ? "newton" : setting.solver,
                                        .penalty_scale = setting.penalty,
                                        .penalty_cascade = setting.cascade,
                                        .slip_return = setting.slip_return};
-  response::ResonanceOptions search;
+  paths::ResonanceOptions search;
   if (bare) search.sweep_range = 0;
-  response::Resonance found;
+  paths::Resonance found;
   std::vector<double> times;
   double spent = 0;
   while (times.size() < 5 && (times.empty() || spent < seconds)) {
     const double before = processor_seconds();
-    found = response::resonance(model, omega_start, {}, steady, search);
+    found = paths::resonance({model, {}, steady}, omega_start, search);
     times.push_back(processor_seconds() - before);
     spent += times.back();
   }
@@ -34,7 +34,7 @@ Run timed_resonance(const std::shared_ptr<const response::CondensedModel>& model
   run.solves = found.solves;
   run.jacobians = found.jacobians;
   run.contact_nodes = static_cast<int>(found.state.nodes.size());
-  for (const response::NodeSummary& node : found.state.nodes) {
+  for (const steady::NodeSummary& node : found.state.nodes) {
     run.stuck += node.stuck;
     run.slipping += node.slips;
     run.separating += node.separates;

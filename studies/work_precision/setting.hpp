@@ -6,21 +6,21 @@
 #include <string>
 
 #include "optimizer/scene.hpp"
-#include "response/condensed_model.hpp"
-#include "response/options.hpp"
-#include "response/resonance.hpp"
+#include "dynamics/condensed_model.hpp"
+#include "steady/options.hpp"
+#include "paths/resonance.hpp"
 
 namespace dovetail::work_precision {
 
 /// What is varied. The values here are the defaults of the program.
 struct Setting {
-  int harmonics = response::SteadyOptions{}.harmonics;
-  int samples = response::SteadyOptions{}.samples;
-  double penalty = response::SteadyOptions{}.penalty_scale;  ///< ratio to the automatic pseudo-penalty
-  std::string solver = response::SteadyOptions{}.solver;
-  std::string slip_return = response::SteadyOptions{}.slip_return;
+  int harmonics = steady::Options{}.harmonics;
+  int samples = steady::Options{}.samples;
+  double penalty = steady::Options{}.penalty_scale;  ///< ratio to the automatic pseudo-penalty
+  std::string solver = steady::Options{}.solver;
+  std::string slip_return = steady::Options{}.slip_return;
   /// Other penalties, solvers and ways are tried when a solve fails.
-  bool cascade = response::SteadyOptions{}.penalty_cascade;
+  bool cascade = steady::Options{}.penalty_cascade;
   int modes = optimizer::SolverSettings{}.modes;              ///< of the reduction, where there is one
   int flank_elements = geometry::MeshSizes{}.flank_elements;  ///< along a flank; all other sizes follow
 
@@ -50,7 +50,7 @@ using Subject = std::function<Run(const Setting&)>;
 
 /// Resonance search on a condensed model near `omega_start` (rad/s), repeated for its time: five times or until
 /// `seconds` have passed. Fills all but model_seconds.
-[[nodiscard]] Run timed_resonance(const std::shared_ptr<const response::CondensedModel>& model, double omega_start,
+[[nodiscard]] Run timed_resonance(const std::shared_ptr<const dynamics::CondensedModel>& model, double omega_start,
                                   const Setting& setting, double tolerance, double seconds);
 
 /// |a - b| / |b| of each quantity.

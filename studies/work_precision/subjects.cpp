@@ -32,7 +32,7 @@ optimizer::Scene with_mesh(optimizer::Scene scene, const Setting& setting) {
 }  // namespace
 
 Subject patch_subject(const PatchOptions& options, double seconds) {
-  const auto model = std::make_shared<const response::CondensedModel>(contact_patch(options));
+  const auto model = std::make_shared<const dynamics::CondensedModel>(contact_patch(options));
   return [model, seconds](const Setting& setting) {
     return timed_resonance(model, model->glued_frequencies()(0), setting, kTolerance, seconds);
   };

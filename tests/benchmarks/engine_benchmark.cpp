@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "numerics/blas.hpp"
-#include "response/frequency_response.hpp"
-#include "response/linearisation.hpp"
+#include "paths/frequency_response.hpp"
+#include "steady/tangent.hpp"
 #include "studies/work_precision/newton_step.hpp"
 #include "tests/verification/response/rod.hpp"
 
@@ -39,7 +39,7 @@ void describe(benchmark::State& state, const work_precision::PatchState& at) {
 void residual(benchmark::State& state) {
   const work_precision::PatchState& at = patch(state.range(0) != 0);
   const bool derivative = state.range(1) != 0;
-  response::ResidualState point;
+  steady::Point point;
   for (auto _ : state) at.residual().evaluate(at.state.displacement, derivative, point);
   describe(state, at);
 }
@@ -48,7 +48,7 @@ void residual(benchmark::State& state) {
 void residual_and_dense_jacobian(benchmark::State& state) {
   const work_precision::PatchState& at = patch(state.range(0) != 0);
   const bool fresh = state.range(1) != 0;
-  response::ResidualState point;
+  steady::Point point;
   Eigen::MatrixXd kept(at.residual().unknowns(), at.residual().unknowns());
   std::vector<double*> columns;
   std::vector<Eigen::Index> rows;
@@ -62,7 +62,7 @@ void residual_and_dense_jacobian(benchmark::State& state) {
       const Eigen::MatrixXd jacobian = at.residual().jacobian(point);
       benchmark::DoNotOptimize(jacobian.data());
     } else {
-      response::assemble(at.residual().blocks(point), rows, columns, 0);
+      steady::assemble(at.residual().blocks(point), rows, columns, 0);
       benchmark::ClobberMemory();
     }
   }
@@ -71,7 +71,7 @@ void residual_and_dense_jacobian(benchmark::State& state) {
 
 void full_lu(benchmark::State& state) {
   const work_precision::PatchState& at = patch(state.range(0) != 0);
-  response::ResidualState point;
+  steady::Point point;
   at.residual().evaluate(at.state.displacement, true, point);
   const Eigen::MatrixXd jacobian = at.residual().jacobian(point);
   for (auto _ : state) {
@@ -85,11 +85,11 @@ void full_lu(benchmark::State& state) {
 
 void newton_step(benchmark::State& state) {
   const work_precision::PatchState& at = patch(state.range(0) != 0);
-  response::ResidualState point;
+  steady::Point point;
   Eigen::Index factorised = 0;
   for (auto _ : state) {
     at.residual().evaluate(at.state.displacement, true, point);
-    const response::Linearisation linear(at.residual(), point);
+    const steady::Tangent linear(at.residual(), point);
     const Eigen::MatrixXd step = linear.solve(point.residual.reshaped());
     benchmark::DoNotOptimize(step.data());
     factorised = linear.factorised_size();
@@ -102,7 +102,7 @@ void newton_step(benchmark::State& state) {
 // as there are unknowns, and one more.
 void finite_difference_column(benchmark::State& state) {
   const work_precision::PatchState& at = patch(state.range(0) != 0);
-  response::ResidualState point;
+  steady::Point point;
   at.residual().evaluate(at.state.displacement, false, point);
   const Eigen::MatrixXd base = point.residual;
   Eigen::MatrixXd moved = at.state.displacement, column;
@@ -125,12 +125,12 @@ void rod_response(benchmark::State& state) {
   const reduction::ReducedModel model = verification::rod(static_cast<int>(state.range(0)));
   std::vector<double> omega;
   for (int i = 0; i <= 60; ++i) omega.push_back(1 + 0.05 * i);
-  std::vector<response::SteadyState> curve;
+  std::vector<steady::State> curve;
   for (auto _ : state)
-    curve = response::frequency_response(verification::condensed(model), omega, {}, {.harmonics = 3});
+    curve = paths::frequency_response({verification::condensed(model), {}, {.harmonics = 3}}, omega);
   std::size_t converged = 0;
   int jacobians = 0;
-  for (const response::SteadyState& point : curve) {
+  for (const steady::State& point : curve) {
     converged += point.status == Status::converged;
     jacobians += point.iterations;
   }

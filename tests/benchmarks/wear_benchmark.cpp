@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "numerics/blas.hpp"
-#include "response/frequency_response.hpp"
-#include "response/resonance.hpp"
+#include "paths/frequency_response.hpp"
+#include "paths/resonance.hpp"
 #include "studies/program/engine.hpp"
 #include "studies/work_precision/contact_patch.hpp"
 #include "studies/work_precision/processor_time.hpp"
@@ -26,23 +26,23 @@
 namespace dovetail {
 namespace {
 
-using Model = std::shared_ptr<const response::CondensedModel>;
+using Model = std::shared_ptr<const dynamics::CondensedModel>;
 using work_precision::median_seconds;
 using work_precision::processor_seconds;
 
 struct Scene {
   Model model;
   double omega = 1.0;
-  response::SteadyOptions steady;
+  steady::Options steady;
 };
 
 Scene plain(const reduction::ReducedModel& model) {
-  return {.model = std::make_shared<const response::CondensedModel>(model), .steady = {.harmonics = 3, .samples = 128}};
+  return {.model = std::make_shared<const dynamics::CondensedModel>(model), .steady = {.harmonics = 3, .samples = 128}};
 }
 
 Scene dovetail(const std::vector<studies::Override>& changes) {
   const studies::LoadedModel loaded = studies::load_model(QUICKSTART, changes, {});
-  const response::Resonance unworn = response::resonance(loaded.condensed, loaded.glued_omega, {}, loaded.steady);
+  const paths::Resonance unworn = paths::resonance({loaded.condensed, {}, loaded.steady}, loaded.glued_omega);
   return {.model = loaded.condensed, .omega = unworn.omega, .steady = {.harmonics = 3, .samples = 128}};
 }
 
@@ -74,20 +74,19 @@ void compare(const std::string& name) {
   const Scene at = scene(name);
   wear::Asymptote direct;
   const double direct_time =
-      median_seconds([&] { direct = wear::asymptote(at.model, at.omega, {}, at.steady, direct_options()); }, 0.0);
+      median_seconds([&] { direct = wear::asymptote({at.model, {}, at.steady}, at.omega, direct_options()); }, 0.0);
   wear::AsymptoteOptions alone = direct_options();
   alone.arbitration = "never";
   alone.certify_finer = false;
   wear::Asymptote released;
   const double released_time =
-      median_seconds([&] { released = wear::asymptote(at.model, at.omega, {}, at.steady, alone); }, 0.0);
+      median_seconds([&] { released = wear::asymptote({at.model, {}, at.steady}, at.omega, alone); }, 0.0);
   if (direct.verdict != wear::Verdict::asymptote || direct.largest_depth == 0.0) {
     std::printf("%-9s %s, nothing to compare\n", name.c_str(), std::string(wear::to_string(direct.verdict)).c_str());
     return;
   }
   const auto run = [&](double share) {
-    return wear::history(at.model, at.omega, {}, at.steady,
-                         {.increment = share * direct.largest_depth,
+    return wear::history({at.model, {}, at.steady}, at.omega, {.increment = share * direct.largest_depth,
                           .steps = 20000,
                           .rate_fraction = 1e-6,
                           .rate_threshold = 0.0,
@@ -102,7 +101,7 @@ void compare(const std::string& name) {
 
   const double start = processor_seconds();
   const wear::ImplicitHistory implicit =
-      wear::implicit_history(at.model, at.omega, {}, at.steady, {.rate_fraction = 1e-4, .rate_threshold = 0.0});
+      wear::implicit_history({at.model, {}, at.steady}, at.omega, {.rate_fraction = 1e-4, .rate_threshold = 0.0});
   const double implicit_time = processor_seconds() - start;
   const Eigen::VectorXd followed = implicit.depth.bottomRows(1).transpose();
   std::printf(
@@ -118,17 +117,17 @@ void compare(const std::string& name) {
 }
 
 void times() {
-  const response::SteadyOptions steady{.harmonics = 3, .samples = 128};
+  const steady::Options steady{.harmonics = 3, .samples = 128};
   for (const Eigen::Index tangential : {1, 2}) {
     const Eigen::Index nodes = tangential == 1 ? 60 : 100;
-    const auto model = std::make_shared<const response::CondensedModel>(
+    const auto model = std::make_shared<const dynamics::CondensedModel>(
         work_precision::contact_patch({.nodes = nodes, .tangential = tangential}));
     const double omega = work_precision::kPatchFrequency;
     for (const char* arbitration : {"never", "unsettled", "auto"}) {
       wear::AsymptoteOptions options = direct_options();
       options.arbitration = arbitration;
       wear::Asymptote worn;
-      const double seconds = median_seconds([&] { worn = wear::asymptote(model, omega, {}, steady, options); }, 0.0);
+      const double seconds = median_seconds([&] { worn = wear::asymptote({model, {}, steady}, omega, options); }, 0.0);
       std::printf(
           "%3ld nodes, %ld directions, arbitration %-9s: asymptote %.3f s, %s, %d Jacobians, %d solves, doubt '%s' "
           "(aim %s)\n",
@@ -140,19 +139,17 @@ void times() {
     if (tangential == 2) continue;
     wear::AsymptoteOptions alone = direct_options();
     alone.arbitration = "never";
-    const wear::Asymptote worn = wear::asymptote(model, omega, {}, steady, alone);
+    const wear::Asymptote worn = wear::asymptote({model, {}, steady}, omega, alone);
     int jacobians = 0;
     const auto history_with_curves = [&] {
       const wear::History run =
-          wear::history(model, omega, {}, steady,
-                        {.increment = 0.02 * worn.largest_depth, .steps = 50, .rate_threshold = 0.0, .finish = false});
+          wear::history({model, {}, steady}, omega, {.increment = 0.02 * worn.largest_depth, .steps = 50, .rate_threshold = 0.0, .finish = false});
       jacobians = run.jacobians;
       std::vector<double> omegas;
       for (int i = 0; i < 60; ++i) omegas.push_back(0.8 + 0.4 * i / 59.0);
       const Eigen::Index states = run.cycles.size();
       for (int k = 0; k < 10; ++k)
-        for (const response::SteadyState& point : response::frequency_response(
-                 model, omegas, {.wear_depth = run.depth.row(k * (states - 1) / 9).transpose()}, steady))
+        for (const steady::State& point : paths::frequency_response({model, {.wear_depth = run.depth.row(k * (states - 1) / 9).transpose()}, steady}, omegas))
           jacobians += point.iterations;
     };
     const double seconds = median_seconds(history_with_curves, 0.0, 1);

@@ -136,7 +136,7 @@ class Node {
         coarse_circle_(circle(problem.options.samples)),
         fine_circle_(circle(kFiner * problem.options.samples)) {
     const reduction::ContactNodes& contact = problem.model.contact;
-    const response::ContactCondition& condition = problem.condition;
+    const steady::Condition& condition = problem.condition;
     released_ = !condition.released.empty() && condition.released[static_cast<std::size_t>(i)] != 0;
     const double wear = condition.wear_depth.size() > 0 ? condition.wear_depth(i) : 0;
     fine_prediction_.assign(kFiner * samples_, Vector{});

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "reduction/reduced_model.hpp"
-#include "response/options.hpp"
-#include "response/residual.hpp"
+#include "steady/options.hpp"
+#include "steady/residual.hpp"
 
 namespace dovetail::hard_cases {
 
@@ -15,8 +15,8 @@ namespace dovetail::hard_cases {
 struct Problem {
   reduction::ReducedModel model;
   double omega = 1;
-  response::ContactCondition condition = {};
-  response::SteadyOptions options = {};
+  steady::Condition condition = {};
+  steady::Options options = {};
   bool contact_mass = false;   ///< some contact dof carries mass
   std::string no_answer = {};  ///< the proof that no steady state exists; empty otherwise
 };

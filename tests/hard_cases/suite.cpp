@@ -8,7 +8,7 @@
 #include <map>
 #include <memory>
 
-#include "response/steady_state.hpp"
+#include "steady/steady_state.hpp"
 
 namespace dovetail::hard_cases {
 
@@ -20,10 +20,10 @@ Outcome attempt(const Family& family, int index, const Problem& problem) {
                   .contact_mass = problem.contact_mass,
                   .nodes = static_cast<int>(problem.model.contact.count())};
   const auto start = std::chrono::steady_clock::now();
-  response::SteadyState state;
+  steady::State state;
   try {
-    const auto model = std::make_shared<const response::CondensedModel>(problem.model);
-    state = response::steady_state(model, problem.omega, problem.condition, problem.options);
+    const auto model = std::make_shared<const dynamics::CondensedModel>(problem.model);
+    state = steady::steady_state({model, problem.condition, problem.options}, problem.omega);
   } catch (const std::exception& error) {
     outcome.thrown = error.what();
     return outcome;

@@ -16,7 +16,9 @@ using numerics::FourierBasis;
 MarchResult run(const Eigen::MatrixXd& coefficients, const NodeLaw& law, const FourierBasis& basis,
                 const MarchOptions& options, bool derivative = false) {
   MarchResult result;
-  march(basis.synthesise(coefficients), law, basis, options, derivative, result);
+  const Eigen::MatrixXd samples = basis.synthesise(coefficients);
+  march(samples, law, options, result);
+  if (derivative) differentiate(samples, law, basis, options.slip_return, result);
   return result;
 }
 

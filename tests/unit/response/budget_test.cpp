@@ -3,25 +3,25 @@
 #include <gtest/gtest.h>
 
 #include "random_model.hpp"
-#include "response/preload.hpp"
-#include "response/resonance.hpp"
-#include "response/steady_state.hpp"
-#include "response/work.hpp"
+#include "steady/preload.hpp"
+#include "paths/resonance.hpp"
+#include "steady/steady_state.hpp"
+#include "steady/work.hpp"
 
-namespace dovetail::response {
+namespace dovetail {
 namespace {
 
 constexpr int kNodes = 3, kHarmonics = 3, kSamples = 64;
 
-std::shared_ptr<const CondensedModel> model() {
-  return std::make_shared<const CondensedModel>(random_model(kNodes, 2, false));
+std::shared_ptr<const dynamics::CondensedModel> model() {
+  return std::make_shared<const dynamics::CondensedModel>(random_model(kNodes, 2, false));
 }
 
 SharedBudget jacobians(double count) {
-  return std::make_shared<Budget>(count * jacobian_operations(kNodes, 3, kHarmonics, kSamples));
+  return std::make_shared<Budget>(count * steady::jacobian_operations(kNodes, 3, kHarmonics, kSamples));
 }
 
-SteadyOptions options(SharedBudget budget) {
+steady::Options options(SharedBudget budget) {
   return {.harmonics = kHarmonics, .samples = kSamples, .budget = std::move(budget)};
 }
 
@@ -39,9 +39,9 @@ TEST(Budget, NamesItselfAsTheReasonOnlyOfWhatFailed) {
 // What is counted belongs to the computation alone, and a budget that is not spent changes nothing.
 TEST(Budget, CountsTheSameEveryTime) {
   const SharedBudget first = std::make_shared<Budget>(), second = jacobians(1e6);
-  const SteadyState one = steady_state(model(), 1.1, {}, options(first));
-  const SteadyState other = steady_state(model(), 1.1, {}, options(second));
-  const SteadyState free = steady_state(model(), 1.1, {}, options(nullptr));
+  const steady::State one = steady::steady_state({model(), {}, options(first)}, 1.1);
+  const steady::State other = steady::steady_state({model(), {}, options(second)}, 1.1);
+  const steady::State free = steady::steady_state({model(), {}, options(nullptr)}, 1.1);
   ASSERT_EQ(free.status, Status::converged);
   EXPECT_GT(first->used(), 0.0);
   EXPECT_EQ(first->used(), second->used());
@@ -63,35 +63,35 @@ TEST(Budget, EndsAHopelessSolve) {
   }
   for (const double count : {0.5, 3.0, 40.0, 300.0}) {
     const SharedBudget budget = jacobians(count);
-    const SteadyState state =
-        steady_state(std::make_shared<const CondensedModel>(pulled_off), 1.1, {}, options(budget));
+    const steady::State state =
+        steady::steady_state({std::make_shared<const dynamics::CondensedModel>(pulled_off), {}, options(budget)}, 1.1);
     EXPECT_EQ(state.status, Status::budget_spent) << count << ": " << to_string(state.status);
-    EXPECT_LE(budget->used(), (count + 4) * jacobian_operations(kNodes, 3, kHarmonics, kSamples)) << count;
+    EXPECT_LE(budget->used(), (count + 4) * steady::jacobian_operations(kNodes, 3, kHarmonics, kSamples)) << count;
   }
 }
 
 TEST(Budget, EndsASearchForAResonanceAndAPreload) {
   const SharedBudget budget = jacobians(1.0);
-  const Resonance found = resonance(model(), 1.1, {}, options(budget));
+  const paths::Resonance found = paths::resonance({model(), {}, options(budget)}, 1.1);
   EXPECT_EQ(found.status, Status::budget_spent) << to_string(found.status);
   EXPECT_FALSE(found.swept);
-  const Preload preload = quasi_static(model(), {.budget = budget});
+  const steady::Preload preload = steady::quasi_static(model(), {.budget = budget});
   EXPECT_EQ(preload.status, Status::budget_spent) << to_string(preload.status);
-  EXPECT_EQ(quasi_static(model()).status, Status::converged);
+  EXPECT_EQ(steady::quasi_static(model()).status, Status::converged);
 }
 
 // A search range too small for any peak leaves it to the sweep; each of its points takes a few Jacobians, and a step
 // that is under way is finished: a corrector, two tangents and a peak, 12 + 3 + 60 at most.
 TEST(ResonanceSearch, FollowsTheBranchWithinItsLimit) {
-  const ResonanceOptions all{.search_range = 1e-6};
-  ResonanceOptions few = all;
+  const paths::ResonanceOptions all{.search_range = 1e-6};
+  paths::ResonanceOptions few = all;
   few.max_sweep_jacobians = 20;
-  const Resonance whole = resonance(model(), 3.0, {}, options(nullptr), all);
-  const Resonance part = resonance(model(), 3.0, {}, options(nullptr), few);
+  const paths::Resonance whole = paths::resonance({model(), {}, options(nullptr)}, 3.0, all);
+  const paths::Resonance part = paths::resonance({model(), {}, options(nullptr)}, 3.0, few);
   EXPECT_TRUE(part.swept || part.status != Status::converged);
   EXPECT_GT(whole.jacobians, 200);
   EXPECT_LT(part.jacobians, 120);
 }
 
 }  // namespace
-}  // namespace dovetail::response
+}  // namespace dovetail

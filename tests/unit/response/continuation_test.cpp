@@ -1,15 +1,15 @@
-#include "response/continuation.hpp"
+#include "paths/continuation.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
 #include <cmath>
 
-#include "response/bordered.hpp"
-#include "response/problem.hpp"
+#include "paths/bordered.hpp"
+#include "steady/problem.hpp"
 #include "tests/verification/response/gap_oscillator.hpp"
 
-namespace dovetail::response {
+namespace dovetail {
 namespace {
 
 using verification::condensed;
@@ -18,18 +18,18 @@ using verification::gap_oscillator;
 TEST(Continuation, EndsExactlyWhereAskedInBothDirections) {
   const auto model = condensed(gap_oscillator(1, 0.05, 0.05));
   for (const auto& [from, to] : {std::pair{0.7, 1.31}, std::pair{1.31, 0.7}}) {
-    const Branch branch = continuation(model, from, to, {}, {});
+    const paths::Branch branch = paths::continuation({model, {}, {}}, from, to);
     ASSERT_EQ(branch.status, Status::converged);
     EXPECT_EQ(branch.points.front().state.omega, from);
     EXPECT_EQ(branch.points.back().state.omega, to);
-    for (const ContinuationPoint& point : branch.points) EXPECT_EQ(point.direction > 0, to > from);
+    for (const paths::ContinuationPoint& point : branch.points) EXPECT_EQ(point.direction > 0, to > from);
   }
 }
 
 TEST(Continuation, KeepsItsStepsWithinTheirLimits) {
   const auto model = condensed(gap_oscillator(1, 0.05, 0.05));
-  const ContinuationOptions options{.largest_frequency_step = 0.01};
-  const Branch branch = continuation(model, 0.5, 0.7, {}, {}, options);
+  const paths::ContinuationOptions options{.largest_frequency_step = 0.01};
+  const paths::Branch branch = paths::continuation({model, {}, {}}, 0.5, 0.7, options);
   ASSERT_EQ(branch.status, Status::converged);
   ASSERT_GE(branch.points.size(), 100U);
   for (std::size_t i = 1; i < branch.points.size(); ++i)
@@ -38,47 +38,47 @@ TEST(Continuation, KeepsItsStepsWithinTheirLimits) {
 
 TEST(Continuation, SaysWhyItEndedEarly) {
   const auto model = condensed(gap_oscillator(1, 0.05, 0.05));
-  const Branch limited = continuation(model, 0.5, 1.5, {}, {}, {.max_points = 4});
+  const paths::Branch limited = paths::continuation({model, {}, {}}, 0.5, 1.5, {.max_points = 4});
   EXPECT_EQ(limited.status, Status::iteration_limit);
   EXPECT_EQ(limited.points.size(), 4U);
-  const Branch stopped =
-      continuation(model, 0.5, 1.5, {}, {}, {}, [](const ContinuationPoint& point) { return point.arc_length < 0.1; });
+  const paths::Branch stopped =
+      paths::continuation({model, {}, {}}, 0.5, 1.5, {}, [](const paths::ContinuationPoint& point) { return point.arc_length < 0.1; });
   EXPECT_EQ(stopped.status, Status::interrupted);
   EXPECT_GE(stopped.points.back().arc_length, 0.1);
 }
 
 TEST(Continuation, RefusesBadInput) {
   const auto model = condensed(gap_oscillator(1, 0.05, 0.05));
-  EXPECT_THROW(static_cast<void>(continuation(model, 1, 1, {}, {})), InputError);
-  EXPECT_THROW(static_cast<void>(continuation(model, -1, 1, {}, {})), InputError);
-  EXPECT_THROW(static_cast<void>(continuation(model, 1, 2, {}, {}, {.largest_change = 0})), InputError);
-  EXPECT_THROW(static_cast<void>(continuation(model, 1, 2, {}, {.harmonics = 0})), InputError);
+  EXPECT_THROW(static_cast<void>(paths::continuation({model, {}, {}}, 1, 1)), InputError);
+  EXPECT_THROW(static_cast<void>(paths::continuation({model, {}, {}}, -1, 1)), InputError);
+  EXPECT_THROW(static_cast<void>(paths::continuation({model, {}, {}}, 1, 2, {.largest_change = 0})), InputError);
+  EXPECT_THROW(static_cast<void>(paths::continuation({model, {}, {.harmonics = 0}}, 1, 2)), InputError);
 }
 
 // A state with open, sliding and stuck samples, away from equilibrium.
-Linearisation linearised(double omega, double size) {
+steady::Tangent linearised(double omega, double size) {
   const auto model = condensed(verification::rod(3));
-  const SteadyOptions options;
+  const steady::Options options;
   const numerics::FourierBasis basis(options.harmonics, options.samples);
-  auto system = std::make_shared<const HarmonicSystem>(harmonic_system(*model, options.harmonics, omega));
-  const SteadyResidual residual = steady_problem(model, system, basis, {}, options, 1);
+  auto system = std::make_shared<const dynamics::HarmonicSystem>(dynamics::harmonic_system(*model, options.harmonics, omega));
+  const steady::Problem residual = steady::steady_problem(model, system, basis, {}, options, 1);
   Eigen::MatrixXd displacement = residual.closed_start();
   for (Eigen::Index j = 0; j < displacement.size(); ++j)
     displacement.data()[j] += size * std::sin(1.7 * static_cast<double>(j) + omega);
-  ResidualState state;
+  steady::Point state;
   residual.evaluate(displacement, true, state);
   return {residual, std::move(state)};
 }
 
-TEST(Linearisation, KnowsTheSignOfItsDeterminant) {
+TEST(steady::Tangent, KnowsTheSignOfItsDeterminant) {
   // Of J along a branch that leans over: it changes where the frequency turns, and nowhere else.
-  const SteadyOptions options{.harmonics = 7, .samples = 256, .tolerance = 1e-11};
-  const Branch branch = continuation(condensed(gap_oscillator(1, 0.02, 0.1)), 0.8, 1.4, {}, options);
+  const steady::Options options{.harmonics = 7, .samples = 256, .tolerance = 1e-11};
+  const paths::Branch branch = paths::continuation({condensed(gap_oscillator(1, 0.02, 0.1)), {}, options}, 0.8, 1.4);
   ASSERT_EQ(branch.turns(), 2);
-  for (const ContinuationPoint& point : branch.points) {
+  for (const paths::ContinuationPoint& point : branch.points) {
     if (point.is_turn) continue;
-    ASSERT_TRUE(point.state.linearisation);
-    const Linearisation& linear = *point.state.linearisation;
+    ASSERT_TRUE(point.state.tangent);
+    const steady::Tangent& linear = *point.state.tangent;
     const Eigen::MatrixXd jacobian = linear.residual().jacobian(linear.state());
     const double scale = jacobian.cwiseAbs().maxCoeff();
     const double determinant = Eigen::PartialPivLU<Eigen::MatrixXd>(jacobian / scale).determinant();
@@ -98,15 +98,15 @@ TEST(DenseLu, KnowsTheSignOfItsDeterminant) {
   EXPECT_EQ(numerics::DenseLu(matrix).determinant_sign(), 0);
 }
 
-TEST(BorderedSystem, SolvesWithItsRowAndColumn) {
-  const Linearisation linear = linearised(2.3, 0.1);
+TEST(paths::BorderedSystem, SolvesWithItsRowAndColumn) {
+  const steady::Tangent linear = linearised(2.3, 0.1);
   const Eigen::MatrixXd jacobian = linear.residual().jacobian(linear.state());
   const Eigen::Index n = jacobian.rows();
   const Eigen::VectorXd row = Eigen::VectorXd::LinSpaced(n, -1, 2), forces = Eigen::VectorXd::LinSpaced(n, 0.3, -0.4);
-  const BorderedSystem bordered(linear, row, 0.7);
-  const BorderedSystem::Solution found = bordered.solve(forces, 0.9);
+  const paths::BorderedSystem bordered(linear, row, 0.7);
+  const paths::BorderedSystem::Solution found = bordered.solve(forces, 0.9);
   ASSERT_EQ(found.status, Status::converged);
-  const Eigen::VectorXd column = residual_to_frequency(linear.residual(), linear.state()).reshaped();
+  const Eigen::VectorXd column = paths::residual_to_frequency(linear.residual(), linear.state()).reshaped();
   // Refined to 1e-10 of the terms that cancel.
   const double size = forces.norm() + column.norm() * std::abs(found.omega);
   EXPECT_LT((jacobian * found.displacement + column * found.omega - forces).norm(), 1e-9 * size);
@@ -115,4 +115,4 @@ TEST(BorderedSystem, SolvesWithItsRowAndColumn) {
 }
 
 }  // namespace
-}  // namespace dovetail::response
+}  // namespace dovetail

@@ -1,14 +1,14 @@
-#include "response/linearisation.hpp"
+#include "steady/tangent.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "response/solve.hpp"
-#include "response/steady_state.hpp"
+#include "steady/solve.hpp"
+#include "steady/steady_state.hpp"
 #include "tests/unit/response/random_model.hpp"
 
-namespace dovetail::response {
+namespace dovetail {
 namespace {
 
 Eigen::MatrixXd random_matrix(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
@@ -22,12 +22,12 @@ class Condensation : public testing::TestWithParam<std::vector<char>> {};
 
 TEST_P(Condensation, OfNodesWithoutForceIsExact) {
   for (const Eigen::Index tangential : {1, 2}) {
-    const auto model = std::make_shared<const CondensedModel>(random_model(5, tangential, false));
-    const SteadyResidual residual = problem(model, 1.3, {.released = GetParam()});
+    const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(5, tangential, false));
+    const steady::Problem residual = problem(model, 1.3, {.released = GetParam()});
     const Eigen::Index nc = model->contact_size();
-    ResidualState state;
+    steady::Point state;
     residual.evaluate(residual.closed_start() + 0.02 * random_matrix(nc, 7, 11), true, state);
-    const Linearisation linear(residual, state);
+    const steady::Tangent linear(residual, state);
     ASSERT_EQ(linear.status(), Status::converged);
     const auto open = std::count(GetParam().begin(), GetParam().end(), 1);
     EXPECT_LE(linear.factorised_size(), 7 * (nc - open * (1 + tangential)));
@@ -35,9 +35,9 @@ TEST_P(Condensation, OfNodesWithoutForceIsExact) {
     // Both sides agree to rounding times the condition of J, which is below 1e3 here.
     EXPECT_LT((linear.solve(jacobian * x) - x).norm(), 1e-11 * x.norm());
     EXPECT_LT((linear.solve_transposed(jacobian.transpose() * x) - x).norm(), 1e-11 * x.norm());
-    const JacobianBlocks blocks = residual.blocks(state);
-    EXPECT_LT((apply_jacobian(blocks, x) - jacobian * x).norm(), 1e-13 * (jacobian * x).norm());
-    EXPECT_LT((apply_jacobian_transposed(blocks, x) - jacobian.transpose() * x).norm(),
+    const steady::JacobianBlocks blocks = residual.blocks(state);
+    EXPECT_LT((steady::apply_jacobian(blocks, x) - jacobian * x).norm(), 1e-13 * (jacobian * x).norm());
+    EXPECT_LT((steady::apply_jacobian_transposed(blocks, x) - jacobian.transpose() * x).norm(),
               1e-13 * (jacobian.transpose() * x).norm());
   }
 }
@@ -46,29 +46,29 @@ INSTANTIATE_TEST_SUITE_P(Nodes, Condensation,
                          testing::Values(std::vector<char>{0, 0, 0, 0, 0}, std::vector<char>{1, 0, 0, 1, 0},
                                          std::vector<char>{1, 1, 1, 1, 1}));
 
-TEST(Linearisation, SharesTheFactorsOfAnEqualJacobianOnly) {
-  const auto model = std::make_shared<const CondensedModel>(random_model(4, 1, false));
-  const SteadyResidual residual = problem(model, 1.3, {});
-  ResidualState here, near, far;
+TEST(steady::Tangent, SharesTheFactorsOfAnEqualJacobianOnly) {
+  const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(4, 1, false));
+  const steady::Problem residual = problem(model, 1.3, {});
+  steady::Point here, near, far;
   const Eigen::MatrixXd at = residual.closed_start() + 0.02 * random_matrix(8, 7, 5);
   residual.evaluate(at, true, here);
   // In a plane D changes only where the state of a sample does.
   residual.evaluate(at + 1e-12 * random_matrix(8, 7, 6), true, near);
   residual.evaluate(at + 0.05 * random_matrix(8, 7, 7), true, far);
-  const Linearisation first(residual, here);
+  const steady::Tangent first(residual, here);
   EXPECT_FALSE(first.shares_factors());
-  EXPECT_TRUE(Linearisation(residual, near, &first).shares_factors());
-  EXPECT_FALSE(Linearisation(residual, far, &first).shares_factors());
-  EXPECT_FALSE(Linearisation(problem(model, 1.3001, {}), here, &first).shares_factors());
+  EXPECT_TRUE(steady::Tangent(residual, near, &first).shares_factors());
+  EXPECT_FALSE(steady::Tangent(residual, far, &first).shares_factors());
+  EXPECT_FALSE(steady::Tangent(problem(model, 1.3001, {}), here, &first).shares_factors());
 }
 
-TEST(SteadyState, IsTheSameWithKeptFactorsAndTakesFewerJacobians) {
-  const auto model = std::make_shared<const CondensedModel>(random_model(60, 1, false));
-  const SteadyOptions options{.tolerance = 1e-12};
-  const SteadyState from = steady_state(model, 1.30, {}, options);
+TEST(steady::State, IsTheSameWithKeptFactorsAndTakesFewerJacobians) {
+  const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(60, 1, false));
+  const steady::Options options{.tolerance = 1e-12};
+  const steady::State from = steady::steady_state({model, {}, options}, 1.30);
   ASSERT_EQ(from.status, Status::converged);
-  const SteadyState fresh = steady_state(model, 1.301, {}, options, from.displacement);
-  const SteadyState kept = steady_state(model, 1.301, {}, options, from.displacement, from.linearisation);
+  const steady::State fresh = steady::steady_state({model, {}, options}, 1.301, from.displacement);
+  const steady::State kept = steady::steady_state({model, {}, options}, 1.301, from.displacement, from.tangent);
   ASSERT_EQ(fresh.status, Status::converged);
   ASSERT_EQ(kept.status, Status::converged);
   EXPECT_LT((fresh.displacement - kept.displacement).norm(), 1e-10 * fresh.displacement.norm());
@@ -76,4 +76,4 @@ TEST(SteadyState, IsTheSameWithKeptFactorsAndTakesFewerJacobians) {
 }
 
 }  // namespace
-}  // namespace dovetail::response
+}  // namespace dovetail

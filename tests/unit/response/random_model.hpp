@@ -4,9 +4,9 @@
 #include <memory>
 #include <random>
 
-#include "response/residual.hpp"
+#include "steady/residual.hpp"
 
-namespace dovetail::response {
+namespace dovetail {
 
 /// A random structure held everywhere, with `nodes` contact nodes under pressure and strong excitation.
 inline reduction::ReducedModel random_model(Eigen::Index nodes, Eigen::Index tangential, bool general_damping) {
@@ -42,15 +42,15 @@ inline reduction::ReducedModel random_model(Eigen::Index nodes, Eigen::Index tan
   return model;
 }
 
-inline SteadyResidual problem(const std::shared_ptr<const CondensedModel>& model, double omega,
-                              const ContactCondition& condition,
+inline steady::Problem problem(const std::shared_ptr<const dynamics::CondensedModel>& model, double omega,
+                              const steady::Condition& condition,
                               contact::SlipReturn rule = contact::SlipReturn::first_order) {
   return {model,
-          std::make_shared<const HarmonicSystem>(harmonic_system(*model, 3, omega)),
+          std::make_shared<const dynamics::HarmonicSystem>(dynamics::harmonic_system(*model, 3, omega)),
           numerics::FourierBasis(3, 64),
           contact::pseudo_penalty(model->local_stiffness(), model->directions()),
           condition,
           {.slip_return = rule, .tolerance = 1e-13}};
 }
 
-}  // namespace dovetail::response
+}  // namespace dovetail

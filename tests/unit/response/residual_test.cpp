@@ -1,19 +1,19 @@
-#include "response/residual.hpp"
+#include "steady/residual.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
 #include <random>
 
-#include "response/amplitude.hpp"
-#include "response/linearisation.hpp"
-#include "response/steady_state.hpp"
+#include "dynamics/extremes.hpp"
+#include "steady/tangent.hpp"
+#include "steady/steady_state.hpp"
 #include "tests/unit/response/random_model.hpp"
 
-namespace dovetail::response {
+namespace dovetail {
 namespace {
 
-bool same_branch(const ResidualState& a, const ResidualState& b) {
+bool same_branch(const steady::Point& a, const steady::Point& b) {
   for (std::size_t i = 0; i < a.nodes.size(); ++i)
     if (a.nodes[i].state != b.nodes[i].state || a.nodes[i].periods != b.nodes[i].periods) return false;
   return true;
@@ -28,10 +28,10 @@ struct Kind {
 class Jacobian : public testing::TestWithParam<Kind> {};
 
 TEST_P(Jacobian, MatchesFiniteDifferencesAndItsOwnSolver) {
-  const auto model = std::make_shared<const CondensedModel>(random_model(5, GetParam().tangential, false));
-  ContactCondition condition;
+  const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(5, GetParam().tangential, false));
+  steady::Condition condition;
   condition.released = {0, 0, 1, 0, 0};
-  const SteadyResidual residual = problem(model, 1.3, condition, GetParam().rule);
+  const steady::Problem residual = problem(model, 1.3, condition, GetParam().rule);
   std::mt19937 generator(5);
   std::normal_distribution<double> normal;
   const Eigen::Index nc = model->contact_size();
@@ -40,7 +40,7 @@ TEST_P(Jacobian, MatchesFiniteDifferencesAndItsOwnSolver) {
     const Eigen::MatrixXd at =
         residual.closed_start() + Eigen::MatrixXd::NullaryExpr(nc, 7, [&] { return 0.02 * normal(generator); });
     const Eigen::MatrixXd direction = Eigen::MatrixXd::NullaryExpr(nc, 7, [&] { return normal(generator); });
-    ResidualState base, plus, minus;
+    steady::Point base, plus, minus;
     residual.evaluate(at, true, base);
     const double h = 1e-7;
     residual.evaluate(at + h * direction, false, plus);
@@ -53,7 +53,7 @@ TEST_P(Jacobian, MatchesFiniteDifferencesAndItsOwnSolver) {
     const Eigen::VectorXd difference = (plus.residual - minus.residual).reshaped() / (2 * h);
     // Rounding 1e-16 |lambda_u| / h = 1e-8.
     EXPECT_LT((exact - difference).norm(), 1e-7 * exact.norm());
-    const Linearisation linear(residual, base);
+    const steady::Tangent linear(residual, base);
     EXPECT_LT((linear.solve(exact) - direction.reshaped()).norm(), 1e-9 * direction.norm());
     const Eigen::VectorXd back = jacobian.transpose() * direction.reshaped();
     EXPECT_LT((linear.solve_transposed(back) - direction.reshaped()).norm(), 1e-9 * direction.norm());
@@ -71,10 +71,10 @@ INSTANTIATE_TEST_SUITE_P(Kinds, Jacobian,
                                          Kind{"SpaceSecondOrder", 2, contact::SlipReturn::second_order}),
                          [](const testing::TestParamInfo<Kind>& kind) { return std::string(kind.param.name); });
 
-TEST(CondensedModel, IsTheSchurComplementWithItsSlope) {
+TEST(dynamics::CondensedModel, IsTheSchurComplementWithItsSlope) {
   for (const bool general : {false, true}) {
     const reduction::ReducedModel reduced = random_model(3, 2, general);
-    const CondensedModel model(reduced);
+    const dynamics::CondensedModel model(reduced);
     EXPECT_EQ(model.modal(), !general);
     const double omega = 1.7, step = 2e-6;  // truncation 4e-12 times the third derivative, rounding 1e-10
     for (const int h : {0, 1, 3}) {
@@ -83,9 +83,9 @@ TEST(CondensedModel, IsTheSchurComplementWithItsSlope) {
                                  h * h * omega * omega * reduced.mass;
       const Eigen::MatrixXcd ii = s.topLeftCorner(6, 6), ci = s.bottomLeftCorner(9, 6);
       const Eigen::MatrixXcd exact = s.bottomRightCorner(9, 9) - ci * ii.inverse() * ci.transpose();
-      const HarmonicStiffness at = model.harmonic(h, omega);
+      const dynamics::HarmonicStiffness at = model.harmonic(h, omega);
       EXPECT_LT((at.stiffness - exact).norm(), 1e-12 * exact.norm());
-      const HarmonicStiffness up = model.harmonic(h, omega + step), down = model.harmonic(h, omega - step);
+      const dynamics::HarmonicStiffness up = model.harmonic(h, omega + step), down = model.harmonic(h, omega - step);
       const Eigen::VectorXcd u = Eigen::VectorXcd::Random(9);
       const Eigen::VectorXcd slope = ((up.stiffness - down.stiffness) * u - (up.force - down.force)) / (2 * step);
       EXPECT_LT((model.slope(h, omega, at, u) - slope).norm(), 1e-8 * (1 + slope.norm()));
@@ -104,51 +104,51 @@ TEST(CondensedModel, IsTheSchurComplementWithItsSlope) {
   }
 }
 
-TEST(CondensedModel, ReportsEverythingWrong) {
+TEST(dynamics::CondensedModel, ReportsEverythingWrong) {
   reduction::ReducedModel model = random_model(3, 1, false);
   model.contact.area(1) = 0;
   model.contact.normal(2) = 99;
   model.static_force.resize(2);
   try {
-    CondensedModel condensed(model);
+    dynamics::CondensedModel condensed(model);
     FAIL();
   } catch (const InputError& error) {
     EXPECT_EQ(error.violations().size(), 3u);
   }
 }
 
-TEST(Extremes, FindsTheLargestOfSeveral) {
+TEST(dynamics::Extremes, FindsTheLargestOfSeveral) {
   // 3 cos + 2 sin(3.): dense sampling with 2e5 points is within (pi / 2e5)^2 of the extremes.
   Eigen::VectorXd a = Eigen::VectorXd::Zero(7);
   a << 0.3, 3, 0, 0, 0, 0.5, 2;
   double low = 1e9, high = -1e9;
   for (int i = 0; i < 200000; ++i) {
-    const double value = fourier_row(i * 2 * 3.14159265358979 / 200000, 7).dot(a);
+    const double value = dynamics::fourier_row(i * 2 * 3.14159265358979 / 200000, 7).dot(a);
     low = std::min(low, value);
     high = std::max(high, value);
   }
-  const Extremes found = extremes(a);
+  const dynamics::Extremes found = extremes(a);
   EXPECT_NEAR(found.maximum, high, 1e-8);
   EXPECT_NEAR(found.minimum, low, 1e-8);
-  EXPECT_NEAR(fourier_row(found.tau_maximum, 7).dot(a), found.maximum, 1e-14);
+  EXPECT_NEAR(dynamics::fourier_row(found.tau_maximum, 7).dot(a), found.maximum, 1e-14);
   EXPECT_EQ(extremes(Eigen::VectorXd::Constant(1, 2.0)).amplitude(), 0);
 }
 
-TEST(SteadyState, RefusesBadOptions) {
-  const auto model = std::make_shared<const CondensedModel>(random_model(2, 1, false));
-  EXPECT_THROW((void)steady_state(model, 1, {}, {.harmonics = 3, .samples = 6}), InputError);
-  EXPECT_THROW((void)steady_state(model, -1, {}, {}), InputError);
-  EXPECT_THROW((void)steady_state(model, 1, {}, {.solver = "magic"}), InputError);
-  EXPECT_THROW((void)steady_state(model, 1, {}, {}, Eigen::MatrixXd::Zero(2, 7)), InputError);
-  EXPECT_THROW((void)steady_state(model, 1, {.wear_depth = Eigen::VectorXd::Zero(5)}, {}), InputError);
+TEST(steady::State, RefusesBadOptions) {
+  const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(2, 1, false));
+  EXPECT_THROW((void)steady::steady_state({model, {}, {.harmonics = 3, .samples = 6}}, 1), InputError);
+  EXPECT_THROW((void)steady::steady_state({model, {}, {}}, -1), InputError);
+  EXPECT_THROW((void)steady::steady_state({model, {}, {.solver = "magic"}}, 1), InputError);
+  EXPECT_THROW((void)steady::steady_state({model, {}, {}}, 1, Eigen::MatrixXd::Zero(2, 7)), InputError);
+  EXPECT_THROW((void)steady::steady_state({model, {.wear_depth = Eigen::VectorXd::Zero(5)}, {}}, 1), InputError);
 }
 
-TEST(SteadyState, SolversAgree) {
-  const auto model = std::make_shared<const CondensedModel>(random_model(2, 1, false));
-  const SteadyState newton = steady_state(model, 1.3, {}, {.solver = "newton"});
+TEST(steady::State, SolversAgree) {
+  const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(2, 1, false));
+  const steady::State newton = steady::steady_state({model, {}, {.solver = "newton"}}, 1.3);
   ASSERT_EQ(newton.status, Status::converged);
   for (const char* solver : {"powell", "powell_fd"}) {
-    const SteadyState other = steady_state(model, 1.3, {}, {.solver = solver});
+    const steady::State other = steady::steady_state({model, {}, {.solver = solver}}, 1.3);
     ASSERT_EQ(other.status, Status::converged) << solver;
     EXPECT_LT((other.displacement - newton.displacement).norm(), 1e-7 * newton.displacement.norm()) << solver;
   }
@@ -170,51 +170,51 @@ reduction::ReducedModel free_body(Eigen::Index nodes) {
   return model;
 }
 
-TEST(SteadyState, OfABodyThatNothingHoldsIsSingular) {
-  const auto model = std::make_shared<const CondensedModel>(free_body(3));
-  const SteadyState held = steady_state(model, 1.3, {}, {});
+TEST(steady::State, OfABodyThatNothingHoldsIsSingular) {
+  const auto model = std::make_shared<const dynamics::CondensedModel>(free_body(3));
+  const steady::State held = steady::steady_state({model, {}, {}}, 1.3);
   ASSERT_EQ(held.status, Status::converged);
-  ASSERT_TRUE(held.linearisation);
+  ASSERT_TRUE(held.tangent);
   for (const bool linearise : {true, false}) {
-    const SteadyState floating = steady_state(model, 1.3, {.released = {1, 1, 1}}, {.linearise = linearise});
+    const steady::State floating = steady::steady_state({model, {.released = {1, 1, 1}}, {.linearise = linearise}}, 1.3);
     EXPECT_NE(floating.status, Status::converged) << linearise << " " << floating.residual;
-    EXPECT_FALSE(floating.linearisation);
+    EXPECT_FALSE(floating.tangent);
   }
 }
 
-TEST(SteadyState, OfABodyThatIsFreeToGoNowhereInParticularIsSingular) {
+TEST(steady::State, OfABodyThatIsFreeToGoNowhereInParticularIsSingular) {
   // Without a static load the free body is in equilibrium wherever it is: the residual vanishes, the place is not
   // known.
   reduction::ReducedModel body = free_body(3);
   body.static_force.setZero();
-  const auto model = std::make_shared<const CondensedModel>(body);
+  const auto model = std::make_shared<const dynamics::CondensedModel>(body);
   for (const bool linearise : {true, false}) {
-    const SteadyState floating = steady_state(model, 1.3, {.released = {1, 1, 1}}, {.linearise = linearise});
+    const steady::State floating = steady::steady_state({model, {.released = {1, 1, 1}}, {.linearise = linearise}}, 1.3);
     EXPECT_EQ(floating.status, Status::singular) << linearise << " " << floating.residual;
-    EXPECT_FALSE(floating.linearisation);
+    EXPECT_FALSE(floating.tangent);
   }
 }
 
-TEST(Linearisation, PredictsWearAndFrequency) {
-  const auto model = std::make_shared<const CondensedModel>(random_model(4, 2, false));
-  const SteadyOptions options{.tolerance = 1e-13, .periodic_tolerance = 1e-13};
+TEST(steady::Tangent, PredictsWearAndFrequency) {
+  const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(4, 2, false));
+  const steady::Options options{.tolerance = 1e-13, .periodic_tolerance = 1e-13};
   const double omega = 1.3, h = 1e-6;
-  const SteadyState at = steady_state(model, omega, {}, options);
+  const steady::State at = steady::steady_state({model, {}, options}, omega);
   ASSERT_EQ(at.status, Status::converged);
-  ASSERT_TRUE(at.linearisation);
-  const SteadyState up = steady_state(model, omega + h, {}, options, at.displacement);
-  const SteadyState down = steady_state(model, omega - h, {}, options, at.displacement);
+  ASSERT_TRUE(at.tangent);
+  const steady::State up = steady::steady_state({model, {}, options}, omega + h, at.displacement);
+  const steady::State down = steady::steady_state({model, {}, options}, omega - h, at.displacement);
   const Eigen::MatrixXd slope = (up.displacement - down.displacement) / (2 * h);
-  EXPECT_LT((at.linearisation->response_to_frequency() - slope).norm(), 1e-5 * slope.norm());
+  EXPECT_LT((at.tangent->response_to_frequency() - slope).norm(), 1e-5 * slope.norm());
   const Eigen::VectorXd change = Eigen::Vector4d(1, 0, -0.5, 0.2);
-  const SteadyState more = steady_state(model, omega, {.wear_depth = h * change}, options, at.displacement);
-  const SteadyState less = steady_state(model, omega, {.wear_depth = -h * change}, options, at.displacement);
+  const steady::State more = steady::steady_state({model, {.wear_depth = h * change}, options}, omega, at.displacement);
+  const steady::State less = steady::steady_state({model, {.wear_depth = -h * change}, options}, omega, at.displacement);
   const Eigen::MatrixXd moved = (more.displacement - less.displacement) / (2 * h);
-  EXPECT_LT((at.linearisation->response_to_wear(change) - moved).norm(), 1e-5 * moved.norm());
+  EXPECT_LT((at.tangent->response_to_wear(change) - moved).norm(), 1e-5 * moved.norm());
   const Eigen::VectorXd rate = (more.wear_rate - less.wear_rate) / (2 * h);
-  EXPECT_LT((at.linearisation->wear_rate_to_wear({0, 1, 2, 3}) * change - rate).norm(), 1e-5 * rate.norm());
+  EXPECT_LT((at.tangent->wear_rate_to_wear({0, 1, 2, 3}) * change - rate).norm(), 1e-5 * rate.norm());
   EXPECT_GT(rate.norm(), 0);
 }
 
 }  // namespace
-}  // namespace dovetail::response
+}  // namespace dovetail

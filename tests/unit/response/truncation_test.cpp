@@ -5,19 +5,19 @@
 #include <limits>
 
 #include "contact/pseudo_penalty.hpp"
-#include "response/automatic.hpp"
-#include "response/penalty_sensitivity.hpp"
-#include "response/refined_state.hpp"
-#include "response/truncation.hpp"
+#include "quality/automatic.hpp"
+#include "quality/penalty_sensitivity.hpp"
+#include "steady/steady_state.hpp"
+#include "quality/truncation.hpp"
 #include "tests/verification/response/random_contact.hpp"
 
-namespace dovetail::response {
+namespace dovetail {
 namespace {
 
 // diag(Z_h) of a massless contact differs from its limit by terms of 1/(h w)^2 and damping of 1/(h w).
 void expect_local_stiffness_is_the_limit(const reduction::ReducedModel& model) {
-  const CondensedModel condensed(model);
-  const HarmonicStiffness high = condensed.harmonic(1'000'000, 1.0, false);
+  const dynamics::CondensedModel condensed(model);
+  const dynamics::HarmonicStiffness high = condensed.harmonic(1'000'000, 1.0, false);
   const double largest = condensed.local_stiffness().maxCoeff();
   for (Eigen::Index i = 0; i < condensed.contact_size(); ++i)
     EXPECT_NEAR(high.stiffness(i, i).real(), condensed.local_stiffness()(i), 1e-5 * largest) << i;
@@ -32,7 +32,7 @@ TEST(LocalStiffness, IsTheHighHarmonicLimitForMasslessContact) {
 
 TEST(DynamicStiffness, HasTheInertiaOfHighHarmonics) {
   // Mass 1 on the contact itself, stiffness 1: Z_h = 1 - h^2, where h^2 is no int.
-  const CondensedModel condensed(verification::den_hartog(0.4));
+  const dynamics::CondensedModel condensed(verification::den_hartog(0.4));
   const Eigen::MatrixXd z = condensed.harmonic(1'000'000, 1.0).stiffness.real();
   EXPECT_NEAR(z.minCoeff(), 1 - 1e12, 1e-3);  // rounding of 1e12
 }
@@ -49,20 +49,20 @@ TEST(LocalStiffness, FollowsInternalDofsWithoutMass) {
   model.stiffness(3, 3) += 5;
   model.stiffness(6, 6) = 5.5;
   model.stiffness(3, 6) = model.stiffness(6, 3) = -5;
-  ASSERT_FALSE(CondensedModel(model).modal());
-  EXPECT_NEAR(CondensedModel(model).local_stiffness()(1), 2 + 5 * 0.5 / 5.5, 1e-12);
+  ASSERT_FALSE(dynamics::CondensedModel(model).modal());
+  EXPECT_NEAR(dynamics::CondensedModel(model).local_stiffness()(1), 2 + 5 * 0.5 / 5.5, 1e-12);
   expect_local_stiffness_is_the_limit(model);
   model.damping.setZero();
-  ASSERT_TRUE(CondensedModel(model).modal());
+  ASSERT_TRUE(dynamics::CondensedModel(model).modal());
   expect_local_stiffness_is_the_limit(model);
 }
 
 TEST(LocalStiffness, IsStaticWhereContactHasMass) {
   // Z_h = 1 - (h w)^2 has no limit; the stiffness alone is used.
-  const CondensedModel model(verification::den_hartog(0.4));
+  const dynamics::CondensedModel model(verification::den_hartog(0.4));
   EXPECT_FALSE(model.massless_contact());
   EXPECT_EQ(model.local_stiffness()(1), 1);
-  EXPECT_TRUE(CondensedModel(verification::rod(3)).massless_contact());
+  EXPECT_TRUE(dynamics::CondensedModel(verification::rod(3)).massless_contact());
 }
 
 TEST(PseudoPenalty, HasOneTangentialValuePerNode) {
@@ -82,54 +82,54 @@ TEST(PseudoPenalty, HasOneTangentialValuePerNode) {
 
 TEST(Padding, KeepsOrCutsHarmonics) {
   const Eigen::MatrixXd coefficients = Eigen::MatrixXd::Random(4, 7);
-  const Eigen::MatrixXd more = padded(coefficients, 5);
+  const Eigen::MatrixXd more = steady::padded(coefficients, 5);
   EXPECT_EQ(more.leftCols(7), coefficients);
   EXPECT_TRUE(more.rightCols(4).isZero(0));
-  EXPECT_EQ(padded(coefficients, 1), coefficients.leftCols(3));
+  EXPECT_EQ(steady::padded(coefficients, 1), coefficients.leftCols(3));
 }
 
 TEST(Refinement, AddsSamplesBeforeHarmonicsAlias) {
-  const SteadyOptions plenty = more_harmonics({.harmonics = 3, .samples = 128});
+  const steady::Options plenty = quality::more_harmonics({.harmonics = 3, .samples = 128});
   EXPECT_EQ(plenty.harmonics, 7);
   EXPECT_EQ(plenty.samples, 128);
-  const SteadyOptions scarce = more_harmonics({.harmonics = 31, .samples = 64});
+  const steady::Options scarce = quality::more_harmonics({.harmonics = 31, .samples = 64});
   EXPECT_EQ(scarce.harmonics, 63);
   EXPECT_EQ(scarce.samples, 256);
 }
 
 TEST(Refinement, StartsFromTheStateAndKeepsItsPenalty) {
   const auto model = verification::condensed(verification::rod(4));
-  SteadyState state = steady_state(model, 2.5, {}, {});
+  steady::State state = steady::steady_state({model, {}, {}}, 2.5);
   ASSERT_EQ(state.status, Status::converged);
-  const SteadyState same = refined_state(model, state, {}, {});
+  const steady::State same = steady::refined_state({model, {}, {}}, state);
   EXPECT_LE(same.iterations, 1);
   state.penalty_ratio = 0.5;
-  const SteadyState softer = refined_state(model, state, {}, {});
+  const steady::State softer = steady::refined_state({model, {}, {}}, state);
   EXPECT_EQ(softer.penalty_ratio, 0.5);
   EXPECT_DOUBLE_EQ(softer.penalty.tangential(0), 0.5 * same.penalty.tangential(0));
 }
 
-TEST(ErrorBars, AddUpTheirParts) {
-  const Quantities value = constant_quantities(1, 100);
-  const TruncationChanges changes{.harmonics = constant_quantities(1, 1),
-                                  .samples = constant_quantities(1, 0.1),
-                                  .softer = constant_quantities(1, 0.4),
-                                  .stiffer = constant_quantities(1, 0.8)};
-  const ErrorBars bars = bars_from(value, changes, 1e-6, 1, true);
+TEST(quality::ErrorBars, AddUpTheirParts) {
+  const quality::Quantities value = quality::constant_quantities(1, 100);
+  const quality::TruncationChanges changes{.harmonics = quality::constant_quantities(1, 1),
+                                  .samples = quality::constant_quantities(1, 0.1),
+                                  .softer = quality::constant_quantities(1, 0.4),
+                                  .stiffer = quality::constant_quantities(1, 0.8)};
+  const quality::ErrorBars bars = quality::bars_from(value, changes, 1e-6, 1, true);
   EXPECT_DOUBLE_EQ(bars.total.friction_energy, 2 * 1 + 3 * 0.1 + 0.25 * 0.8 + 1e-4);
   EXPECT_DOUBLE_EQ(bars.total.amplitudes(0), bars.total.wear_volume_rate);
-  EXPECT_DOUBLE_EQ(bars_from(value, changes, 1e-6, 3, true).total.friction_energy, 3 * bars.total.friction_energy);
-  EXPECT_DOUBLE_EQ(bars_from(value, changes, 1e-6, 1, false).harmonics.friction_energy, 4);
+  EXPECT_DOUBLE_EQ(quality::bars_from(value, changes, 1e-6, 3, true).total.friction_energy, 3 * bars.total.friction_energy);
+  EXPECT_DOUBLE_EQ(quality::bars_from(value, changes, 1e-6, 1, false).harmonics.friction_energy, 4);
 }
 
-TEST(ErrorBars, AreWithinTolerancesOfWhatMatters) {
-  ErrorBars bars{.status = Status::converged,
-                 .value = constant_quantities(2, 1),
-                 .harmonics = constant_quantities(2, 0),
-                 .samples = constant_quantities(2, 0),
-                 .penalty = constant_quantities(2, 0),
-                 .total = constant_quantities(2, 0)};
-  SteadyState state;
+TEST(quality::ErrorBars, AreWithinTolerancesOfWhatMatters) {
+  quality::ErrorBars bars{.status = Status::converged,
+                 .value = quality::constant_quantities(2, 1),
+                 .harmonics = quality::constant_quantities(2, 0),
+                 .samples = quality::constant_quantities(2, 0),
+                 .penalty = quality::constant_quantities(2, 0),
+                 .total = quality::constant_quantities(2, 0)};
+  steady::State state;
   state.input_energy = 1;
   EXPECT_TRUE(within(bars, state, {}));
   bars.total.amplitudes << 0.9e-3, 1.1e-3;
@@ -151,12 +151,12 @@ TEST(ErrorBars, AreWithinTolerancesOfWhatMatters) {
 
 TEST(Truncation, RefusesOptionsOutOfRange) {
   const auto model = verification::condensed(verification::rod(2));
-  const SteadyState state = steady_state(model, 2.5, {}, {});
-  EXPECT_THROW(static_cast<void>(automatic_state(model, 2.5, {}, {}, {.amplitude_tolerance = 0})), InputError);
-  EXPECT_THROW(static_cast<void>(automatic_state(model, 2.5, {}, {}, {.max_harmonics = 0})), InputError);
-  EXPECT_THROW(static_cast<void>(penalty_sensitivity(model, state, {}, {}, {.ratios = {1, -1}})), InputError);
-  EXPECT_THROW(static_cast<void>(penalty_sensitivity(model, state, {}, {}, {.step = 0})), InputError);
+  const steady::State state = steady::steady_state({model, {}, {}}, 2.5);
+  EXPECT_THROW(static_cast<void>(quality::automatic_state({model, {}, {}}, 2.5, {.amplitude_tolerance = 0})), InputError);
+  EXPECT_THROW(static_cast<void>(quality::automatic_state({model, {}, {}}, 2.5, {.max_harmonics = 0})), InputError);
+  EXPECT_THROW(static_cast<void>(quality::penalty_sensitivity({model, {}, {}}, state, {.ratios = {1, -1}})), InputError);
+  EXPECT_THROW(static_cast<void>(quality::penalty_sensitivity({model, {}, {}}, state, {.step = 0})), InputError);
 }
 
 }  // namespace
-}  // namespace dovetail::response
+}  // namespace dovetail

@@ -13,8 +13,8 @@ using Json = nlohmann::json;
 using testing::HasSubstr;
 
 /// A state with one output, H = 2, two contact nodes.
-response::SteadyState state(Status status) {
-  response::SteadyState s;
+steady::State state(Status status) {
+  steady::State s;
   s.status = status;
   s.iterations = 4;
   s.outputs.resize(1, 5);
@@ -26,7 +26,7 @@ response::SteadyState state(Status status) {
 }
 
 /// Points from 480 Hz on in steps of 1 Hz.
-ResponseCurve curve(std::vector<response::SteadyState> states) {
+ResponseCurve curve(std::vector<steady::State> states) {
   ResponseCurve c;
   c.output_names = {"tip_x"};
   c.settings.harmonics = 2;
@@ -77,16 +77,16 @@ TEST(ResponseJson, AnAnalysisHasOneEntryPerPointAndNullWhereThereIsNone) {
   PointAnalysis& first = c.analyses[0];
   first.bars.emplace();
   first.bars->status = Status::converged;
-  first.bars->total = first.bars->harmonics = first.bars->samples = response::constant_quantities(1, 0.25);
-  first.bars->penalty = response::constant_quantities(1, std::numeric_limits<double>::infinity());
+  first.bars->total = first.bars->harmonics = first.bars->samples = quality::constant_quantities(1, 0.25);
+  first.bars->penalty = quality::constant_quantities(1, std::numeric_limits<double>::infinity());
   first.sensitivity.emplace();
   first.sensitivity->ratios = {1, 2};
   first.sensitivity->statuses = {Status::converged, Status::stalled};
-  first.sensitivity->values = {response::constant_quantities(1, 7),
-                               response::constant_quantities(1, std::numeric_limits<double>::quiet_NaN())};
-  first.sensitivity->slope = response::constant_quantities(1, 0.5);
+  first.sensitivity->values = {quality::constant_quantities(1, 7),
+                               quality::constant_quantities(1, std::numeric_limits<double>::quiet_NaN())};
+  first.sensitivity->slope = quality::constant_quantities(1, 0.5);
   first.stability.emplace();
-  first.stability->verdict = response::StabilityVerdict::stable;
+  first.stability->verdict = stability::StabilityVerdict::stable;
   first.stability->reason = "all inside";
   first.stability->largest_modulus = 0.9;
   first.stability->multipliers = Eigen::VectorXcd::Constant(1, std::complex<double>(0.9, 0.1));

@@ -13,9 +13,9 @@ struct Node {
 };
 
 std::vector<bool> off(const std::vector<Node>& nodes, const std::vector<bool>& done) {
-  response::SteadyState state;
+  steady::State state;
   for (const Node& node : nodes) {
-    response::NodeSummary summary;
+    steady::NodeSummary summary;
     summary.wear_rate = node.rate;
     summary.separates = node.separates;
     summary.carries_load = node.loaded;

@@ -8,7 +8,7 @@
 #include "geometry/mesh_motion.hpp"
 #include "geometry/solid_family.hpp"
 #include "reduction/static_condensation.hpp"
-#include "response/preload.hpp"
+#include "steady/preload.hpp"
 #include "tests/verification/calculix/glued_joint.hpp"
 
 namespace dovetail::calculix {
@@ -18,7 +18,7 @@ constexpr double kSpeed = 1047.1975511965977;  // 10 000 rpm
 constexpr double kFriction = 0.5;
 
 /// Our spin-up with the stiffness at rest, as the geometrically linear step of the deck has it.
-response::Preload spin_up(const GluedJoint& joint) {
+steady::Preload spin_up(const GluedJoint& joint) {
   const fem::SectorSystem& system = joint.system;
   const Eigen::Index count = system.contact.count(), directions = joint.sector.mesh.dimensions();
   reduction::FullModel full;
@@ -44,14 +44,14 @@ response::Preload spin_up(const GluedJoint& joint) {
   full.contact.group = system.contact.flank;
   full.contact.slip_origin = Eigen::MatrixXd::Zero(count, directions - 1);
   const reduction::StaticCondensation condensed = reduction::condense_statically(full);
-  return response::quasi_static(std::make_shared<const response::CondensedModel>(condensed.model));
+  return steady::quasi_static(std::make_shared<const dynamics::CondensedModel>(condensed.model));
 }
 
 /// Forces of one flank, N.
 struct FlankForces {
   double normal = 0, shear = 0;
 };
-FlankForces forces_on(const GluedJoint& joint, const response::Preload& preload, int flank) {
+FlankForces forces_on(const GluedJoint& joint, const steady::Preload& preload, int flank) {
   const Eigen::Index directions = joint.sector.mesh.dimensions();
   FlankForces sum;
   Eigen::VectorXd shear = Eigen::VectorXd::Zero(directions - 1);
@@ -79,7 +79,7 @@ class ContactInCalculiX : public testing::Test {
 
 /// Root mean square of the differences of nodal pressures over the largest pressure, at contact nodes further than
 /// `margin` (part of the flank, and of the slot in space) from its ends.
-double pressure_error(const GluedJoint& ours, const response::Preload& preload, const Answer& answer, double margin) {
+double pressure_error(const GluedJoint& ours, const steady::Preload& preload, const Answer& answer, double margin) {
   double squares = 0;
   int used = 0;
   Eigen::Index first = 0;  // contact node of the flank
@@ -106,7 +106,7 @@ double pressure_error(const GluedJoint& ours, const response::Preload& preload, 
 /// Holds one joint against the other: resultants of both flanks, and pressures away from the ends.
 void compare(const fem::SectorMesh& sector, int increments, double margin, double tolerance) {
   const GluedJoint ours(sector, kSpeed);
-  const response::Preload preload = spin_up(ours);
+  const steady::Preload preload = spin_up(ours);
   ASSERT_EQ(preload.status, Status::converged);
   const Answer answer = run(geometry::inp(ours.sector, ours.materials,
                                           {.joint = geometry::FlankJoint::contact,

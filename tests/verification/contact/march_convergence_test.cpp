@@ -13,7 +13,7 @@ using numerics::FourierBasis;
 MarchResult run(const Eigen::MatrixXd& coefficients, const NodeLaw& law, int samples, SlipReturn rule) {
   const FourierBasis basis(static_cast<int>(coefficients.cols() / 2), samples);
   MarchResult result;
-  march(basis.synthesise(coefficients), law, basis, {.slip_return = rule, .tolerance = 1e-13}, false, result);
+  march(basis.synthesise(coefficients), law, {.slip_return = rule, .tolerance = 1e-13}, result);
   return result;
 }
 

@@ -7,7 +7,7 @@
 #include "fem/diameter_frequencies.hpp"
 #include "fem/stress.hpp"
 #include "reduction/static_condensation.hpp"
-#include "response/preload.hpp"
+#include "steady/preload.hpp"
 #include "tests/unit/fem/extruded_mesh.hpp"
 #include "tests/unit/fem/structured_mesh.hpp"
 #include "tests/verification/fem/sector_model.hpp"
@@ -63,9 +63,9 @@ TEST_F(ExtrudedSection, HasThePreloadOfPlaneStrain) {
     full.static_force *= -1;
     const reduction::StaticCondensation condensed = reduction::condense_statically(full);
     EXPECT_EQ(condensed.status, Status::converged);
-    return response::quasi_static(std::make_shared<const response::CondensedModel>(condensed.model));
+    return steady::quasi_static(std::make_shared<const dynamics::CondensedModel>(condensed.model));
   };
-  const response::Preload flat = preload(a), deep = preload(b);
+  const steady::Preload flat = preload(a), deep = preload(b);
   ASSERT_EQ(flat.status, Status::converged);
   ASSERT_EQ(deep.status, Status::converged);
   // Both solves stop at a residual of 1e-10 of the load.

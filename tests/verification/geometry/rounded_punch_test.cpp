@@ -11,7 +11,7 @@
 #include "geometry/flank_form.hpp"
 #include "geometry/flank_fractions.hpp"
 #include "reduction/static_condensation.hpp"
-#include "response/preload.hpp"
+#include "steady/preload.hpp"
 #include "tests/unit/fem/structured_mesh.hpp"
 #include "tests/verification/fem/sector_model.hpp"
 
@@ -166,7 +166,7 @@ class Blocks {
 };
 
 /// Nodal pressures under the load, spread over the top.
-response::Preload pressed(const Blocks& blocks) {
+steady::Preload pressed(const Blocks& blocks) {
   const fem::SectorMesh& sector = blocks.sector();
   const std::vector<fem::Material> bodies{kTitanium, kTitanium};
   const fem::Assembler assembler(sector.mesh);
@@ -185,7 +185,7 @@ response::Preload pressed(const Blocks& blocks) {
   full.stiffness += Eigen::SparseMatrix<double>(t.transpose() * held * t);
   const reduction::StaticCondensation condensed = reduction::condense_statically(full);
   EXPECT_EQ(condensed.status, Status::converged);
-  return response::quasi_static(std::make_shared<const response::CondensedModel>(condensed.model));
+  return steady::quasi_static(std::make_shared<const dynamics::CondensedModel>(condensed.model));
 }
 
 struct Rounding {
@@ -200,7 +200,7 @@ TEST_P(RoundedFlank, HasThePressureOfThePunchWithRoundedEdges) {
   const double radius = GetParam().radius_mm * 1e-3;
   const RoundedPunch exact(radius);
   const Blocks blocks(radius, GetParam().edges, 40 * kHalfFlat);
-  const response::Preload preload = pressed(blocks);
+  const steady::Preload preload = pressed(blocks);
   ASSERT_EQ(preload.status, Status::converged);
   const Eigen::MatrixXd& at = blocks.sector().flanks[0].position;
   double difference = 0, width = 0;

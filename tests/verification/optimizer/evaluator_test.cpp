@@ -135,7 +135,7 @@ TEST(SectionEvaluation, ReducedModelAgreesWithTheFullOneAtEveryHarmonic) {
 
 TEST(SectionEvaluation, EnergyIsBalancedAtTheResonance) {
   // Harmonic by harmonic the truncated contact force does the work input - damping: to the residual tolerance.
-  const response::SteadyState& state = baseline().unworn->state;
+  const steady::State& state = baseline().unworn->state;
   EXPECT_NEAR(state.input_energy, state.damping_energy + state.contact_work, 1e-7 * state.input_energy);
   // Friction's own count from the slip differs by truncation in harmonics and samples: under 5 % at H = 3.
   EXPECT_NEAR(state.friction_energy, state.contact_work, 0.05 * state.contact_work);
@@ -145,10 +145,10 @@ TEST(SectionEvaluation, EnergyBalanceConvergesWithHarmonicsAndSamples) {
   const CandidateModel& model = baseline().model;
   std::vector<double> defect;
   for (const int harmonics : {3, 9, 27}) {
-    response::SteadyOptions options = steady_options({});
+    steady::Options options = steady_options({});
     options.harmonics = harmonics;
     options.samples = 128 * harmonics;
-    const response::SteadyState state = response::steady_state(model.condensed, baseline().unworn->omega, {}, options);
+    const steady::State state = steady::steady_state({model.condensed, {}, options}, baseline().unworn->omega);
     ASSERT_EQ(state.status, Status::converged);
     defect.push_back(std::abs(state.input_energy - state.damping_energy - state.friction_energy) / state.input_energy);
   }
@@ -164,8 +164,7 @@ TEST(SectionEvaluation, DirectAsymptoteAgreesWithTheHistory) {
   // First order in the increment: 1 % of the depth leaves about 1 % of it.
   wear::HistoryOptions options{.increment = 0.01 * direct.largest_depth, .steps = 2000};
   options.rate_fraction = 1e-6;
-  const wear::History history = wear::history(result.model.condensed, result.unworn->omega, {},
-                                              steady_options(coarse_scene().solver), options, {});
+  const wear::History history = wear::history({result.model.condensed, {}, steady_options(coarse_scene().solver)}, result.unworn->omega, options, {});
   ASSERT_EQ(history.status, Status::converged);
   const Eigen::VectorXd last = history.depth.row(history.depth.rows() - 1);
   EXPECT_LT((last - direct.depth).cwiseAbs().maxCoeff(), 0.05 * direct.largest_depth);
@@ -249,7 +248,7 @@ TEST(SectionEvaluation, HistoryDecidesWhereTheDirectWornStateIsInDoubt) {
     options.steps = 4000;
     options.finish = false;
     const wear::History history =
-        wear::history(searched.model.condensed, searched.unworn->omega, {}, steady_options(scene.solver), options);
+        wear::history({searched.model.condensed, {}, steady_options(scene.solver)}, searched.unworn->omega, options);
     EXPECT_EQ(history.end, wear::HistoryEnd::worn_out);
     return history.worn_volume(history.cycles.size() - 1);
   };

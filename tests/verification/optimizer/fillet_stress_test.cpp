@@ -5,7 +5,7 @@
 #include <string>
 
 #include "optimizer/evaluator.hpp"
-#include "response/resonance.hpp"
+#include "paths/resonance.hpp"
 
 // The blade's fillet begins where the flank ends. Where that end bears, pressure and stress are singular there and
 // grow with every refinement; the fillet's own stress has a limit.
@@ -18,8 +18,7 @@ FilletStress blade_fillet(Scene scene, int flank_elements) {
   scene.solver.harmonics = 1;
   const CandidateModel model = ModelBuilder(scene).build(scene);
   EXPECT_TRUE(model.converged()) << model.status;
-  const response::Resonance unworn = response::resonance(
-      model.condensed, model.reduction.glued_frequencies(scene.loading.mode - 1), {}, steady_options(scene.solver));
+  const paths::Resonance unworn = paths::resonance({model.condensed, {}, steady_options(scene.solver)}, model.reduction.glued_frequencies(scene.loading.mode - 1));
   EXPECT_EQ(unworn.status, Status::converged);
   const fem::SectorMesh& sector = model.mesh.sector;
   return fillet_stress(scene, model, unworn.state, sector.blade_fillet_nodes, sector.blade_fillet_share,

@@ -32,7 +32,7 @@ struct Chain {
 
     reduction::FullModel full = fem::testing::sector_model(system, scene.loading.speed, scene.contact.friction);
     const reduction::StaticCondensation still = reduction::condense_statically(full);
-    const response::Preload first = response::quasi_static(std::make_shared<response::CondensedModel>(still.model));
+    const steady::Preload first = steady::quasi_static(std::make_shared<dynamics::CondensedModel>(still.model));
     const Eigen::VectorXd displacement =
         system.constraints.transformation * still.recovery.apply(first.displacement, first.force);
     const Eigen::SparseMatrix<double> geometric =
@@ -42,23 +42,23 @@ struct Chain {
     full.outputs = system.constraints.transformation.transpose() * force;
     full.cosine_force = scene.loading.tip_force * full.outputs;
     reduction = reduction::reduce(full, {.modes = modes, .damping_ratio = scene.loading.damping_ratio});
-    preload = response::quasi_static(std::make_shared<response::CondensedModel>(reduction.model));
+    preload = steady::quasi_static(std::make_shared<dynamics::CondensedModel>(reduction.model));
     reduction.model.contact.slip_origin = preload.slip_origin;
-    const auto condensed = std::make_shared<response::CondensedModel>(reduction.model);
+    const auto condensed = std::make_shared<dynamics::CondensedModel>(reduction.model);
 
-    const response::SteadyOptions steady = steady_options(scene.solver);
-    unworn = response::resonance(condensed, reduction.glued_frequencies(0), {}, steady);
+    const steady::Options steady = steady_options(scene.solver);
+    unworn = paths::resonance({condensed, {}, steady}, reduction.glued_frequencies(0));
     wear::AsymptoteOptions options;
     options.arbitration = "never";
     options.certify_finer = false;
-    worn = wear::asymptote(condensed, unworn.omega, {}, steady, options, &unworn.state);
+    worn = wear::asymptote({condensed, {}, steady}, unworn.omega, options, &unworn.state);
   }
 
   fem::SectorMesh sector;
   fem::SectorSystem system;
   reduction::Reduction reduction;
-  response::Preload preload;
-  response::Resonance unworn;
+  steady::Preload preload;
+  paths::Resonance unworn;
   wear::Asymptote worn;
 };
 

@@ -50,7 +50,7 @@ struct FlankLoad {
 };
 
 /// Of the nodes from `first` on, `across` times `along` of them; moves `first` behind them.
-inline FlankLoad flank_load(const response::Preload& preload, const Eigen::VectorXd& area, Eigen::Index d,
+inline FlankLoad flank_load(const steady::Preload& preload, const Eigen::VectorXd& area, Eigen::Index d,
                             Eigen::Index across, Eigen::Index along, Eigen::Index& first) {
   const Eigen::Index count = across * along;
   FlankLoad load;
@@ -65,7 +65,7 @@ inline FlankLoad flank_load(const response::Preload& preload, const Eigen::Vecto
 }
 
 inline std::vector<FlankLoad> flank_loads(const fem::SectorMesh& sector, const fem::SectorSystem& system,
-                                          const response::Preload& preload) {
+                                          const steady::Preload& preload) {
   std::vector<FlankLoad> loads;
   Eigen::Index first = 0;
   for (const fem::Flank& flank : sector.flanks)

@@ -1,5 +1,5 @@
 // Harmonics and samples chosen for a tolerance, against refined references.
-#include "response/automatic.hpp"
+#include "quality/automatic.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,16 +14,16 @@
 namespace dovetail::verification {
 namespace {
 
-using response::SteadyOptions;
-using response::SteadyState;
+using steady::Options;
+using steady::State;
 
 TEST(AutomaticTruncation, ReachesTheToleranceOfRandomStructures) {
-  const response::AutomaticOptions automatic;
+  const quality::AutomaticOptions automatic;
   int converged = 0, cases = 0, amplitude = 0, energy = 0;
   for (unsigned seed = 201; seed <= 240; ++seed) {
     const RandomContact contact = random_contact(seed);
     const auto model = condensed(contact.model);
-    const response::AutomaticState chosen = automatic_state(model, contact.omega, {}, {}, automatic);
+    const quality::AutomaticState chosen = automatic_state({model, {}, {}}, contact.omega, automatic);
     ASSERT_EQ(chosen.state.status, Status::converged) << seed;
     EXPECT_EQ(chosen.state.displacement.cols(), 2 * chosen.options.harmonics + 1);
     EXPECT_EQ(chosen.status == Status::converged, within(chosen.bars, chosen.state, automatic));
@@ -50,15 +50,15 @@ TEST(AutomaticTruncation, ReachesTheToleranceOfRandomStructures) {
 TEST(AutomaticTruncation, KeepsWhatIsNotItsToChoose) {
   const auto model = condensed(rod(6));
   const SteadyOptions given{.harmonics = 5, .samples = 96};
-  const response::AutomaticState harmonics = automatic_state(model, 2.5, {}, given, {.samples = false});
+  const quality::AutomaticState harmonics = automatic_state({model, {}, given}, 2.5, {.samples = false});
   EXPECT_EQ(harmonics.options.samples, 96);
   EXPECT_GT(harmonics.options.harmonics, 3);
-  const response::AutomaticState samples = automatic_state(model, 2.5, {}, given, {.harmonics = false});
+  const quality::AutomaticState samples = automatic_state({model, {}, given}, 2.5, {.harmonics = false});
   EXPECT_EQ(samples.options.harmonics, 5);
   EXPECT_EQ(samples.state.displacement.cols(), 11);
   // 1e-9 is out of reach; the best within the limits comes with what it reached.
-  const response::AutomaticState capped =
-      automatic_state(model, 2.5, {}, given, {.amplitude_tolerance = 1e-9, .max_harmonics = 7, .max_samples = 256});
+  const quality::AutomaticState capped =
+      automatic_state({model, {}, given}, 2.5, {.amplitude_tolerance = 1e-9, .max_harmonics = 7, .max_samples = 256});
   EXPECT_EQ(capped.status, Status::iteration_limit);
   EXPECT_EQ(capped.state.status, Status::converged);
   EXPECT_EQ(capped.options.harmonics, 7);
@@ -70,7 +70,7 @@ TEST(AutomaticTruncation, HoldsOnTheCurveItWasChosenFor) {
   const auto model = condensed(rod(6));
   std::vector<double> omega;
   for (int i = 0; i <= 30; ++i) omega.push_back(1 + 0.1 * i);
-  const response::AutomaticSettings settings = automatic_settings(model, omega, {}, {});
+  const quality::AutomaticSettings settings = automatic_settings({model, {}, {}}, omega);
   ASSERT_EQ(settings.status, Status::converged);
   ASSERT_FALSE(settings.points.empty());
   ASSERT_EQ(settings.points.size(), settings.bars.size());
@@ -78,7 +78,7 @@ TEST(AutomaticTruncation, HoldsOnTheCurveItWasChosenFor) {
   std::vector<SteadyState> curve, fine;
   double largest = 0;
   for (const double w : omega) {
-    curve.push_back(steady_state(model, w, {}, settings.options));
+    curve.push_back(steady_state({model, {}, settings.options}, w));
     ASSERT_EQ(curve.back().status, Status::converged);
     fine.push_back(fine_reference(model, curve.back(), 63, 4096));
     ASSERT_EQ(fine.back().status, Status::converged);

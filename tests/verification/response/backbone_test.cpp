@@ -1,11 +1,11 @@
-#include "response/backbone.hpp"
+#include "paths/backbone.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "response/continuation.hpp"
+#include "paths/continuation.hpp"
 #include "tests/verification/response/gap_oscillator.hpp"
 
 namespace dovetail::verification {
@@ -23,7 +23,7 @@ int expect_resonances(const Backbone& backbone, const BackboneFamily& family, co
   EXPECT_EQ(backbone.status, Status::converged);
   for (const BackbonePoint& point : backbone.points) {
     const BackboneCase problem = family(point.parameter);
-    const Resonance again = resonance(problem.model, point.omega * 1.003, problem.condition, steady, kTight.resonance);
+    const Resonance again = resonance({problem.model, problem.condition, steady}, point.omega * 1.003, kTight.resonance);
     EXPECT_EQ(again.status, Status::converged) << point.parameter;
     EXPECT_NEAR(point.omega / again.omega, 1, 1e-7) << point.parameter;
     EXPECT_NEAR(point.amplitude / again.amplitude, 1, 1e-8) << point.parameter;
@@ -108,12 +108,12 @@ void expect_maxima(const Backbone& backbone, const BackboneFamily& family, const
     const BackboneCase problem = family(point.parameter);
     for (const double beside : {1 - 1e-6, 1 + 1e-6}) {
       const SteadyState near =
-          steady_state(problem.model, point.omega * beside, problem.condition, steady, point.state.displacement);
+          steady_state({problem.model, problem.condition, steady}, point.omega * beside, point.state.displacement);
       ASSERT_EQ(near.status, Status::converged);
       // The slope of ln A over ln w jumps by up to some 1 / (2 zeta N) = 0.2 between neighbouring maxima.
       EXPECT_LE(near.amplitudes(0), point.amplitude * (1 + 0.2e-6)) << point.parameter << " beside " << beside;
     }
-    const Resonance again = resonance(problem.model, point.omega * 1.003, problem.condition, steady, kTight.resonance);
+    const Resonance again = resonance({problem.model, problem.condition, steady}, point.omega * 1.003, kTight.resonance);
     ASSERT_EQ(again.status, Status::converged);
     EXPECT_NEAR(again.amplitude / point.amplitude, 1, 0.5 / steady.samples) << point.parameter;
   }
@@ -148,7 +148,7 @@ TEST(Backbone, IsTheLargestPeakWhicheverWayItIsFollowed) {
     for (const BackbonePoint& point : found.points) {
       const BackboneCase problem = family(point.parameter);
       double highest = 0;
-      const Branch sweep = continuation(problem.model, 0.8, 4.2, {}, steady, {.largest_frequency_step = 0.005});
+      const Branch sweep = continuation({problem.model, {}, steady}, 0.8, 4.2, {.largest_frequency_step = 0.005});
       ASSERT_EQ(sweep.status, Status::converged);
       for (const ContinuationPoint& at : sweep.points) highest = std::max(highest, at.state.amplitudes(0));
       EXPECT_TRUE(point.checked);

@@ -1,12 +1,12 @@
 #include <gtest/gtest.h>
 
-#include "response/steady_state.hpp"
+#include "steady/steady_state.hpp"
 #include "tests/verification/response/rod.hpp"
 
 namespace dovetail::verification {
 namespace {
 
-using response::SteadyState;
+using steady::State;
 
 // Friction energy 11.4313802832 (2e-8) of the independent time integration. The node lifts off and slips in space, so
 // the series converges algebraically.
@@ -18,7 +18,7 @@ TEST(SingleNode, ApproachesTheKnownFrictionEnergy) {
   const int harmonics[] = {3, 7, 15, 31};
   for (int i = 0; i < 4; ++i) {
     const SteadyState state =
-        steady_state(model, 1.1, {}, {.harmonics = harmonics[i], .samples = 4096, .slip_return = "second_order"});
+        steady_state({model, {}, {.harmonics = harmonics[i], .samples = 4096, .slip_return = "second_order"}}, 1.1);
     ASSERT_EQ(state.status, Status::converged);
     EXPECT_LT(std::abs(state.friction_energy / exact - 1), bounds[i]) << harmonics[i];
     EXPECT_NEAR(state.input_energy, state.damping_energy + state.contact_work, 1e-9 * state.input_energy);
@@ -37,7 +37,7 @@ TEST(DenHartog, ConvergesAtFirstOrderInTheHarmonics) {
     for (int i = 0; i < 2; ++i) {
       const int harmonics = i == 0 ? 7 : 15;
       const SteadyState state =
-          steady_state(condensed(den_hartog(0.4)), known.frequency, {}, {.harmonics = harmonics, .samples = 1024});
+          steady_state({condensed(den_hartog(0.4)), {}, {.harmonics = harmonics, .samples = 1024}}, known.frequency);
       ASSERT_EQ(state.status, Status::converged) << known.frequency << " " << harmonics;
       error[i] = std::abs(state.amplitudes(0) / known.amplitude - 1);
       EXPECT_LT(error[i], 1.5 / harmonics);
@@ -62,7 +62,7 @@ TEST(DenHartog, IsTheLimitOfAStiffContactSpring) {
       model.cosine_force(0, 0) = 1;
       model.output_vectors = Eigen::MatrixXd::Identity(1, 3);
       model.output_names = {"x"};
-      const SteadyState state = steady_state(condensed(model), known.frequency, {}, {.harmonics = 25, .samples = 1024});
+      const SteadyState state = steady_state({condensed(model), {}, {.harmonics = 25, .samples = 1024}}, known.frequency);
       ASSERT_EQ(state.status, Status::converged) << known.frequency;
       const double error = std::abs(state.amplitudes(0) / known.amplitude - 1);
       EXPECT_LT(error, 1.5 / spring + 1.0 / 25);

@@ -1,4 +1,4 @@
-#include "response/continuation.hpp"
+#include "paths/continuation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "response/frequency_response.hpp"
+#include "paths/frequency_response.hpp"
 #include "tests/verification/response/gap_oscillator.hpp"
 
 namespace dovetail::verification {
@@ -64,7 +64,7 @@ TEST_P(Fold, SweepsFromBothSidesLieOnTheBranchAndFallOffAtItsTurns) {
   const Leaning& test = GetParam();
   const double zeta = 0.02;
   const auto model = condensed(gap_oscillator(test.gap, zeta, test.force));
-  const Branch branch = continuation(model, test.from, test.to, {}, kSteady);
+  const Branch branch = continuation({model, {}, kSteady}, test.from, test.to);
   ASSERT_EQ(branch.status, Status::converged);
   EXPECT_EQ(branch.points.back().state.omega, test.to);
   ASSERT_EQ(branch.turns(), 2);
@@ -75,7 +75,7 @@ TEST_P(Fold, SweepsFromBothSidesLieOnTheBranchAndFallOffAtItsTurns) {
     EXPECT_EQ(point.state.penalty_ratio, 1);
     if (point.is_turn) turns.push_back(point.state.omega);
     // Each point solves the equations of its frequency.
-    const SteadyState again = steady_state(model, point.state.omega, {}, kSteady, point.state.displacement);
+    const SteadyState again = steady_state({model, {}, kSteady}, point.state.omega, point.state.displacement);
     ASSERT_EQ(again.status, Status::converged);
     EXPECT_NEAR(again.amplitudes(0), point.state.amplitudes(0), 1e-7);
     if (i > 0) {
@@ -89,7 +89,7 @@ TEST_P(Fold, SweepsFromBothSidesLieOnTheBranchAndFallOffAtItsTurns) {
   for (const bool forward : {true, false}) {
     std::vector<double> omega;
     for (int i = 0; i <= 2000; ++i) omega.push_back(forward ? test.from + i * step : test.to - i * step);
-    const std::vector<SteadyState> sweep = frequency_response(model, omega, {}, kSteady);
+    const std::vector<SteadyState> sweep = frequency_response({model, {}, kSteady}, omega);
     double fall = 0;
     for (std::size_t i = 1; i < sweep.size(); ++i) {
       ASSERT_EQ(sweep[i].status, Status::converged) << sweep[i].omega;
@@ -113,7 +113,7 @@ TEST_P(Fold, TimeIntegrationStaysOnTheOuterBranches) {
   fine.harmonics = 15;
   fine.samples = 1024;
   const auto model = condensed(gap_oscillator(test.gap, zeta, test.force));
-  const Branch branch = continuation(model, test.from, test.to, {}, fine);
+  const Branch branch = continuation({model, {}, fine}, test.from, test.to);
   ASSERT_EQ(branch.status, Status::converged);
   int compared = 0;
   double lower = kInfinity, upper = 0;
@@ -141,12 +141,12 @@ INSTANTIATE_TEST_SUITE_P(GapOscillator, Fold,
 TEST(Continuation, EqualsPlainSolvesWithFriction) {
   const auto model = condensed(rod(5));
   for (const bool up : {true, false}) {
-    const Branch branch = continuation(model, up ? 1.0 : 4.0, up ? 4.0 : 1.0, {}, {.tolerance = 1e-11});
+    const Branch branch = continuation({model, {}, {.tolerance = 1e-11}}, up ? 1.0 : 4.0, up ? 4.0 : 1.0);
     ASSERT_EQ(branch.status, Status::converged);
     EXPECT_EQ(branch.turns(), 0);
     EXPECT_EQ(branch.points.back().state.omega, up ? 4.0 : 1.0);
     for (const ContinuationPoint& point : branch.points) {
-      const SteadyState plain = steady_state(model, point.state.omega, {}, {.tolerance = 1e-11});
+      const SteadyState plain = steady_state({model, {}, {.tolerance = 1e-11}}, point.state.omega);
       ASSERT_EQ(plain.status, Status::converged);
       EXPECT_NEAR(plain.amplitudes(0) / point.state.amplitudes(0), 1, 1e-8) << point.state.omega;
       EXPECT_NEAR(plain.friction_energy, point.state.friction_energy, 1e-8) << point.state.omega;
@@ -158,7 +158,7 @@ TEST(Continuation, ResolvesASharpPeakBetweenItsPoints) {
   // Damping 1e-4, stuck contact: the unknowns of the contact say nothing of the peak, the output does. Its peak is
   // F / (2 k zeta) high, and the largest of the points is within a change of 0.3 of it.
   reduction::ReducedModel still = gap_oscillator(10, 1e-4, 1e-3);
-  const Branch branch = continuation(condensed(still), 0.5, 1.5, {}, kSteady);
+  const Branch branch = continuation({condensed(still), {}, kSteady}, 0.5, 1.5);
   ASSERT_EQ(branch.status, Status::converged);
   double highest = 0;
   for (const ContinuationPoint& point : branch.points) highest = std::max(highest, point.state.amplitudes(0));
@@ -198,7 +198,7 @@ TEST(Continuation, PassesTheZigzagOfFewSamplesAtStiffStops) {
   for (const Case& test : {Case{4, 0.04, 2}, Case{4, 0.01, 2}, Case{20, 0.04, 2}, Case{20, 0.01, 0}})
     for (const bool up : {true, false}) {
       const auto model = condensed(two_stops(test.kn, test.damping));
-      const Branch branch = continuation(model, up ? 0.5 : 4, up ? 4 : 0.5, {}, {.harmonics = 3, .samples = 128});
+      const Branch branch = continuation({model, {}, {.harmonics = 3, .samples = 128}}, up ? 0.5 : 4, up ? 4 : 0.5);
       const bool back = test.turns == 0 && !up;
       SCOPED_TRACE(testing::Message() << test.kn << " " << test.damping << " " << up);
       ASSERT_EQ(branch.status, Status::converged);
@@ -216,7 +216,7 @@ TEST(Continuation, FindsTheSamePeakUpwardsAndDownwardsThroughAZigzag) {
   const auto model = condensed(two_stops(4, 0.04));
   std::array<double, 2> highest{0, 0};
   for (const bool up : {true, false}) {
-    const Branch branch = continuation(model, up ? 0.5 : 4, up ? 4 : 0.5, {}, {.harmonics = 5, .samples = 128});
+    const Branch branch = continuation({model, {}, {.harmonics = 5, .samples = 128}}, up ? 0.5 : 4, up ? 4 : 0.5);
     ASSERT_EQ(branch.status, Status::converged);
     for (const ContinuationPoint& point : branch.points)
       highest[up ? 1 : 0] = std::max(highest[up ? 1 : 0], point.state.amplitudes(0));
@@ -228,7 +228,7 @@ TEST(FrequencyResponse, ReachesAFrequencyOverSmallerSteps) {
   // A step from far below onto the upper branch near its end: from the predictor it does not get there.
   const auto model = condensed(gap_oscillator(1, 0.02, 0.1));
   const std::vector<double> omega{1.0, 1.085};
-  const std::vector<SteadyState> states = frequency_response(model, omega, {}, kSteady);
+  const std::vector<SteadyState> states = frequency_response({model, {}, kSteady}, omega);
   for (const SteadyState& state : states) {
     ASSERT_EQ(state.status, Status::converged);
     EXPECT_GE(state.iterations, 1);

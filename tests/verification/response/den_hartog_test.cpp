@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "response/steady_state.hpp"
+#include "steady/steady_state.hpp"
 #include "tests/verification/response/rod.hpp"
 
 namespace dovetail::verification {
@@ -54,8 +54,7 @@ double extrapolated(const NonStop& motion, int* failed) {
       start = Eigen::MatrixXd::Zero(2, 2 * harmonics + 1);
       start.leftCols(guess.cols()) = guess;
     }
-    const response::SteadyState state = steady_state(condensed(den_hartog(motion.f)), motion.b, {},
-                                                     {.harmonics = harmonics, .samples = 32 * (harmonics + 1)}, start);
+    const steady::State state = steady_state({condensed(den_hartog(motion.f)), {}, {.harmonics = harmonics, .samples = 32 * (harmonics + 1)}}, motion.b, start);
     if (state.status != Status::converged) ++*failed;
     guess = state.displacement;
     amplitude[i] = state.amplitudes(0);

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
-#include "response/steady_state.hpp"
+#include "steady/steady_state.hpp"
 #include "tests/verification/response/rod.hpp"
 
 namespace dovetail::verification {
 namespace {
 
-using response::SteadyState;
+using steady::State;
 
 struct Case {
   const char* name;
@@ -28,7 +28,7 @@ TEST(Energy, BalancesToRounding) {
   for (const Case& at : cases())
     for (const int harmonics : {1, 7, 31}) {
       const SteadyState state =
-          steady_state(condensed(at.model), at.omega, {}, {.harmonics = harmonics, .samples = 512, .tolerance = 1e-13});
+          steady_state({condensed(at.model), {}, {.harmonics = harmonics, .samples = 512, .tolerance = 1e-13}}, at.omega);
       ASSERT_EQ(state.status, Status::converged) << at.name;
       EXPECT_NEAR(state.input_energy, state.damping_energy + state.contact_work, 2e-13 * state.input_energy)
           << at.name << " " << harmonics;
@@ -46,8 +46,7 @@ TEST(Energy, OfSlipConvergesToTheContactWork) {
       const auto model = condensed(at.model);
       Eigen::MatrixXd guess;
       for (const int samples : {256, 1024, 4096}) {
-        const SteadyState state = steady_state(
-            model, at.omega, {}, {.harmonics = harmonics, .samples = samples, .slip_return = "second_order"}, guess);
+        const SteadyState state = steady_state({model, {}, {.harmonics = harmonics, .samples = samples, .slip_return = "second_order"}}, at.omega, guess);
         ASSERT_EQ(state.status, Status::converged) << at.name;
         guess = state.displacement;
         const double error = std::abs(state.friction_energy / state.contact_work - 1);
@@ -65,7 +64,7 @@ TEST(Energy, OfTheSingleNodeConvergesWithHarmonics) {
   double before = 1;
   for (const int harmonics : {3, 7, 15, 31, 63}) {
     const SteadyState state =
-        steady_state(model, 1.1, {}, {.harmonics = harmonics, .samples = 4096, .slip_return = "second_order"});
+        steady_state({model, {}, {.harmonics = harmonics, .samples = 4096, .slip_return = "second_order"}}, 1.1);
     ASSERT_EQ(state.status, Status::converged);
     const double error = std::abs(state.contact_work / exact - 1);
     // Measured slopes of log error over log H: 2.0 to 2.7.

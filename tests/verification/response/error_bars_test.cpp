@@ -1,5 +1,5 @@
 // Error bars against refined references.
-#include "response/error_bars.hpp"
+#include "quality/error_bars.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,9 +16,9 @@
 namespace dovetail::verification {
 namespace {
 
-using response::Quantities;
-using response::SteadyOptions;
-using response::SteadyState;
+using quality::Quantities;
+using steady::Options;
+using steady::State;
 
 /// True errors beside their bars.
 struct Comparison {
@@ -51,9 +51,9 @@ TEST(ErrorBars, HoldTheTrueErrorsOfRandomStructures) {
   for (unsigned seed = 1; seed <= 60; ++seed) {
     const RandomContact contact = random_contact(seed);
     const auto model = condensed(contact.model);
-    const SteadyState state = steady_state(model, contact.omega, {}, {});
+    const SteadyState state = steady_state({model, {}, {}}, contact.omega);
     ASSERT_EQ(state.status, Status::converged) << seed;
-    const response::ErrorBars bars = error_bars(model, state, {}, {});
+    const quality::ErrorBars bars = error_bars({model, {}, {}}, state);
     ASSERT_EQ(bars.status, Status::converged) << seed;
     const SteadyState fine = fine_reference(model, state, 31, 2048);
     ASSERT_EQ(fine.status, Status::converged) << seed;
@@ -82,10 +82,10 @@ TEST(ErrorBars, HoldWhereContactHasMass) {
     const double exact = std::sqrt(v * v - 0.16 * u * u);
     for (const int harmonics : {3, 7}) {
       const SteadyOptions options{.harmonics = harmonics, .samples = 512};
-      const SteadyState state = steady_state(model, omega, {}, options);
+      const SteadyState state = steady_state({model, {}, options}, omega);
       ASSERT_EQ(state.status, Status::converged);
       const double error = std::abs(state.amplitudes(0) - exact);
-      const double bar = error_bars(model, state, {}, options).total.amplitudes(0);
+      const double bar = error_bars({model, {}, options}, state).total.amplitudes(0);
       EXPECT_LE(error, bar) << omega << " " << harmonics;
       EXPECT_LE(bar, 4 * error) << omega << " " << harmonics;
     }
@@ -94,17 +94,17 @@ TEST(ErrorBars, HoldWhereContactHasMass) {
 
 TEST(ErrorBars, AreUnknownWhereARefinementFails) {
   const auto model = condensed(single_node());
-  SteadyState state = steady_state(model, 1.1, {}, {});
+  SteadyState state = steady_state({model, {}, {}}, 1.1);
   ASSERT_EQ(state.status, Status::converged);
-  const response::ErrorBars starved = error_bars(model, state, {}, {.max_iterations = 1, .penalty_cascade = false});
+  const quality::ErrorBars starved = error_bars({model, {}, {.max_iterations = 1, .penalty_cascade = false}}, state);
   EXPECT_NE(starved.status, Status::converged);
   EXPECT_EQ(starved.total.amplitudes(0), kInfinity);
   EXPECT_EQ(starved.total.friction_energy, kInfinity);
   state.status = Status::stalled;
-  const response::ErrorBars failed = error_bars(model, state, {}, {});
+  const quality::ErrorBars failed = error_bars({model, {}, {}}, state);
   EXPECT_EQ(failed.status, Status::stalled);
   EXPECT_EQ(failed.total.wear_volume_rate, kInfinity);
-  EXPECT_THROW(static_cast<void>(error_bars(model, state, {}, {}, {.safety = 0})), InputError);
+  EXPECT_THROW(static_cast<void>(error_bars({model, {}, {}}, state, {.safety = 0})), InputError);
 }
 
 }  // namespace

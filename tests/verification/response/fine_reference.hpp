@@ -2,20 +2,20 @@
 
 #include <memory>
 
-#include "response/refined_state.hpp"
+#include "steady/refined_state.hpp"
 
 namespace dovetail::verification {
 
 /// The state `near` with many harmonics and samples, second-order slip and the local contact stiffness as
 /// pseudo-penalty.
-inline response::SteadyState fine_reference(const std::shared_ptr<const response::CondensedModel>& model,
-                                            const response::SteadyState& near, int harmonics, int samples) {
-  const response::SteadyOptions options{.harmonics = harmonics,
+inline steady::State fine_reference(const std::shared_ptr<const dynamics::CondensedModel>& model,
+                                            const steady::State& near, int harmonics, int samples) {
+  const steady::Options options{.harmonics = harmonics,
                                         .samples = samples,
                                         .penalty_scale = 1 / near.penalty_ratio,
                                         .slip_return = "second_order",
                                         .linearise = false};
-  return refined_state(model, near, {}, options);
+  return refined_state({model, {}, options}, near);
 }
 
 }  // namespace dovetail::verification

@@ -1,8 +1,8 @@
-#include "response/preload.hpp"
+#include "steady/preload.hpp"
 
 #include <gtest/gtest.h>
 
-#include "response/steady_state.hpp"
+#include "steady/steady_state.hpp"
 #include "tests/verification/response/rod.hpp"
 
 namespace dovetail::verification {
@@ -25,7 +25,7 @@ reduction::ReducedModel block(double pull, double gap) {
 
 TEST(Preload, SlidesTheBlockByHand) {
   // Contact force: P - k_N g = 5 - 10 * 0.1 = 4 at the end, but nothing before u_N = 0.1 at a fifth of the load.
-  const response::Preload preload = quasi_static(condensed(block(2, 0.1)), {.steps = 50});
+  const steady::Preload preload = quasi_static(condensed(block(2, 0.1)), {.steps = 50});
   ASSERT_EQ(preload.status, Status::converged);
   EXPECT_NEAR(preload.force(0), 4, 1e-9);
   EXPECT_NEAR(preload.pressure(0), 2, 1e-9);
@@ -37,7 +37,7 @@ TEST(Preload, SlidesTheBlockByHand) {
 }
 
 TEST(Preload, KeepsTheBlockThatNeverReachesItsLimit) {
-  const response::Preload preload = quasi_static(condensed(block(1, -0.2)), {.steps = 10});
+  const steady::Preload preload = quasi_static(condensed(block(1, -0.2)), {.steps = 10});
   ASSERT_EQ(preload.status, Status::converged);
   // Interference 0.2 presses with k_N 0.2 before any load: 7 N at the end, limit 2.1 N.
   EXPECT_NEAR(preload.force(0), 7, 1e-9);
@@ -54,7 +54,7 @@ TEST(Preload, HoldsABodyThatFloatsWithoutContact) {
   model.contact.tangential << 2, 3;
   model.contact.friction << 0.2, 0.2;
   model.static_force << 3, 1, 0.1, 0.1;
-  const response::Preload preload = quasi_static(condensed(model));
+  const steady::Preload preload = quasi_static(condensed(model));
   ASSERT_EQ(preload.status, Status::converged);
   EXPECT_NEAR(preload.force(0), 3, 1e-9);
   EXPECT_NEAR(preload.force(2), 1, 1e-9);
@@ -65,10 +65,10 @@ TEST(Preload, StartsTheVibration) {
   reduction::ReducedModel model = block(2, 0.1);
   model.mass(0, 0) = 1;
   model.cosine_force(0, 0) = 0.2;
-  const response::Preload preload = quasi_static(condensed(model));
+  const steady::Preload preload = quasi_static(condensed(model));
   ASSERT_EQ(preload.status, Status::converged);
   model.contact.slip_origin = preload.slip_origin;
-  const response::SteadyState state = steady_state(condensed(model), 0.5, {}, {});
+  const steady::State state = steady_state({condensed(model), {}, {}}, 0.5);
   ASSERT_EQ(state.status, Status::converged);
   // At the limit a small push moves the block once by 0.2 / 4 and then its own spring holds it: stuck, higher by that.
   EXPECT_EQ(state.wear_rate(0), 0);

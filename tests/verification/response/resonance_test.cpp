@@ -1,9 +1,9 @@
-#include "response/resonance.hpp"
+#include "paths/resonance.hpp"
 
 #include <gtest/gtest.h>
 
-#include "response/continuation.hpp"
-#include "response/frequency_response.hpp"
+#include "paths/continuation.hpp"
+#include "paths/frequency_response.hpp"
 #include "tests/verification/response/gap_oscillator.hpp"
 
 namespace dovetail::verification {
@@ -24,7 +24,7 @@ TEST(Resonance, IsTheClosedFormOfALinearOscillator) {
   model.output_vectors = Eigen::MatrixXd::Identity(1, 3);
   model.output_names = {"x"};
   for (const double start : {200.0, 190.0, 215.0}) {
-    const response::Resonance peak = resonance(condensed(model), start, {}, {});
+    const paths::Resonance peak = resonance({condensed(model), {}, {}}, start);
     ASSERT_EQ(peak.status, Status::converged) << start;
     EXPECT_NEAR(peak.omega / (natural * std::sqrt(1 - 2 * zeta * zeta)), 1, 1e-7);
     EXPECT_NEAR(peak.amplitude * 2 * 2 * natural * natural * zeta * std::sqrt(1 - zeta * zeta), 1, 1e-9);
@@ -36,13 +36,13 @@ TEST(Resonance, MatchesADenseSweepWithFriction) {
   reduction::ReducedModel model = rod(10);
   model.cosine_force *= 0.05 / 0.3;
   const auto prepared = condensed(model);
-  const response::Resonance peak = resonance(prepared, prepared->glued_frequencies()(0), {}, {});
+  const paths::Resonance peak = resonance({prepared, {}, {}}, prepared->glued_frequencies()(0));
   ASSERT_EQ(peak.status, Status::converged);
-  ASSERT_TRUE(peak.state.linearisation);
+  ASSERT_TRUE(peak.state.tangent);
   EXPECT_GT(peak.state.friction_energy, 0);
   std::vector<double> omega;
   for (int i = -20; i <= 20; ++i) omega.push_back(peak.omega * (1 + 2e-5 * i));
-  const std::vector<response::SteadyState> sweep = frequency_response(prepared, omega, {}, {});
+  const std::vector<steady::State> sweep = frequency_response({prepared, {}, {}}, omega);
   for (std::size_t i = 0; i < sweep.size(); ++i) {
     ASSERT_EQ(sweep[i].status, Status::converged);
     // A maximum: nothing higher nearby, beyond rounding of a solve to 1e-9.
@@ -55,17 +55,17 @@ TEST(Resonance, MatchesADenseSweepWithFriction) {
 
 TEST(Resonance, HasAnExactSlope) {
   const auto model = condensed(rod(10));
-  const response::SteadyOptions tight{.harmonics = 5, .tolerance = 1e-13};
+  const steady::Options tight{.harmonics = 5, .tolerance = 1e-13};
   const double omega = 2.6, h = 1e-6;
-  const response::AmplitudeSlope at = amplitude_slope(steady_state(model, omega, {}, tight), 0);
-  const double difference = (steady_state(model, omega + h, {}, tight).amplitudes(0) -
-                             steady_state(model, omega - h, {}, tight).amplitudes(0)) /
+  const paths::AmplitudeSlope at = amplitude_slope(steady_state({model, {}, tight}, omega), 0);
+  const double difference = (steady_state({model, {}, tight}, omega + h).amplitudes(0) -
+                             steady_state({model, {}, tight}, omega - h).amplitudes(0)) /
                             (2 * h);
   EXPECT_NEAR(at.slope, difference, 1e-6 * std::abs(difference));
 }
 
 TEST(Resonance, SaysWhenThereIsNone) {
-  const response::Resonance peak = resonance(condensed(rod(10)), 3.5, {}, {}, {.search_range = 0.02, .sweep_range = 0});
+  const paths::Resonance peak = resonance({condensed(rod(10)), {}, {}}, 3.5, {.search_range = 0.02, .sweep_range = 0});
   EXPECT_EQ(peak.status, Status::no_bracket);
 }
 
@@ -73,16 +73,16 @@ TEST(Resonance, IsFoundFarBelowTheGluedFrequency) {
   // Ten times the excitation of the test above: everything slides, and the peak is a quarter below the glued frequency.
   const auto model = condensed(rod(10));
   const double glued = model->glued_frequencies()(0);
-  const response::Resonance near = resonance(model, glued, {}, {}, {.sweep_range = 0});
+  const paths::Resonance near = resonance({model, {}, {}}, glued, {.sweep_range = 0});
   EXPECT_EQ(near.status, Status::no_bracket);
-  const response::Resonance peak = resonance(model, glued, {}, {});
+  const paths::Resonance peak = resonance({model, {}, {}}, glued);
   ASSERT_EQ(peak.status, Status::converged);
   EXPECT_TRUE(peak.swept);
   EXPECT_LT(peak.omega, 0.8 * glued);
-  EXPECT_TRUE(peak.state.linearisation);
+  EXPECT_TRUE(peak.state.tangent);
   std::vector<double> omega;
   for (double w = 0.3 * glued; w < 1.2 * glued; w += 0.005 * glued) omega.push_back(w);
-  for (const response::SteadyState& state : frequency_response(model, omega, {}, {})) {
+  for (const steady::State& state : frequency_response({model, {}, {}}, omega)) {
     ASSERT_EQ(state.status, Status::converged);
     EXPECT_LE(state.amplitudes(0), peak.amplitude * (1 + 1e-8)) << state.omega;
   }
@@ -91,28 +91,28 @@ TEST(Resonance, IsFoundFarBelowTheGluedFrequency) {
 TEST(Resonance, IsFoundOnABranchThatLeansOver) {
   // From the glued frequency sqrt(2) the response is on the low branch; the maximum is on the other one, near its turn.
   const auto model = condensed(gap_oscillator(1, 0.02, 0.1));
-  const response::SteadyOptions steady{.harmonics = 7, .samples = 256, .tolerance = 1e-11};
-  const response::Resonance peak = resonance(model, model->glued_frequencies()(0), {}, steady);
+  const steady::Options steady{.harmonics = 7, .samples = 256, .tolerance = 1e-11};
+  const paths::Resonance peak = resonance({model, {}, steady}, model->glued_frequencies()(0));
   ASSERT_EQ(peak.status, Status::converged);
-  const response::Branch branch = continuation(model, 0.8, 1.4, {}, steady);
+  const paths::Branch branch = continuation({model, {}, steady}, 0.8, 1.4);
   double highest = 0;
-  for (const response::ContinuationPoint& point : branch.points) highest = std::max(highest, point.state.amplitudes(0));
+  for (const paths::ContinuationPoint& point : branch.points) highest = std::max(highest, point.state.amplitudes(0));
   EXPECT_GE(peak.amplitude, highest);
   EXPECT_LT(peak.amplitude, 1.02 * highest);
 }
 
 TEST(Resonance, IsClimbedWhereStepsInFrequencyFallOffTheBranch) {
   const auto model = condensed(gap_oscillator(1, 0.02, 0.1));
-  const response::SteadyOptions steady{.harmonics = 7, .samples = 256, .tolerance = 1e-11};
-  const response::Branch branch = continuation(model, 1.4, 0.8, {}, steady);
+  const steady::Options steady{.harmonics = 7, .samples = 256, .tolerance = 1e-11};
+  const paths::Branch branch = continuation({model, {}, steady}, 1.4, 0.8);
   double highest = 0;
-  for (const response::ContinuationPoint& point : branch.points) highest = std::max(highest, point.state.amplitudes(0));
+  for (const paths::ContinuationPoint& point : branch.points) highest = std::max(highest, point.state.amplitudes(0));
   int starts = 0;
   for (const double share : {0.5, 0.7, 0.9}) {
-    for (const response::ContinuationPoint& point : branch.points) {
+    for (const paths::ContinuationPoint& point : branch.points) {
       if (point.state.amplitudes(0) < share * highest) continue;
-      const response::Resonance peak =
-          resonance(model, point.state.omega, {}, steady, {.sweep_range = 0}, point.state.displacement);
+      const paths::Resonance peak =
+          resonance({model, {}, steady}, point.state.omega, {.sweep_range = 0}, point.state.displacement);
       ASSERT_EQ(peak.status, Status::converged) << share;
       // Near the fold the sampled branch is a saw whose teeth are a few thousandths high.
       EXPECT_NEAR(peak.amplitude / highest, 1, 0.01);
@@ -128,7 +128,7 @@ TEST(Resonance, OfAnUndampedGluedStructureIsFoundBesideItsPole) {
   reduction::ReducedModel model = rod(3);
   model.damping.setZero();
   const auto prepared = condensed(model);
-  const response::Resonance peak = resonance(prepared, prepared->glued_frequencies()(0), {}, {});
+  const paths::Resonance peak = resonance({prepared, {}, {}}, prepared->glued_frequencies()(0));
   ASSERT_EQ(peak.status, Status::converged);
   EXPECT_GT(peak.state.friction_energy, 0);
 }

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "reduction/reduced_model.hpp"
-#include "response/condensed_model.hpp"
+#include "dynamics/condensed_model.hpp"
 
 namespace dovetail::verification {
 
@@ -97,8 +97,8 @@ inline reduction::ReducedModel den_hartog(double limit) {
   return model;
 }
 
-inline std::shared_ptr<const response::CondensedModel> condensed(const reduction::ReducedModel& model) {
-  return std::make_shared<const response::CondensedModel>(model);
+inline std::shared_ptr<const dynamics::CondensedModel> condensed(const reduction::ReducedModel& model) {
+  return std::make_shared<const dynamics::CondensedModel>(model);
 }
 
 }  // namespace dovetail::verification

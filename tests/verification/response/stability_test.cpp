@@ -1,4 +1,4 @@
-#include "response/stability.hpp"
+#include "stability/stability.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,10 +12,10 @@
 namespace dovetail::verification {
 namespace {
 
-using response::local_stability;
-using response::Stability;
-using response::StabilityVerdict;
-using response::SteadyState;
+using stability::local_stability;
+using stability::Stability;
+using stability::StabilityVerdict;
+using steady::State;
 using Complex = std::complex<double>;
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
@@ -49,7 +49,7 @@ TEST(Stability, OfAGluedRodIsThatOfTheLinearSystem) {
   reduction::ReducedModel model = rod(5);
   model.contact.friction.setConstant(50);
   const double omega = 2.2;
-  const SteadyState state = steady_state(condensed(model), omega, {}, {});
+  const SteadyState state = steady_state({condensed(model), {}, {}}, omega);
   const Stability found = local_stability(model, state);
   ASSERT_EQ(found.verdict, StabilityVerdict::stable) << found.reason;
   EXPECT_EQ(found.neutral, 5);
@@ -66,8 +66,8 @@ TEST(Stability, OfAGluedRodIsThatOfTheLinearSystem) {
 TEST(Stability, OfASeparatedRodIsThatOfTheFreeSystem) {
   const reduction::ReducedModel model = rod(5);
   const double omega = 2.2;
-  const response::ContactCondition far{.wear_depth = Eigen::VectorXd::Constant(5, 100.0)};
-  const Stability found = local_stability(model, steady_state(condensed(model), omega, far, {}));
+  const steady::Condition far{.wear_depth = Eigen::VectorXd::Constant(5, 100.0)};
+  const Stability found = local_stability(model, steady_state({condensed(model), far, {}}, omega));
   ASSERT_EQ(found.verdict, StabilityVerdict::stable) << found.reason;
   EXPECT_EQ(found.neutral, 0);
   const Eigen::MatrixXd free = model.stiffness.topLeftCorner<5, 5>() - 2 * Eigen::MatrixXd::Identity(5, 5);
@@ -80,7 +80,7 @@ TEST(Stability, WithoutDampingIsMarginal) {
   reduction::ReducedModel model = rod(3);
   model.contact.friction.setConstant(50);
   model.damping.setZero();
-  const Stability found = local_stability(model, steady_state(condensed(model), 2.2, {}, {}));
+  const Stability found = local_stability(model, steady_state({condensed(model), {}, {}}, 2.2));
   EXPECT_EQ(found.verdict, StabilityVerdict::marginal) << found.reason;
   EXPECT_NEAR(found.largest_modulus, 1, 1e-11);
 }
@@ -93,7 +93,7 @@ TEST(Stability, SaysWhereItMeansNothing) {
   lifting.static_force(1) = 0.2;
   lifting.cosine_force(0, 1) = 1;
   lifting.damping(1, 1) = lifting.damping(0, 0) = 0.2;
-  SteadyState state = steady_state(condensed(lifting), 0.7, {}, {.harmonics = 7, .tolerance = 1e-2});
+  SteadyState state = steady_state({condensed(lifting), {}, {.harmonics = 7, .tolerance = 1e-2}}, 0.7);
   ASSERT_EQ(state.status, Status::converged);
   ASSERT_TRUE(state.nodes[0].separates && state.nodes[0].carries_load);
   EXPECT_EQ(local_stability(lifting, state).verdict, StabilityVerdict::not_meaningful);
@@ -102,16 +102,16 @@ TEST(Stability, SaysWhereItMeansNothing) {
   reduction::ReducedModel quasi_static = rod(3);
   quasi_static.mass.setZero();
   quasi_static.damping.setZero();
-  state = steady_state(condensed(quasi_static), 1, {}, {});
+  state = steady_state({condensed(quasi_static), {}, {}}, 1);
   ASSERT_EQ(state.status, Status::converged);
   EXPECT_EQ(local_stability(quasi_static, state).verdict, StabilityVerdict::not_meaningful);
 
   const reduction::ReducedModel sliding = den_hartog(0.4);
-  state = steady_state(condensed(sliding), 0.8, {}, {.harmonics = 15});
+  state = steady_state({condensed(sliding), {}, {.harmonics = 15}}, 0.8);
   ASSERT_EQ(state.status, Status::converged);
   EXPECT_EQ(local_stability(sliding, state).verdict, StabilityVerdict::undetermined);
 
-  state.linearisation = nullptr;
+  state.tangent = nullptr;
   EXPECT_EQ(local_stability(sliding, state).verdict, StabilityVerdict::undetermined);
   state.status = Status::stalled;
   EXPECT_FALSE(local_stability(sliding, state).reason.empty());
@@ -203,8 +203,7 @@ TEST(Stability, FindsTheMiddleBranchOfAClearanceUnstable) {
   for (std::size_t i = 0; i < 3; ++i) {
     SteadyState state;
     for (const double sign : {1.0, -1.0}) {
-      state = steady_state(reduced, omega, {}, {.harmonics = harmonics, .samples = 1024},
-                           clearance_guess(sign * starts[i], omega, harmonics));
+      state = steady_state({reduced, {}, {.harmonics = harmonics, .samples = 1024}}, omega, clearance_guess(sign * starts[i], omega, harmonics));
       if (state.status == Status::converged && std::abs(state.amplitudes(0) - starts[i]) < 0.3 * starts[i]) break;
     }
     ASSERT_EQ(state.status, Status::converged);
@@ -341,7 +340,7 @@ TEST_P(NodeInSpace, HasTheMultipliersOfItsPerturbedMotion) {
   model.cosine_force(0, 2) *= c.normal_amplitude;
   model.sine_force(0, 2) *= c.normal_amplitude;
   const SteadyState state =
-      steady_state(condensed(model), c.omega, {}, {.harmonics = 31, .samples = 1024, .slip_return = "second_order"});
+      steady_state({condensed(model), {}, {.harmonics = 31, .samples = 1024, .slip_return = "second_order"}}, c.omega);
   ASSERT_EQ(state.status, Status::converged);
   const Stability found = local_stability(model, state);
   EXPECT_EQ(found.verdict, c.verdict) << found.reason;

@@ -4,13 +4,13 @@
 
 #include <Eigen/Geometry>
 
-#include "response/steady_state.hpp"
+#include "steady/steady_state.hpp"
 #include "tests/verification/response/rod.hpp"
 
 namespace dovetail::verification {
 namespace {
 
-using response::SteadyState;
+using steady::State;
 
 // Two masses of `d` directions on springs, one massless contact node behind a tilted spring at each: pressed by
 // `press`, excited by `force` at the first mass in all directions with different phases.
@@ -72,8 +72,7 @@ void expect_same(reduction::ReducedModel model, double omega, int harmonics, boo
   ASSERT_GT(motion.periods, 0);
   ASSERT_EQ(motion.separates, separates);
   model.contact.slip_origin = motion.slip_end;
-  const SteadyState state = steady_state(condensed(model), omega, {},
-                                         {.harmonics = harmonics, .samples = 4096, .slip_return = "second_order"});
+  const SteadyState state = steady_state({condensed(model), {}, {.harmonics = harmonics, .samples = 4096, .slip_return = "second_order"}}, omega);
   ASSERT_EQ(state.status, Status::converged);
   EXPECT_NEAR(state.input_energy / motion.input_energy, 1, 1e-4);
   EXPECT_NEAR(state.damping_energy / motion.damping_energy, 1, 1e-4);

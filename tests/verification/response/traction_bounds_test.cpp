@@ -1,4 +1,4 @@
-#include "response/traction_bounds.hpp"
+#include "tractions/traction_bounds.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,16 +6,16 @@
 #include <cmath>
 #include <random>
 
-#include "response/slip_origin_sensitivity.hpp"
+#include "tractions/slip_origin_sensitivity.hpp"
 #include "tests/verification/response/rod.hpp"
 
 namespace dovetail::verification {
 namespace {
 
-using response::BoundedQuantity;
-using response::SteadyOptions;
-using response::SteadyState;
-using response::TractionBounds;
+using tractions::BoundedQuantity;
+using steady::Options;
+using steady::State;
+using tractions::TractionBounds;
 
 // Three modes and massless nodes (N, T) on a random elastic body: what a node carries tangentially changes the normal
 // forces of all. The first `stuck` nodes have so much friction that they never slip while |m| is small.
@@ -63,21 +63,21 @@ constexpr double kOmega = 1.2;
 TEST(SlipOrigin, DerivativesMatchDifferences) {
   const reduction::ReducedModel model = elastic(4, 2, 3);
   const auto reduced = condensed(model);
-  const SteadyState state = steady_state(reduced, kOmega, {}, kOptions);
+  const SteadyState state = steady_state({reduced, {}, kOptions}, kOmega);
   ASSERT_EQ(state.status, Status::converged);
   ASSERT_TRUE(state.nodes[0].stuck && state.nodes[1].stuck);
   ASSERT_GT(state.friction_energy, 0);
-  const Eigen::MatrixXd amplitude = response::amplitude_to_slip_origin(state, 0);
-  const Eigen::MatrixXd energy = response::slip_load_to_slip_origin(state, model.contact.friction);
+  const Eigen::MatrixXd amplitude = tractions::amplitude_to_slip_origin(state, 0);
+  const Eigen::MatrixXd energy = tractions::slip_load_to_slip_origin(state, model.contact.friction);
   for (Eigen::Index i = 0; i < 4; ++i) {
     Eigen::MatrixXd step = Eigen::MatrixXd::Zero(4, 1);
     step(i, 0) = 1e-6;
-    const SteadyState above = steady_state(reduced, kOmega, {.slip_origin = step}, kOptions, state.displacement);
-    const SteadyState below = steady_state(reduced, kOmega, {.slip_origin = -step}, kOptions, state.displacement);
+    const SteadyState above = steady_state({reduced, {.slip_origin = step}, kOptions}, kOmega, state.displacement);
+    const SteadyState below = steady_state({reduced, {.slip_origin = -step}, kOptions}, kOmega, state.displacement);
     // Residuals of 1e-11 over the step of 2e-6; the second derivative is O(1).
     EXPECT_NEAR(amplitude(i, 0), (above.amplitudes(0) - below.amplitudes(0)) / 2e-6, 2e-5) << i;
     EXPECT_NEAR(energy(i, 0), (above.friction_energy - below.friction_energy) / 2e-6, 2e-5) << i;
-    const Eigen::MatrixXd predicted = response::response_to_slip_origin(state, step);
+    const Eigen::MatrixXd predicted = tractions::response_to_slip_origin(state, step);
     EXPECT_LT((above.displacement - state.displacement - predicted).norm(), 1e-9) << i;
   }
   EXPECT_GT(amplitude.topRows(2).norm(), 1e-4);
@@ -91,7 +91,7 @@ class OneQuantity : public testing::TestWithParam<BoundedQuantity> {};
 TEST_P(OneQuantity, IsBoundedLikeAGridOverOneTraction) {
   const reduction::ReducedModel model = elastic(3, 1, 6);
   const auto reduced = condensed(model);
-  const TractionBounds bounds = traction_bounds(reduced, kOmega, {}, kOptions, GetParam());
+  const TractionBounds bounds = traction_bounds({reduced, {}, kOptions}, kOmega, GetParam());
   ASSERT_EQ(bounds.status, Status::converged) << bounds.reason;
   ASSERT_EQ(bounds.stuck_nodes, 1);
   double smallest = 1e300, largest = -1e300;
@@ -99,7 +99,7 @@ TEST_P(OneQuantity, IsBoundedLikeAGridOverOneTraction) {
   for (int p = -60; p <= 60; ++p) {
     Eigen::MatrixXd origin = Eigen::MatrixXd::Zero(3, 1);
     origin(0, 0) = 0.02 * p;
-    state = steady_state(reduced, kOmega, {.slip_origin = origin}, kOptions, state.displacement);
+    state = steady_state({reduced, {.slip_origin = origin}, kOptions}, kOmega, state.displacement);
     if (state.status != Status::converged) continue;
     const double value = value_of(model, state, GetParam());
     smallest = std::min(smallest, value);
@@ -116,7 +116,7 @@ TEST_P(OneQuantity, IsBoundedLikeAGridOverOneTraction) {
 TEST_P(OneQuantity, IsBoundedLikeAGridOverTwoTractions) {
   const reduction::ReducedModel model = elastic(3, 1, 3);
   const auto reduced = condensed(model);
-  const TractionBounds bounds = traction_bounds(reduced, kOmega, {}, kOptions, GetParam());
+  const TractionBounds bounds = traction_bounds({reduced, {}, kOptions}, kOmega, GetParam());
   ASSERT_EQ(bounds.status, Status::converged) << bounds.reason;
   ASSERT_EQ(bounds.stuck_nodes, 2);
   double smallest = 1e300, largest = -1e300;
@@ -126,7 +126,7 @@ TEST_P(OneQuantity, IsBoundedLikeAGridOverTwoTractions) {
       Eigen::MatrixXd origin = Eigen::MatrixXd::Zero(3, 1);
       origin(0, 0) = 0.12 * p;
       origin(2, 0) = 0.12 * q;
-      state = steady_state(reduced, kOmega, {.slip_origin = origin}, kOptions, state.displacement);
+      state = steady_state({reduced, {.slip_origin = origin}, kOptions}, kOmega, state.displacement);
       if (state.status != Status::converged) continue;
       const double value = value_of(model, state, GetParam());
       smallest = std::min(smallest, value);
@@ -142,12 +142,12 @@ TEST_P(OneQuantity, IsBoundedLikeAGridOverTwoTractions) {
 TEST_P(OneQuantity, OfRandomTractionsLiesInsideTheBounds) {
   const reduction::ReducedModel model = elastic(10, 7, 2);
   const auto reduced = condensed(model);
-  const TractionBounds bounds = traction_bounds(reduced, kOmega, {}, kOptions, GetParam());
+  const TractionBounds bounds = traction_bounds({reduced, {}, kOptions}, kOmega, GetParam());
   ASSERT_EQ(bounds.status, Status::converged) << bounds.reason;
   EXPECT_GE(bounds.stuck_nodes, 5);
   // What is attained is attained again from the origin reported.
-  for (const response::AttainedValue* end : {&bounds.minimum, &bounds.maximum}) {
-    const SteadyState again = steady_state(reduced, kOmega, {.slip_origin = end->slip_origin}, kOptions);
+  for (const tractions::AttainedValue* end : {&bounds.minimum, &bounds.maximum}) {
+    const SteadyState again = steady_state({reduced, {.slip_origin = end->slip_origin}, kOptions}, kOmega);
     EXPECT_NEAR(value_of(model, again, GetParam()), end->value, 1e-6 * std::abs(end->value));
     EXPECT_LE(end->traction.cwiseAbs().maxCoeff(), 1 + 1e-9);
   }
@@ -158,7 +158,7 @@ TEST_P(OneQuantity, OfRandomTractionsLiesInsideTheBounds) {
   for (int p = 0; p < 200; ++p) {
     Eigen::MatrixXd origin = Eigen::MatrixXd::Zero(10, 1);
     for (double& value : origin.reshaped()) value = uniform(random);
-    const SteadyState state = steady_state(reduced, kOmega, {.slip_origin = origin}, kOptions);
+    const SteadyState state = steady_state({reduced, {.slip_origin = origin}, kOptions}, kOmega);
     if (state.status != Status::converged) continue;
     ++converged;
     const double value = value_of(model, state, GetParam());
@@ -183,9 +183,9 @@ TEST(TractionBounds, OfAResonanceMatchAGrid) {
   options.slip_return = "first_order";
   const reduction::ReducedModel model = elastic(3, 1, 6, 0.18);
   const auto reduced = condensed(model);
-  const double start = response::CondensedModel(model).glued_frequencies()(0);
-  const TractionBounds frequency = traction_bounds(reduced, start, {}, options, BoundedQuantity::resonance_frequency);
-  const TractionBounds amplitude = traction_bounds(reduced, start, {}, options, BoundedQuantity::resonance_amplitude);
+  const double start = dynamics::CondensedModel(model).glued_frequencies()(0);
+  const TractionBounds frequency = traction_bounds({reduced, {}, options}, start, BoundedQuantity::resonance_frequency);
+  const TractionBounds amplitude = traction_bounds({reduced, {}, options}, start, BoundedQuantity::resonance_amplitude);
   ASSERT_EQ(frequency.status, Status::converged) << frequency.reason;
   ASSERT_GE(frequency.stuck_nodes, 1);
   ASSERT_EQ(amplitude.status, Status::converged) << amplitude.reason;
@@ -193,8 +193,8 @@ TEST(TractionBounds, OfAResonanceMatchAGrid) {
   for (int p = -10; p <= 10; ++p) {
     Eigen::MatrixXd origin = Eigen::MatrixXd::Zero(3, 1);
     origin(0, 0) = 0.12 * p;
-    const response::Resonance found =
-        resonance(reduced, frequency.nominal.omega, {.slip_origin = origin}, options, {.sweep_range = 0});
+    const paths::Resonance found =
+        resonance({reduced, {.slip_origin = origin}, options}, frequency.nominal.omega, {.sweep_range = 0});
     if (found.status != Status::converged) continue;
     low = std::min(low, found.omega);
     high = std::max(high, found.omega);
@@ -213,7 +213,7 @@ TEST(TractionBounds, OfAResonanceMatchAGrid) {
 TEST(TractionBounds, CloseWhereNormalForcesDoNotFollow) {
   const reduction::ReducedModel model = rod(10);
   for (const BoundedQuantity quantity : {BoundedQuantity::amplitude, BoundedQuantity::friction_energy}) {
-    const TractionBounds bounds = traction_bounds(condensed(model), 2.5, {}, kOptions, quantity);
+    const TractionBounds bounds = traction_bounds({condensed(model), {}, kOptions}, 2.5, quantity);
     ASSERT_EQ(bounds.status, Status::converged) << bounds.reason;
     ASSERT_GT(bounds.stuck_nodes, 0);
     EXPECT_NEAR(bounds.minimum.value, bounds.maximum.value, 1e-8 * bounds.nominal.value);
@@ -223,13 +223,13 @@ TEST(TractionBounds, CloseWhereNormalForcesDoNotFollow) {
 TEST(TractionBounds, SayWhenThereIsNoFamily) {
   reduction::ReducedModel model = rod(3);
   model.contact.friction.setZero();
-  const TractionBounds bounds = traction_bounds(condensed(model), 2.5, {}, kOptions, BoundedQuantity::amplitude);
+  const TractionBounds bounds = traction_bounds({condensed(model), {}, kOptions}, 2.5, BoundedQuantity::amplitude);
   EXPECT_EQ(bounds.status, Status::converged);
   EXPECT_EQ(bounds.stuck_nodes, 0);
   EXPECT_EQ(bounds.solves, 1);
   EXPECT_EQ(bounds.minimum.value, bounds.maximum.value);
   EXPECT_FALSE(bounds.reason.empty());
-  EXPECT_THROW((void)traction_bounds(condensed(model), 2.5, {}, kOptions, BoundedQuantity::amplitude, {.output = 1}),
+  EXPECT_THROW((void)traction_bounds({condensed(model), {}, kOptions}, 2.5, BoundedQuantity::amplitude, {.output = 1}),
                InputError);
 }
 

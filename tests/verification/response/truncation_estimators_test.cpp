@@ -3,24 +3,24 @@
 
 #include <cmath>
 
-#include "response/error_bars.hpp"
-#include "response/penalty_sensitivity.hpp"
+#include "quality/error_bars.hpp"
+#include "quality/penalty_sensitivity.hpp"
 #include "tests/verification/response/fine_reference.hpp"
 #include "tests/verification/response/random_contact.hpp"
 
 namespace dovetail::verification {
 namespace {
 
-using response::SteadyOptions;
-using response::SteadyState;
+using steady::Options;
+using steady::State;
 
 TEST(PenaltySensitivity, VanishesWithMoreHarmonics) {
   const auto model = condensed(rod(10));
   double before = kInfinity, spread_before = kInfinity;
   for (const int harmonics : {3, 7, 15}) {
     const SteadyOptions options{.harmonics = harmonics, .samples = 1024};
-    const SteadyState state = steady_state(model, 2.5, {}, options);
-    const response::PenaltySensitivity found = penalty_sensitivity(model, state, {}, options);
+    const SteadyState state = steady_state({model, {}, options}, 2.5);
+    const quality::PenaltySensitivity found = penalty_sensitivity({model, {}, options}, state);
     ASSERT_EQ(found.status, Status::converged);
     ASSERT_EQ(found.values.size(), 4u);
     // Ratio 1 is the state itself, to the tolerance of the solution.
@@ -39,16 +39,16 @@ TEST(PenaltySensitivity, VanishesWithMoreHarmonics) {
 TEST(PenaltySensitivity, OfAResonanceIsThatOfItsCurve) {
   const RandomContact contact = random_contact(1009);
   const auto model = condensed(contact.model);
-  const response::ResonanceOptions search;
+  const paths::ResonanceOptions search;
   const SteadyOptions options{.samples = 1024};
-  const response::Resonance peak = resonance(model, contact.omega, {}, options, search);
+  const paths::Resonance peak = resonance({model, {}, options}, contact.omega, search);
   ASSERT_EQ(peak.status, Status::converged);
-  const response::ResonanceSensitivity found = penalty_sensitivity(model, peak, {}, options, search);
+  const quality::ResonanceSensitivity found = penalty_sensitivity({model, {}, options}, peak, search);
   ASSERT_EQ(found.status, Status::converged);
   EXPECT_NEAR(found.omega[1], peak.omega, 1e-6 * peak.omega);
   EXPECT_NEAR(found.amplitude[1], peak.amplitude, 1e-6 * peak.amplitude);
   // At a maximum a change of settings acts on the amplitude as at fixed frequency, to first order.
-  const response::PenaltySensitivity fixed = penalty_sensitivity(model, peak.state, {}, options);
+  const quality::PenaltySensitivity fixed = penalty_sensitivity({model, {}, options}, peak.state);
   EXPECT_NEAR(found.amplitude_slope, fixed.slope.amplitudes(0), 0.1 * std::abs(fixed.slope.amplitudes(0)) + 1e-5);
 }
 
@@ -59,7 +59,7 @@ TEST(TruncationEstimators, FallWhileTheTrueErrorGrows) {
   const double exact = 11.4313802832;  // energy per cycle, known to 2e-8
   const auto at = [&](double penalty_scale) {
     options.penalty_scale = penalty_scale;
-    SteadyState state = steady_state(model, 1.1, {}, options);
+    SteadyState state = steady_state({model, {}, options}, 1.1);
     EXPECT_EQ(state.status, Status::converged);
     return state;
   };
@@ -86,11 +86,11 @@ TEST(TruncationEstimators, FallWhileTheTrueErrorGrows) {
 // Where the normal preload is large e_lambda is even smaller than the error: it is relative to the whole force.
 TEST(TruncationEstimators, AreNoErrorBar) {
   const auto model = condensed(rod(10));
-  const SteadyState state = steady_state(model, 2.5, {}, {});
+  const SteadyState state = steady_state({model, {}, {}}, 2.5);
   const SteadyState fine = fine_reference(model, state, 31, 2048);
   const double error = std::abs(state.amplitudes(0) / fine.amplitudes(0) - 1);
   EXPECT_GT(error, 3 * state.error_force);
-  const response::ErrorBars bars = error_bars(model, state, {}, {});
+  const quality::ErrorBars bars = error_bars({model, {}, {}}, state);
   EXPECT_LE(error * fine.amplitudes(0), bars.total.amplitudes(0));
 }
 

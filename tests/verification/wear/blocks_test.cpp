@@ -12,11 +12,11 @@
 namespace dovetail::wear {
 namespace {
 
-const response::SteadyOptions kSteady{.harmonics = 3, .samples = 64};
+const steady::Options kSteady{.harmonics = 3, .samples = 64};
 constexpr AsymptoteOptions kOptions{.rate_threshold = 0.0};
 
-std::shared_ptr<const response::CondensedModel> condensed(const scenes::Block& data) {
-  return std::make_shared<const response::CondensedModel>(scenes::block(data));
+std::shared_ptr<const dynamics::CondensedModel> condensed(const scenes::Block& data) {
+  return std::make_shared<const dynamics::CondensedModel>(scenes::block(data));
 }
 
 class RandomBlock : public testing::TestWithParam<unsigned> {};
@@ -24,7 +24,7 @@ class RandomBlock : public testing::TestWithParam<unsigned> {};
 // Ever finer histories converge to the direct answer, first order in the largest increment.
 TEST_P(RandomBlock, HistoriesConvergeToTheAsymptote) {
   const auto model = condensed(scenes::random_block(GetParam()));
-  const Asymptote worn = asymptote(model, 1.0, {}, kSteady, kOptions);
+  const Asymptote worn = asymptote({model, {}, kSteady}, 1.0, kOptions);
   ASSERT_EQ(worn.verdict, Verdict::asymptote) << to_string(worn.status);
   ASSERT_GT(worn.largest_depth, 0.0);
   RecordProperty("released", static_cast<int>(std::count(worn.released.begin(), worn.released.end(), true)));
@@ -34,9 +34,7 @@ TEST_P(RandomBlock, HistoriesConvergeToTheAsymptote) {
   EXPECT_LT(worn.certificate, 1e-6);
   double error = 0.0;
   for (double fraction : {0.1, 0.02, 0.005}) {
-    const History run = history(
-        model, 1.0, {}, kSteady,
-        {.increment = fraction * worn.largest_depth, .steps = 3000, .rate_fraction = 1e-4, .rate_threshold = 0.0});
+    const History run = history({model, {}, kSteady}, 1.0, {.increment = fraction * worn.largest_depth, .steps = 3000, .rate_fraction = 1e-4, .rate_threshold = 0.0});
     EXPECT_EQ(run.end, HistoryEnd::worn_out) << to_string(run.end) << " " << to_string(run.status);
     const Eigen::VectorXd depth = run.depth.bottomRows(1).transpose();
     error = (depth - worn.depth).cwiseAbs().maxCoeff() / worn.largest_depth;
@@ -55,15 +53,13 @@ TEST(Block, HistoryCanEndDeeperThanTheAsymptote) {
   const auto model = condensed(scenes::random_block(0));
   AsymptoteOptions unasked = kOptions;
   unasked.arbitration = "never";
-  const Asymptote worn = asymptote(model, 1.0, {}, kSteady, unasked);
+  const Asymptote worn = asymptote({model, {}, kSteady}, 1.0, unasked);
   ASSERT_EQ(worn.verdict, Verdict::asymptote);
   EXPECT_EQ(worn.doubt, "reload");
   EXPECT_LT(worn.certificate, 1e-6);
   std::vector<double> volumes;
   for (double fraction : {0.08, 0.04, 0.02}) {
-    const History run = history(
-        model, 1.0, {}, kSteady,
-        {.increment = fraction * worn.largest_depth, .steps = 3000, .rate_fraction = 1e-4, .rate_threshold = 0.0});
+    const History run = history({model, {}, kSteady}, 1.0, {.increment = fraction * worn.largest_depth, .steps = 3000, .rate_fraction = 1e-4, .rate_threshold = 0.0});
     ASSERT_EQ(run.end, HistoryEnd::worn_out);
     volumes.push_back(run.worn_volume[run.worn_volume.size() - 1] / worn.worn_volume);
   }
@@ -78,12 +74,12 @@ scenes::Block stuck_block() {
 }
 
 TEST(Block, WithoutSlipDoesNotWear) {
-  const Asymptote worn = asymptote(condensed(stuck_block()), 1.0, {}, kSteady, kOptions);
+  const Asymptote worn = asymptote({condensed(stuck_block()), {}, kSteady}, 1.0, kOptions);
   EXPECT_EQ(worn.verdict, Verdict::asymptote);
   EXPECT_EQ(worn.depth.maxCoeff(), 0.0);
   EXPECT_EQ(worn.unworn_rate.maxCoeff(), 0.0);
   EXPECT_EQ(worn.passes, 0);
-  const History run = history(condensed(stuck_block()), 1.0, {}, kSteady, {.rate_threshold = 0.0});
+  const History run = history({condensed(stuck_block()), {}, kSteady}, 1.0, {.rate_threshold = 0.0});
   EXPECT_EQ(run.end, HistoryEnd::worn_out);
   EXPECT_EQ(run.worn_volume.size(), 1);
 }
@@ -92,7 +88,7 @@ TEST(Block, SlidingUnderDeadLoadHasNoAsymptote) {
   scenes::Block data = stuck_block();
   data.tangential_load = 2.0 * data.friction * data.normal_load;
   data.tangential_spring = 1.0;
-  const Asymptote worn = asymptote(condensed(data), 1.0, {}, kSteady, kOptions);
+  const Asymptote worn = asymptote({condensed(data), {}, kSteady}, 1.0, kOptions);
   EXPECT_EQ(worn.verdict, Verdict::no_asymptote) << to_string(worn.status);
   EXPECT_TRUE(worn.confirmed_by_history);
   EXPECT_GT(worn.rate.maxCoeff(), 0.0);
@@ -101,13 +97,13 @@ TEST(Block, SlidingUnderDeadLoadHasNoAsymptote) {
 TEST(Block, GapAndInterferenceShiftTheFloorOnly) {
   // The block floats: raising the floor by a constant moves it as a rigid body, and nothing else changes.
   const scenes::Block data = scenes::random_block(1);
-  const Asymptote worn = asymptote(condensed(data), 1.0, {}, kSteady, kOptions);
+  const Asymptote worn = asymptote({condensed(data), {}, kSteady}, 1.0, kOptions);
   ASSERT_GT(worn.worn_volume, 0.0);
   for (double shift : {-2e-3, 2e-3}) {
     reduction::ReducedModel model = scenes::block(data);
     model.contact.gap.array() += shift;
     const Asymptote moved =
-        asymptote(std::make_shared<const response::CondensedModel>(model), 1.0, {}, kSteady, kOptions);
+        asymptote({std::make_shared<const dynamics::CondensedModel>(model), {}, kSteady}, 1.0, kOptions);
     ASSERT_EQ(moved.verdict, Verdict::asymptote);
     // The steady states are solved to 1e-9 of the excitation.
     EXPECT_NEAR(moved.worn_volume, worn.worn_volume, 1e-6 * worn.worn_volume);
@@ -115,23 +111,23 @@ TEST(Block, GapAndInterferenceShiftTheFloorOnly) {
 }
 
 TEST(Block, IsNotAskedWithNodesReleasedAlready) {
-  response::ContactCondition start;
+  steady::Condition start;
   start.released.assign(static_cast<std::size_t>(condensed(stuck_block())->nodes()), 0);
-  EXPECT_NO_THROW((void)asymptote(condensed(stuck_block()), 1.0, start, kSteady, kOptions));
+  EXPECT_NO_THROW((void)asymptote({condensed(stuck_block()), start, kSteady}, 1.0, kOptions));
   start.released[0] = 1;
-  EXPECT_THROW((void)asymptote(condensed(stuck_block()), 1.0, start, kSteady, kOptions), InputError);
+  EXPECT_THROW((void)asymptote({condensed(stuck_block()), start, kSteady}, 1.0, kOptions), InputError);
 }
 
 TEST(Block, HalvesAndReportsStepsThatFail) {
   // With no iterations to speak of, nothing converges: the history says so and invents no state.
-  response::SteadyOptions hasty = kSteady;
+  steady::Options hasty = kSteady;
   hasty.max_iterations = 1;
   hasty.penalty_cascade = false;
-  const History run = history(condensed(scenes::random_block(1)), 1.0, {}, hasty, {.rate_threshold = 0.0});
+  const History run = history({condensed(scenes::random_block(1)), {}, hasty}, 1.0, {.rate_threshold = 0.0});
   EXPECT_EQ(run.end, HistoryEnd::failed);
   EXPECT_NE(run.status, Status::converged);
   EXPECT_EQ(run.cycles.size(), 0);
-  const Asymptote worn = asymptote(condensed(scenes::random_block(1)), 1.0, {}, hasty, kOptions);
+  const Asymptote worn = asymptote({condensed(scenes::random_block(1)), {}, hasty}, 1.0, kOptions);
   EXPECT_EQ(worn.verdict, Verdict::not_converged);
   EXPECT_NE(worn.status, Status::converged);
 }
@@ -139,8 +135,7 @@ TEST(Block, HalvesAndReportsStepsThatFail) {
 TEST(Block, StopsWhenAsked) {
   int asked = 0;
   const Control control{.stop = [&asked] { return ++asked > 4; }};
-  const History run = history(condensed(scenes::random_block(1)), 1.0, {}, kSteady,
-                              {.increment = 1e-6, .rate_threshold = 0.0}, {}, control);
+  const History run = history({condensed(scenes::random_block(1)), {}, kSteady}, 1.0, {.increment = 1e-6, .rate_threshold = 0.0}, {}, control);
   EXPECT_EQ(run.status, Status::interrupted);
   EXPECT_EQ(run.cycles.size(), 4);  // four states were allowed and are kept
 }

@@ -16,11 +16,11 @@
 namespace dovetail::wear {
 namespace {
 
-std::shared_ptr<const response::CondensedModel> block() {
-  return std::make_shared<const response::CondensedModel>(scenes::block(scenes::random_block(1)));
+std::shared_ptr<const dynamics::CondensedModel> block() {
+  return std::make_shared<const dynamics::CondensedModel>(scenes::block(scenes::random_block(1)));
 }
 
-response::SteadyOptions within_budget(const SharedBudget& budget) {
+steady::Options within_budget(const SharedBudget& budget) {
   return {.harmonics = 3, .samples = 64, .budget = budget};
 }
 
@@ -37,7 +37,7 @@ TEST(WearBudget, OfAnAsymptote) {
   const auto compute = [&](const SharedBudget& budget) {
     AsymptoteOptions options;
     options.rate_threshold = 0.0;
-    return asymptote(model, 1.0, {}, within_budget(budget), options);
+    return asymptote({model, {}, within_budget(budget)}, 1.0, options);
   };
   const Asymptote whole = compute(nullptr);
   ASSERT_EQ(whole.verdict, Verdict::asymptote);
@@ -59,10 +59,10 @@ TEST(WearBudget, OfAnAsymptote) {
 TEST(WearBudget, OfHistories) {
   const auto model = block();
   const auto explicit_one = [&](const SharedBudget& budget) {
-    return history(model, 1.0, {}, within_budget(budget), {.increment = 1e-5, .steps = 300, .rate_threshold = 0.0});
+    return history({model, {}, within_budget(budget)}, 1.0, {.increment = 1e-5, .steps = 300, .rate_threshold = 0.0});
   };
   const auto implicit_one = [&](const SharedBudget& budget) {
-    return as_history(implicit_history(model, 1.0, {}, within_budget(budget), {.rate_threshold = 0.0}), *model);
+    return as_history(implicit_history({model, {}, within_budget(budget)}, 1.0, {.rate_threshold = 0.0}), *model);
   };
   for (const auto& compute : {std::function<History(const SharedBudget&)>(explicit_one),
                               std::function<History(const SharedBudget&)>(implicit_one)}) {

@@ -13,8 +13,8 @@ namespace {
 
 using scenes::Family;
 
-std::shared_ptr<const response::CondensedModel> condensed(Family family, unsigned number) {
-  return std::make_shared<const response::CondensedModel>(scenes::verdict_model(family, number));
+std::shared_ptr<const dynamics::CondensedModel> condensed(Family family, unsigned number) {
+  return std::make_shared<const dynamics::CondensedModel>(scenes::verdict_model(family, number));
 }
 
 AsymptoteOptions options() {
@@ -25,7 +25,7 @@ AsymptoteOptions options() {
 
 TEST(Certificate, HoldsAtFinerSettings) {
   for (const Family family : {Family::crowned, Family::punch, Family::space}) {
-    const Asymptote worn = asymptote(condensed(family, 1), 1.0, {}, scenes::kVerdictSettings, options());
+    const Asymptote worn = asymptote({condensed(family, 1), {}, scenes::kVerdictSettings}, 1.0, options());
     ASSERT_EQ(worn.verdict, Verdict::asymptote);
     EXPECT_EQ(worn.finer.harmonics, 7);
     EXPECT_EQ(worn.finer.samples, 128);
@@ -39,15 +39,15 @@ TEST(Certificate, HoldsAtFinerSettings) {
 // Nodes come to rest in contact that lift off at times: what three harmonics keep from slipping, seven let slip.
 TEST(Certificate, ThatFailsAtFinerSettingsIsADoubt) {
   const auto model = condensed(Family::coupled, 1);
-  const Asymptote worn = asymptote(model, 1.0, {}, scenes::kVerdictSettings, options());
+  const Asymptote worn = asymptote({model, {}, scenes::kVerdictSettings}, 1.0, options());
   ASSERT_EQ(worn.verdict, Verdict::asymptote);
   EXPECT_LT(worn.certificate, 1e-3);
   EXPECT_GT(worn.finer.remaining, 1e-2);
   EXPECT_FALSE(worn.holds_finer);
   EXPECT_EQ(worn.doubt, "finer_settings");
   // The same from a steady state of its own.
-  const response::SteadyState separate =
-      response::steady_state(model, 1.0, {.wear_depth = worn.depth}, finer_settings(scenes::kVerdictSettings));
+  const steady::State separate =
+      steady::steady_state({model, {.wear_depth = worn.depth}, finer_settings(scenes::kVerdictSettings)}, 1.0);
   ASSERT_EQ(separate.status, Status::converged);
   EXPECT_NEAR(worn.finer.remaining, separate.wear_rate.maxCoeff() / worn.unworn_rate.maxCoeff(),
               1e-5 * worn.finer.remaining);
@@ -56,16 +56,16 @@ TEST(Certificate, ThatFailsAtFinerSettingsIsADoubt) {
 TEST(Certificate, IsNotCheckedWhenNotAsked) {
   AsymptoteOptions coarse = options();
   coarse.certify_finer = false;
-  const Asymptote worn = asymptote(condensed(Family::coupled, 1), 1.0, {}, scenes::kVerdictSettings, coarse);
+  const Asymptote worn = asymptote({condensed(Family::coupled, 1), {}, scenes::kVerdictSettings}, 1.0, coarse);
   EXPECT_EQ(worn.finer.harmonics, 0);
   EXPECT_NE(worn.doubt, "finer_settings");
 }
 
 TEST(Certificate, SaysWhatCouldNotBeSolved) {
   const auto model = condensed(Family::crowned, 1);
-  const response::SteadyState unworn = response::steady_state(model, 1.0, {}, scenes::kVerdictSettings);
+  const steady::State unworn = steady::steady_state({model, {}, scenes::kVerdictSettings}, 1.0);
   ASSERT_EQ(unworn.status, Status::converged);
-  response::SteadyOptions hasty = finer_settings(scenes::kVerdictSettings);
+  steady::Options hasty = finer_settings(scenes::kVerdictSettings);
   hasty.max_iterations = 1;
   hasty.penalty_cascade = false;
   hasty.max_rescue_iterations = 0;
@@ -78,8 +78,8 @@ TEST(Certificate, SaysWhatCouldNotBeSolved) {
 // The paraboloid, its load and a circular orbit are the same turned by a right angle: so is the wear.
 TEST(SpacePunch, WearsAlikeBothWaysOnACircle) {
   const scenes::SpacePunch data{.side = 7, .first_load = 0.2, .second_load = 0.2};
-  const auto model = std::make_shared<const response::CondensedModel>(scenes::space_punch(data));
-  const Asymptote worn = asymptote(model, 1.0, {}, scenes::kVerdictSettings, options());
+  const auto model = std::make_shared<const dynamics::CondensedModel>(scenes::space_punch(data));
+  const Asymptote worn = asymptote({model, {}, scenes::kVerdictSettings}, 1.0, options());
   ASSERT_EQ(worn.verdict, Verdict::asymptote);
   ASSERT_GT(worn.largest_depth, 0.0);
   for (Eigen::Index i = 0; i < data.side; ++i)

@@ -7,7 +7,7 @@
 
 #include "optimizer/contact_fit.hpp"
 #include "optimizer/evaluator.hpp"
-#include "response/resonance.hpp"
+#include "paths/resonance.hpp"
 #include "wear/asymptote.hpp"
 #include "wear/implicit_history.hpp"
 
@@ -18,7 +18,7 @@ namespace {
 
 struct Worn {
   optimizer::CandidateModel model;
-  response::SteadyOptions steady;
+  steady::Options steady;
   double omega = 0;
   Asymptote direct;
 };
@@ -29,13 +29,12 @@ Worn wear_off(const optimizer::ModelBuilder& builder, optimizer::Scene scene, do
   worn.model = builder.build(scene);
   optimizer::fit_contact(scene, {}, worn.model);
   worn.steady = optimizer::steady_options(scene.solver);
-  const response::Resonance peak = response::resonance(
-      worn.model.condensed, worn.model.reduction.glued_frequencies(scene.loading.mode - 1), {}, worn.steady);
+  const paths::Resonance peak = paths::resonance({worn.model.condensed, {}, worn.steady}, worn.model.reduction.glued_frequencies(scene.loading.mode - 1));
   EXPECT_EQ(peak.status, Status::converged);
   worn.omega = peak.omega;
   AsymptoteOptions options;
   options.arbitration = "never";
-  worn.direct = asymptote(worn.model.condensed, worn.omega, {}, worn.steady, options, &peak.state);
+  worn.direct = asymptote({worn.model.condensed, {}, worn.steady}, worn.omega, options, &peak.state);
   return worn;
 }
 
@@ -54,7 +53,7 @@ TEST(CrownedFlanks, WearAsHistoriesDo) {
     ASSERT_EQ(worn.direct.verdict, Verdict::asymptote);
     // Down to what counts as no wear: where nodes touch at times, rates die out slowly, and below that they creep on.
     const ImplicitHistory past =
-        implicit_history(worn.model.condensed, worn.omega, {}, worn.steady, {}, &worn.direct.unworn);
+        implicit_history({worn.model.condensed, {}, worn.steady}, worn.omega, {}, &worn.direct.unworn);
     ASSERT_EQ(past.end, HistoryEnd::worn_out);
     const Eigen::Index last = past.cycles.size() - 1;
     const Eigen::VectorXd depth = past.depth.row(last).transpose();

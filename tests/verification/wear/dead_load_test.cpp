@@ -17,7 +17,7 @@
 namespace dovetail::wear {
 namespace {
 
-using Model = std::shared_ptr<const response::CondensedModel>;
+using Model = std::shared_ptr<const dynamics::CondensedModel>;
 
 constexpr double kFriction = 0.4, kLoad = 1.0, kArea = 0.5, kWear = 1e-3, kOmega = 0.8;
 
@@ -30,7 +30,7 @@ reduction::ReducedModel with_contact(reduction::ReducedModel model) {
 
 // Den Hartog's oscillator, m = k = F_0 = 1, b = 0.8, x_f = 0.4: x_0 = 2.501787881002, there and back.
 Model in_plane() {
-  return std::make_shared<const response::CondensedModel>(
+  return std::make_shared<const dynamics::CondensedModel>(
       with_contact(scenes::den_hartog(kFriction, kLoad, 0.0, kWear)));
 }
 constexpr double kPlanePath = 4 * 2.501787881002;
@@ -45,7 +45,7 @@ Model in_space() {
   model.cosine_force(0, 1) = 1.0;
   model.sine_force(0, 2) = 1.0;
   model.output_vectors(0, 1) = 1.0;
-  return std::make_shared<const response::CondensedModel>(with_contact(std::move(model)));
+  return std::make_shared<const dynamics::CondensedModel>(with_contact(std::move(model)));
 }
 double space_path() {
   const double radius = std::sqrt(1 - kFriction * kFriction * kLoad * kLoad) / (1 - kOmega * kOmega);
@@ -58,7 +58,7 @@ double closed_form(double path) {
 
 struct Slider {
   Model model;
-  response::SteadyOptions steady;
+  steady::Options steady;
 };
 
 class Sliding : public testing::TestWithParam<bool> {
@@ -69,8 +69,8 @@ class Sliding : public testing::TestWithParam<bool> {
   }
 };
 
-double steady_rate(const Model& model, const response::SteadyOptions& steady) {
-  const Asymptote worn = asymptote(model, kOmega, {}, steady);
+double steady_rate(const Model& model, const steady::Options& steady) {
+  const Asymptote worn = asymptote({model, {}, steady}, kOmega);
   EXPECT_EQ(worn.verdict, Verdict::no_asymptote) << dovetail::to_string(worn.status);
   return worn.rate.size() == 1 ? worn.rate[0] : 0.0;
 }
@@ -93,7 +93,7 @@ TEST(DeadLoad, WearsAtTheRateOfTheCircle) {
 
 TEST_P(Sliding, IsConfirmedByTheHistory) {
   const Slider scene = slider();
-  const Asymptote worn = asymptote(scene.model, kOmega, {}, scene.steady);
+  const Asymptote worn = asymptote({scene.model, {}, scene.steady}, kOmega);
   EXPECT_EQ(worn.verdict, Verdict::no_asymptote) << dovetail::to_string(worn.status);
   EXPECT_EQ(worn.status, Status::converged);
   EXPECT_TRUE(worn.confirmed_by_history);
@@ -103,7 +103,7 @@ TEST_P(Sliding, IsConfirmedByTheHistory) {
 
 TEST_P(Sliding, HasAFiniteScaleOfDepth) {
   const Slider scene = slider();
-  const DepthScale scale = depth_scale(scene.model, kOmega, {}, scene.steady, kFromModel);
+  const DepthScale scale = depth_scale({scene.model, {}, scene.steady}, kOmega, kFromModel);
   EXPECT_EQ(scale.status, Status::converged);
   EXPECT_FALSE(scale.released);
   EXPECT_TRUE(std::isfinite(scale.depth));
@@ -113,17 +113,17 @@ TEST_P(Sliding, HasAFiniteScaleOfDepth) {
 // Every state is solved to 1e-9, and its rate is the first one's.
 TEST_P(Sliding, GivesHistoriesASteadyRate) {
   const Slider scene = slider();
-  const response::SteadyState unworn = response::steady_state(scene.model, kOmega, {}, scene.steady);
+  const steady::State unworn = steady::steady_state({scene.model, {}, scene.steady}, kOmega);
   ASSERT_EQ(unworn.status, Status::converged);
   const double rate = unworn.wear_rate[0];
   const double increment = 0.01 * largest_penetration(*scene.model, unworn);
-  const History run = history(scene.model, kOmega, {}, scene.steady, {.increment = increment});
+  const History run = history({scene.model, {}, scene.steady}, kOmega, {.increment = increment});
   EXPECT_EQ(run.end, HistoryEnd::steady_rate) << to_string(run.end);
   EXPECT_EQ(run.status, Status::converged);
   ASSERT_EQ(run.final_rate.size(), 1);
   EXPECT_NEAR(run.final_rate[0], rate, 1e-7 * rate);
   // Cycles that were asked for are done.
-  const History some = history(scene.model, kOmega, {}, scene.steady, {.increment = increment, .cycles = 10.0});
+  const History some = history({scene.model, {}, scene.steady}, kOmega, {.increment = increment, .cycles = 10.0});
   EXPECT_EQ(some.end, HistoryEnd::cycles);
   EXPECT_NEAR(some.final_depth[0], 10.0 * rate, 1e-7 * 10.0 * rate);
 }

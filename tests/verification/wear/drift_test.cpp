@@ -17,19 +17,19 @@ constexpr double kLoad = 0.5;
 constexpr double kNormal = 2.0;
 constexpr double kTangential = 0.3;
 constexpr double kDamping = 0.1;
-const response::SteadyOptions kSteady{.harmonics = 5, .samples = 128};
-const response::ResonanceOptions kResonance{};
+const steady::Options kSteady{.harmonics = 5, .samples = 128};
+const paths::ResonanceOptions kResonance{};
 
-std::shared_ptr<const response::CondensedModel> oscillator() {
-  return std::make_shared<const response::CondensedModel>(
+std::shared_ptr<const dynamics::CondensedModel> oscillator() {
+  return std::make_shared<const dynamics::CondensedModel>(
       scenes::rubbing_oscillator(kLoad, kNormal, kTangential, kDamping));
 }
 
 TEST(Drift, EndsAtTheFreeOscillator) {
   const auto model = oscillator();
-  const response::Resonance unworn = response::resonance(model, 1.05, {}, kSteady, kResonance);
+  const paths::Resonance unworn = paths::resonance({model, {}, kSteady}, 1.05, kResonance);
   ASSERT_EQ(unworn.status, Status::converged);
-  const Asymptote worn = asymptote(model, unworn.omega, {}, kSteady, {.rate_threshold = 0.0}, &unworn.state);
+  const Asymptote worn = asymptote({model, {}, kSteady}, unworn.omega, {.rate_threshold = 0.0}, &unworn.state);
   ASSERT_EQ(worn.verdict, Verdict::asymptote) << to_string(worn.status);
   EXPECT_NEAR(worn.largest_depth, kLoad / kNormal, 1e-9);  // residual 1e-9 of a force 0.1, over k_n = 2
   EXPECT_FALSE(worn.confirmed_by_history);
@@ -44,11 +44,11 @@ TEST(Drift, EndsAtTheFreeOscillator) {
 
 TEST(Drift, IsFollowedByTheHistory) {
   const auto model = oscillator();
-  const response::Resonance unworn = response::resonance(model, 1.05, {}, kSteady, kResonance);
+  const paths::Resonance unworn = paths::resonance({model, {}, kSteady}, 1.05, kResonance);
   ASSERT_EQ(unworn.status, Status::converged);
   const HistoryOptions options{
       .increment = 0.01, .steps = 100, .rate_fraction = 1e-3, .rate_threshold = 0.0, .follow = "resonance"};
-  const History run = history(model, unworn.omega, {}, kSteady, options, kResonance);
+  const History run = history({model, {}, kSteady}, unworn.omega, options, kResonance);
   EXPECT_EQ(run.status, Status::converged);
   EXPECT_EQ(run.end, HistoryEnd::worn_out);
   const Eigen::Index last = run.cycles.size() - 1;

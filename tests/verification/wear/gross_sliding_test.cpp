@@ -13,15 +13,15 @@
 namespace dovetail::wear {
 namespace {
 
-using Model = std::shared_ptr<const response::CondensedModel>;
+using Model = std::shared_ptr<const dynamics::CondensedModel>;
 
-const response::SteadyOptions kSteady{.harmonics = 3, .samples = 64};
+const steady::Options kSteady{.harmonics = 3, .samples = 64};
 
 Model punch(double share, int nodes = 81) {
   scenes::Punch data;
   data.nodes = nodes;
   data.tangential_load = share * data.friction * data.normal_load;
-  return std::make_shared<const response::CondensedModel>(scenes::punch(data));
+  return std::make_shared<const dynamics::CondensedModel>(scenes::punch(data));
 }
 
 AsymptoteOptions settings(const char* arbitration) {
@@ -35,7 +35,7 @@ AsymptoteOptions settings(const char* arbitration) {
 TEST(GrossSliding, IsMeasuredByWhatBearsAndHowFarItCloses) {
   Bearing before{.needed = true, .share = 1.0, .closing = 0.0};
   for (const double used : {0.2, 0.5, 0.8}) {
-    const Asymptote worn = asymptote(punch(used), 1.0, {}, kSteady, settings("unsettled"));
+    const Asymptote worn = asymptote({punch(used), {}, kSteady}, 1.0, settings("unsettled"));
     ASSERT_EQ(worn.verdict, Verdict::asymptote) << used << ": " << dovetail::to_string(worn.status);
     EXPECT_EQ(worn.decided_by, "release") << used;
     EXPECT_TRUE(worn.bearing.needed);
@@ -49,7 +49,7 @@ TEST(GrossSliding, IsMeasuredByWhatBearsAndHowFarItCloses) {
 TEST(GrossSliding, DoesNotDependOnTheMesh) {
   const auto compression = [](int nodes) {
     const Model model = punch(0.36, nodes);
-    const response::SteadyState state = response::steady_state(model, 1.0, {}, kSteady);
+    const steady::State state = steady::steady_state({model, {}, kSteady}, 1.0);
     EXPECT_EQ(state.status, Status::converged);
     return flank_compression(*model, state);
   };
@@ -59,8 +59,8 @@ TEST(GrossSliding, DoesNotDependOnTheMesh) {
 
 TEST(GrossSliding, IsNotJudgedWhereSpringsHold) {
   // Wear takes all the load away, and the oscillator goes on without.
-  const Model model = std::make_shared<const response::CondensedModel>(scenes::rubbing_oscillator(0.1, 2.0, 1.0, 0.05));
-  const Asymptote worn = asymptote(model, 1.0, {}, kSteady, settings("never"));
+  const Model model = std::make_shared<const dynamics::CondensedModel>(scenes::rubbing_oscillator(0.1, 2.0, 1.0, 0.05));
+  const Asymptote worn = asymptote({model, {}, kSteady}, 1.0, settings("never"));
   EXPECT_EQ(worn.verdict, Verdict::asymptote) << dovetail::to_string(worn.status);
   EXPECT_FALSE(worn.bearing.needed);
 }
@@ -69,11 +69,11 @@ TEST(GrossSliding, IsNotJudgedWhereSpringsHold) {
 // too, when more of its friction is used, and slides for ever.
 TEST(GrossSliding, NeedsTheHistorysWord) {
   for (const double used : {0.94, 0.97}) {
-    const Asymptote alone = asymptote(punch(used), 1.0, {}, kSteady, settings("never"));
+    const Asymptote alone = asymptote({punch(used), {}, kSteady}, 1.0, settings("never"));
     EXPECT_LT(alone.bearing.share, 0.25);
     EXPECT_EQ(alone.verdict, Verdict::not_converged);
     EXPECT_EQ(alone.status, Status::gross_sliding) << used << ": " << dovetail::to_string(alone.status);
-    const Asymptote judged = asymptote(punch(used), 1.0, {}, kSteady, settings("unsettled"));
+    const Asymptote judged = asymptote({punch(used), {}, kSteady}, 1.0, settings("unsettled"));
     EXPECT_EQ(judged.doubt, "gross_sliding");
     EXPECT_TRUE(judged.confirmed_by_history);
     EXPECT_EQ(judged.status, Status::converged);

@@ -12,12 +12,12 @@
 namespace dovetail::wear {
 namespace {
 
-const response::SteadyOptions kSteady{.harmonics = 3, .samples = 64};
+const steady::Options kSteady{.harmonics = 3, .samples = 64};
 
-using Model = std::shared_ptr<const response::CondensedModel>;
+using Model = std::shared_ptr<const dynamics::CondensedModel>;
 
 Model block(unsigned number) {
-  return std::make_shared<const response::CondensedModel>(scenes::block(scenes::random_block(number)));
+  return std::make_shared<const dynamics::CondensedModel>(scenes::block(scenes::random_block(number)));
 }
 
 Eigen::VectorXd last_depth(const ImplicitHistory& run) {
@@ -35,9 +35,9 @@ AsymptoteOptions alone() {
 TEST(ImplicitHistory, EndsInTheWornState) {
   for (unsigned number : {1u, 2u, 3u, 4u, 5u}) {
     const Model model = block(number);
-    const Asymptote direct = asymptote(model, 1.0, {}, kSteady, alone());
+    const Asymptote direct = asymptote({model, {}, kSteady}, 1.0, alone());
     ASSERT_EQ(direct.verdict, Verdict::asymptote);
-    const ImplicitHistory run = implicit_history(model, 1.0, {}, kSteady, {.rate_threshold = 0.0});
+    const ImplicitHistory run = implicit_history({model, {}, kSteady}, 1.0, {.rate_threshold = 0.0});
     ASSERT_EQ(run.end, HistoryEnd::worn_out) << to_string(run.end);
     EXPECT_TRUE(run.finished);
     const double error = (last_depth(run) - direct.depth).cwiseAbs().maxCoeff() / direct.largest_depth;
@@ -54,21 +54,20 @@ TEST(ImplicitHistory, FollowsThePathOfExplicitOnes) {
   const Model model = block(0);
   const auto volume = [&](double tolerance) {
     const ImplicitHistory run =
-        implicit_history(model, 1.0, {}, kSteady, {.tolerance = tolerance, .rate_threshold = 0.0});
+        implicit_history({model, {}, kSteady}, 1.0, {.tolerance = tolerance, .rate_threshold = 0.0});
     EXPECT_EQ(run.end, HistoryEnd::worn_out);
     return run.worn_volume[run.worn_volume.size() - 1];
   };
   const double fine = volume(2e-5);
   EXPECT_NEAR(volume(2e-4), fine, 1e-3 * fine);
   const History run =
-      history(model, 1.0, {}, kSteady,
-              {.increment = 0.004 * 3.04e-4, .steps = 3000, .rate_fraction = 1e-5, .rate_threshold = 0.0});
+      history({model, {}, kSteady}, 1.0, {.increment = 0.004 * 3.04e-4, .steps = 3000, .rate_fraction = 1e-5, .rate_threshold = 0.0});
   ASSERT_EQ(run.end, HistoryEnd::worn_out);
   EXPECT_NEAR(run.final_volume, fine, 4e-3 * fine);
 }
 
 TEST(ImplicitHistory, NeverGivesDepthBack) {
-  const ImplicitHistory run = implicit_history(block(6), 1.0, {}, kSteady, {.rate_threshold = 0.0});
+  const ImplicitHistory run = implicit_history({block(6), {}, kSteady}, 1.0, {.rate_threshold = 0.0});
   ASSERT_EQ(run.end, HistoryEnd::worn_out);
   for (Eigen::Index i = 1; i < run.depth.rows(); ++i) {
     EXPECT_GE((run.depth.row(i) - run.depth.row(i - 1)).minCoeff(), 0.0) << i;
@@ -80,13 +79,12 @@ TEST(ImplicitHistory, NeverGivesDepthBack) {
 // Closed form: p_N = N_0 - k_n W of a sliding node, W = N_0 / k_n at the end, and on the way p(n) as in
 // den_hartog_wear_test. A local error of 2e-4 over 20 to 40 steps leaves below one per cent.
 TEST(ImplicitHistory, UnloadsARubbingNode) {
-  const Model model = std::make_shared<const response::CondensedModel>(scenes::rubbing_oscillator(0.1, 2.0, 1.0, 0.05));
-  const ImplicitHistory run = implicit_history(model, 1.0, {}, kSteady, {.rate_threshold = 0.0});
+  const Model model = std::make_shared<const dynamics::CondensedModel>(scenes::rubbing_oscillator(0.1, 2.0, 1.0, 0.05));
+  const ImplicitHistory run = implicit_history({model, {}, kSteady}, 1.0, {.rate_threshold = 0.0});
   ASSERT_EQ(run.end, HistoryEnd::worn_out);
   EXPECT_NEAR(last_depth(run)[0], 0.05, 1e-4 * 0.05);
   const Eigen::Index half = run.cycles.size() / 2;
-  const History fine = history(model, 1.0, {}, kSteady,
-                               {.increment = 0.0005 * 0.05,
+  const History fine = history({model, {}, kSteady}, 1.0, {.increment = 0.0005 * 0.05,
                                 .steps = 4000,
                                 .cycles = run.cycles[half],
                                 .rate_fraction = 0.0,
@@ -99,35 +97,35 @@ TEST(ImplicitHistory, SaysThatItStoppedOrFailed) {
   int asked = 0;
   const Control control{.stop = [&asked] { return ++asked > 5; }};
   const ImplicitHistory stopped =
-      implicit_history(block(1), 1.0, {}, kSteady, {.rate_threshold = 0.0}, nullptr, control);
+      implicit_history({block(1), {}, kSteady}, 1.0, {.rate_threshold = 0.0}, nullptr, control);
   EXPECT_EQ(stopped.end, HistoryEnd::interrupted);
   EXPECT_EQ(stopped.status, Status::interrupted);
   EXPECT_GT(stopped.cycles.size(), 1);
-  response::SteadyOptions hasty = kSteady;
+  steady::Options hasty = kSteady;
   hasty.max_iterations = 1;
   hasty.penalty_cascade = false;
-  const ImplicitHistory failed = implicit_history(block(1), 1.0, {}, hasty, {.rate_threshold = 0.0});
+  const ImplicitHistory failed = implicit_history({block(1), {}, hasty}, 1.0, {.rate_threshold = 0.0});
   EXPECT_EQ(failed.end, HistoryEnd::failed);
   EXPECT_NE(failed.status, Status::converged);
-  EXPECT_THROW((void)implicit_history(block(1), 1.0, {}, kSteady, {.growth = 1.0}), InputError);
-  response::ContactCondition start;
+  EXPECT_THROW((void)implicit_history({block(1), {}, kSteady}, 1.0, {.growth = 1.0}), InputError);
+  steady::Condition start;
   start.released.assign(static_cast<std::size_t>(block(1)->nodes()), 1);
-  EXPECT_THROW((void)implicit_history(block(1), 1.0, start, kSteady), InputError);
+  EXPECT_THROW((void)implicit_history({block(1), start, kSteady}, 1.0), InputError);
 }
 
 // A history stopped after ten steps and resumed is the one that went on, to the accuracy of its states.
 TEST(History, IsResumed) {
   const Model model = block(2);
   const HistoryOptions options{.increment = 4e-6, .steps = 1000, .rate_fraction = 1e-3, .rate_threshold = 0.0};
-  const History whole = history(model, 1.0, {}, kSteady, options);
+  const History whole = history({model, {}, kSteady}, 1.0, options);
   ASSERT_EQ(whole.end, HistoryEnd::worn_out);
   HistoryOptions some = options;
   some.steps = 10;
-  const History first = history(model, 1.0, {}, kSteady, some);
+  const History first = history({model, {}, kSteady}, 1.0, some);
   ASSERT_EQ(first.end, HistoryEnd::steps);
   const Resumption next = resume(first, {}, options);
   EXPECT_EQ(next.options.start_cycles, first.cycles[10]);
-  const History second = history(model, next.omega, next.start, kSteady, next.options);
+  const History second = history({model, next.start, kSteady}, next.omega, next.options);
   EXPECT_EQ(second.end, HistoryEnd::worn_out);
   EXPECT_EQ(second.cycles.size() + 10, whole.cycles.size());
   EXPECT_NEAR(second.cycles[second.cycles.size() - 1], whole.cycles[whole.cycles.size() - 1],
@@ -139,15 +137,15 @@ TEST(History, IsResumed) {
 // again is the last state, to 1e-10.
 TEST(ImplicitHistory, IsResumed) {
   const Model model = block(2);
-  const History whole = as_history(implicit_history(model, 1.0, {}, kSteady), *model);
+  const History whole = as_history(implicit_history({model, {}, kSteady}, 1.0), *model);
   ASSERT_EQ(whole.end, HistoryEnd::worn_out);
-  const History first = as_history(implicit_history(model, 1.0, {}, kSteady, {.steps = 6}), *model);
+  const History first = as_history(implicit_history({model, {}, kSteady}, 1.0, {.steps = 6}), *model);
   ASSERT_EQ(first.end, HistoryEnd::steps);
   const Resumption next = resume(first, {}, {});
   const ImplicitHistoryOptions options{.start_cycles = next.options.start_cycles,
                                        .reference_rate = next.options.reference_rate};
   const History second =
-      as_history(implicit_history(model, next.omega, next.start, kSteady, options, nullptr, {}, &first), *model);
+      as_history(implicit_history({model, next.start, kSteady}, next.omega, options, nullptr, {}, &first), *model);
   EXPECT_EQ(second.end, HistoryEnd::worn_out);
   ASSERT_EQ(second.cycles.size(), whole.cycles.size());
   EXPECT_LT((second.cycles - whole.cycles).cwiseAbs().maxCoeff(), 1e-8 * whole.cycles.maxCoeff());
@@ -157,13 +155,13 @@ TEST(ImplicitHistory, IsResumed) {
 // With the error controlled, coarse increments lose their overshoot.
 TEST(History, ControlsItsError) {
   const Model model = block(3);
-  const Asymptote direct = asymptote(model, 1.0, {}, kSteady, alone());
+  const Asymptote direct = asymptote({model, {}, kSteady}, 1.0, alone());
   const HistoryOptions coarse{
       .increment = 0.2 * direct.largest_depth, .steps = 2000, .rate_fraction = 1e-3, .rate_threshold = 0.0};
   HistoryOptions controlled = coarse;
   controlled.tolerance = 2e-3;
   const auto error = [&](const HistoryOptions& options) {
-    const History run = history(model, 1.0, {}, kSteady, options);
+    const History run = history({model, {}, kSteady}, 1.0, options);
     EXPECT_EQ(run.end, HistoryEnd::worn_out) << to_string(run.end);
     return (run.final_depth - direct.depth).cwiseAbs().maxCoeff() / direct.largest_depth;
   };
@@ -179,8 +177,8 @@ TEST(History, ControlsItsError) {
 TEST(History, ShowsItsStatesOnTheWay) {
   int seen = 0;
   double deepest = -1.0;
-  const StateObserver observer = [&](int step, double cycles, const response::ContactCondition& condition,
-                                     const response::SteadyState& state) {
+  const StateObserver observer = [&](int step, double cycles, const steady::Condition& condition,
+                                     const steady::State& state) {
     EXPECT_EQ(step, seen++);
     EXPECT_GE(cycles, 0.0);
     EXPECT_EQ(state.status, Status::converged);
@@ -188,7 +186,7 @@ TEST(History, ShowsItsStatesOnTheWay) {
     deepest = condition.wear_depth.maxCoeff();
   };
   const History run =
-      history(block(2), 1.0, {}, kSteady, {.increment = 4e-6, .steps = 8, .rate_threshold = 0.0}, {}, {}, observer);
+      history({block(2), {}, kSteady}, 1.0, {.increment = 4e-6, .steps = 8, .rate_threshold = 0.0}, {}, {}, observer);
   EXPECT_EQ(run.cycles.size(), seen);
   EXPECT_EQ(seen, 9);
   EXPECT_FALSE(run.finished);

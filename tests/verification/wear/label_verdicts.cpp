@@ -10,7 +10,7 @@ namespace {
 
 void print(Family family, unsigned members) {
   for (unsigned number = 0; number < members; ++number) {
-    const auto model = std::make_shared<const response::CondensedModel>(verdict_model(family, number));
+    const auto model = std::make_shared<const dynamics::CondensedModel>(verdict_model(family, number));
     const Label label = explicit_label(model, 1.0, kVerdictSettings);
     std::printf("%s{Family::%s, %u, Label::%s},\n", label == Label::open ? "// " : "",
                 std::string(to_string(family)).c_str(), number, std::string(to_string(label)).c_str());

@@ -15,7 +15,7 @@
 namespace dovetail::wear {
 namespace {
 
-using Model = std::shared_ptr<const response::CondensedModel>;
+using Model = std::shared_ptr<const dynamics::CondensedModel>;
 
 /// Closed forms for a = R = E* = 1 in the units of scenes::Punch.
 struct Limit {
@@ -44,13 +44,13 @@ constexpr AsymptoteOptions kOptions{.rate_threshold = 0.0, .arbitration = "unset
 
 TEST(Punch, SticksInTheMiddle) {
   const scenes::Punch data{.nodes = 121};
-  const auto model = std::make_shared<const response::CondensedModel>(scenes::punch(data));
-  const response::SteadyState state = response::steady_state(model, 1.0, {}, {.harmonics = 3, .samples = 128});
+  const auto model = std::make_shared<const dynamics::CondensedModel>(scenes::punch(data));
+  const steady::State state = steady::steady_state({model, {}, {.harmonics = 3, .samples = 128}}, 1.0);
   ASSERT_EQ(state.status, Status::converged);
   const double step = 2.0 * data.half_length / (data.nodes - 1);
   double contact = 0.0;
   double stick = 0.0;
-  for (const response::NodeSummary& node : state.nodes) {
+  for (const steady::NodeSummary& node : state.nodes) {
     if (node.carries_load) contact += 0.5 * step;
     if (node.stuck) stick += 0.5 * step;
   }
@@ -61,8 +61,8 @@ TEST(Punch, SticksInTheMiddle) {
 
 TEST(Punch, DissipatesTheEnergyOfPartialSlip) {
   const scenes::Punch data{.nodes = 81};
-  const auto model = std::make_shared<const response::CondensedModel>(scenes::punch(data));
-  const response::SteadyState state = response::steady_state(model, 1.0, {}, {.harmonics = 9, .samples = 256});
+  const auto model = std::make_shared<const dynamics::CondensedModel>(scenes::punch(data));
+  const steady::State state = steady::steady_state({model, {}, {.harmonics = 9, .samples = 256}}, 1.0);
   ASSERT_EQ(state.status, Status::converged);
   const double limit = data.friction * data.normal_load;
   const double s = data.tangential_load / limit;
@@ -76,9 +76,9 @@ TEST(Punch, WearsToTheClosedProfile) {
   for (int nodes : {41, 81, 121}) {
     const scenes::Punch data{.nodes = nodes};
     const reduction::ReducedModel reduced = scenes::punch(data);
-    const auto model = std::make_shared<const response::CondensedModel>(reduced);
+    const auto model = std::make_shared<const dynamics::CondensedModel>(reduced);
     const Limit limit(data);
-    const Asymptote worn = asymptote(model, 1.0, {}, {.harmonics = 3, .samples = 64}, kOptions);
+    const Asymptote worn = asymptote({model, {}, {.harmonics = 3, .samples = 64}}, 1.0, kOptions);
     ASSERT_EQ(worn.verdict, Verdict::asymptote) << to_string(worn.status);
     EXPECT_LT(worn.certificate, 1e-9);
     double shape = 0.0;
@@ -105,8 +105,8 @@ TEST(Punch, EdgesLieBetweenTheNodesWhereStickEnds) {
   for (int i = 0; i < 12; ++i) {
     const scenes::Punch data{.nodes = 61, .tangential_load = 0.17 + 0.004 * i};
     const reduction::ReducedModel reduced = scenes::punch(data);
-    const auto model = std::make_shared<const response::CondensedModel>(reduced);
-    const Asymptote worn = asymptote(model, 1.0, {}, {.harmonics = 9, .samples = 256}, kOptions);
+    const auto model = std::make_shared<const dynamics::CondensedModel>(reduced);
+    const Asymptote worn = asymptote({model, {}, {.harmonics = 9, .samples = 256}}, 1.0, kOptions);
     ASSERT_EQ(worn.verdict, Verdict::asymptote);
     std::vector<std::vector<int>> line(1);
     for (int node = 0; node < data.nodes; ++node) line[0].push_back(node);
@@ -126,15 +126,13 @@ TEST(Punch, EdgesLieBetweenTheNodesWhereStickEnds) {
 
 TEST(Punch, HistoryEndsWhereTheAsymptoteIs) {
   const scenes::Punch data{.nodes = 41};
-  const auto model = std::make_shared<const response::CondensedModel>(scenes::punch(data));
-  const response::SteadyOptions steady{.harmonics = 3, .samples = 64};
-  const Asymptote worn = asymptote(model, 1.0, {}, steady, kOptions);
+  const auto model = std::make_shared<const dynamics::CondensedModel>(scenes::punch(data));
+  const steady::Options steady{.harmonics = 3, .samples = 64};
+  const Asymptote worn = asymptote({model, {}, steady}, 1.0, kOptions);
   ASSERT_EQ(worn.verdict, Verdict::asymptote);
   double error = 0.0;
   for (double fraction : {0.1, 0.02}) {
-    const History run = history(
-        model, 1.0, {}, steady,
-        {.increment = fraction * worn.largest_depth, .steps = 2000, .rate_fraction = 1e-4, .rate_threshold = 0.0});
+    const History run = history({model, {}, steady}, 1.0, {.increment = fraction * worn.largest_depth, .steps = 2000, .rate_fraction = 1e-4, .rate_threshold = 0.0});
     ASSERT_EQ(run.end, HistoryEnd::worn_out) << to_string(run.end);
     const Eigen::VectorXd depth = run.depth.bottomRows(1).transpose();
     error = (depth - worn.depth).cwiseAbs().maxCoeff() / worn.largest_depth;

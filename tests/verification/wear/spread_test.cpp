@@ -5,22 +5,22 @@
 #include <algorithm>
 
 #include "core/errors.hpp"
-#include "response/condensed_model.hpp"
+#include "dynamics/condensed_model.hpp"
 #include "tests/verification/wear/scenes.hpp"
 #include "wear/follow.hpp"
 
 namespace dovetail::wear {
 namespace {
 
-using Model = std::shared_ptr<const response::CondensedModel>;
+using Model = std::shared_ptr<const dynamics::CondensedModel>;
 
-response::SteadyOptions settings() {
+steady::Options settings() {
   return {.harmonics = 3, .samples = 128};
 }
 
-WornEnd worn(const Model& model, const response::ContactCondition& condition) {
+WornEnd worn(const Model& model, const steady::Condition& condition) {
   // The direct answer of every member: one decided by a history would differ from its neighbours by a node.
-  const Asymptote found = asymptote(model, 1.0, condition, settings(), AsymptoteOptions{.arbitration = "unsettled"});
+  const Asymptote found = asymptote({model, condition, settings()}, 1.0, AsymptoteOptions{.arbitration = "unsettled"});
   return {.verdict = found.verdict,
           .status = found.status,
           .volume = found.worn_volume,
@@ -35,8 +35,8 @@ const SpreadRange& range_of(const Spread& spread, const std::string& source) {
 
 class PunchSpread : public testing::Test {
  protected:
-  Model model_ = std::make_shared<const response::CondensedModel>(scenes::punch({.nodes = 41}));
-  response::SteadyState unworn_ = response::steady_state(model_, 1.0, {}, settings());
+  Model model_ = std::make_shared<const dynamics::CondensedModel>(scenes::punch({.nodes = 41}));
+  steady::State unworn_ = steady::steady_state({model_, {}, settings()}, 1.0);
   Spread spread_ = spread(model_, {}, worn(model_, {}), worn, &unworn_);
 };
 
@@ -76,10 +76,10 @@ TEST_F(PunchSpread, TriesResidualTractionsOfStuckNodes) {
 }
 
 TEST(Spread, FailedMembersAreCountedAndKept) {
-  const Model model = std::make_shared<const response::CondensedModel>(scenes::punch({.nodes = 21}));
+  const Model model = std::make_shared<const dynamics::CondensedModel>(scenes::punch({.nodes = 21}));
   const double friction = model->contact().friction(0);
   const WornEnd nominal{.verdict = Verdict::asymptote, .volume = 1, .depth = Eigen::VectorXd::Ones(21)};
-  const auto compute = [&](const Model& changed, const response::ContactCondition&) {
+  const auto compute = [&](const Model& changed, const steady::Condition&) {
     WornEnd end = nominal;
     if (changed->contact().friction(0) < friction) {
       end.verdict = Verdict::not_converged;
@@ -102,15 +102,15 @@ TEST(Spread, FailedMembersAreCountedAndKept) {
 }
 
 TEST(FollowedAsymptote, EndsAtTheResonanceOfItsOwnWornState) {
-  const Model model = std::make_shared<const response::CondensedModel>(scenes::rubbing_oscillator(0.3, 1.0, 0.5, 0.02));
-  const response::Resonance unworn = response::resonance(model, 1.2, {}, settings());
+  const Model model = std::make_shared<const dynamics::CondensedModel>(scenes::rubbing_oscillator(0.3, 1.0, 0.5, 0.02));
+  const paths::Resonance unworn = paths::resonance({model, {}, settings()}, 1.2);
   ASSERT_EQ(unworn.status, Status::converged);
-  const FollowedAsymptote found = followed_asymptote(model, unworn.omega, {}, settings());
+  const FollowedAsymptote found = followed_asymptote({model, {}, settings()}, unworn.omega);
   ASSERT_EQ(found.held.verdict, Verdict::asymptote);
   ASSERT_EQ(found.asymptote.verdict, Verdict::asymptote);
-  response::ContactCondition condition;
+  steady::Condition condition;
   condition.wear_depth = found.asymptote.depth;
-  const response::Resonance worn = response::resonance(model, found.omegas.back(), condition, settings());
+  const paths::Resonance worn = paths::resonance({model, condition, settings()}, found.omegas.back());
   ASSERT_EQ(worn.status, Status::converged);
   // The loop ends at a change below 1e-7; the searches themselves are good to 1e-7.
   EXPECT_NEAR(worn.omega / found.omegas.back(), 1, 3e-7);

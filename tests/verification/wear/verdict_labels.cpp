@@ -29,24 +29,24 @@ std::string_view to_string(Label label) {
   return "unknown";
 }
 
-Label explicit_label(const std::shared_ptr<const response::CondensedModel>& model, double omega,
-                     response::SteadyOptions steady) {
+Label explicit_label(const std::shared_ptr<const dynamics::CondensedModel>& model, double omega,
+                     steady::Options steady) {
   steady.samples *= 4;
-  const response::SteadyState first = response::steady_state(model, omega, {}, steady);
+  const steady::State first = steady::steady_state({model, {}, steady}, omega);
   if (first.status != Status::converged) return Label::open;
   const double penetration = largest_penetration(*model, first);
   AsymptoteOptions direct;
   direct.rate_threshold = 0.0;
   direct.certify_finer = false;
   direct.arbitration = "never";
-  const Asymptote released = asymptote(model, omega, {}, steady, direct, &first);
+  const Asymptote released = asymptote({model, {}, steady}, omega, direct, &first);
   const bool settled = released.verdict == Verdict::asymptote;
   HistoryOptions options{.rate_fraction = 1e-6, .rate_threshold = 0.0, .finish = false};
 
   // Where wear never ends, coarse steps show it first.
   options.increment = 0.1 * penetration;
   options.steps = 1500;
-  const History coarse = history(model, omega, {}, steady, options);
+  const History coarse = history({model, {}, steady}, omega, options);
   if (coarse.end == HistoryEnd::steps) {
     const Eigen::Index last = coarse.rate.rows() - 1;
     const double level = coarse.rate.row(last).maxCoeff() / coarse.rate.row(last / 2).maxCoeff();
@@ -59,7 +59,7 @@ Label explicit_label(const std::shared_ptr<const response::CondensedModel>& mode
   options.steps = 12000;
   const auto away = [&](double increment) {
     options.increment = increment * scale;
-    const History run = history(model, omega, {}, steady, options);
+    const History run = history({model, {}, steady}, omega, options);
     if (run.end != HistoryEnd::worn_out) return std::nan("");
     return (run.final_depth - released.depth).cwiseAbs().maxCoeff() /
            std::max(released.largest_depth, run.final_depth.maxCoeff());

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string_view>
 
-#include "response/steady_state.hpp"
+#include "steady/steady_state.hpp"
 #include "verdict_scenes.hpp"
 
 namespace dovetail::wear::scenes {
@@ -22,7 +22,7 @@ enum class Label {
 /// have to agree, the finer one by 0.3 % of the depth beyond the limit, which is more than a node of it overshoots by.
 /// Rates level out when the largest changes by less than 1e-3 over the second half of 1500 steps of a tenth of the
 /// largest penetration.
-[[nodiscard]] Label explicit_label(const std::shared_ptr<const response::CondensedModel>& model, double omega,
-                                   response::SteadyOptions steady);
+[[nodiscard]] Label explicit_label(const std::shared_ptr<const dynamics::CondensedModel>& model, double omega,
+                                   steady::Options steady);
 
 }  // namespace dovetail::wear::scenes

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "response/options.hpp"
+#include "steady/options.hpp"
 #include "scenes.hpp"
 
 namespace dovetail::wear::scenes {
@@ -25,7 +25,7 @@ enum class Family {
 [[nodiscard]] std::string_view to_string(Family family);
 
 /// What verdicts about them are given with.
-inline const response::SteadyOptions kVerdictSettings{.harmonics = 3, .samples = 64};
+inline const steady::Options kVerdictSettings{.harmonics = 3, .samples = 64};
 
 [[nodiscard]] Block verdict_block(Family family, unsigned number);
 [[nodiscard]] reduction::ReducedModel verdict_model(Family family, unsigned number);

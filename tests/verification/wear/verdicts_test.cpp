@@ -28,10 +28,10 @@ constexpr Labelled kScenes[] = {
 #include "verdict_labels.inc"
 };
 
-const response::SteadyOptions& kSteady = scenes::kVerdictSettings;
+const steady::Options& kSteady = scenes::kVerdictSettings;
 
-std::shared_ptr<const response::CondensedModel> condensed(Family family, unsigned number) {
-  return std::make_shared<const response::CondensedModel>(scenes::verdict_model(family, number));
+std::shared_ptr<const dynamics::CondensedModel> condensed(Family family, unsigned number) {
+  return std::make_shared<const dynamics::CondensedModel>(scenes::verdict_model(family, number));
 }
 
 AsymptoteOptions settings(const char* arbitration) {
@@ -45,7 +45,7 @@ class Verdicts : public testing::TestWithParam<Labelled> {};
 
 TEST_P(Verdicts, AreThoseOfTheHistory) {
   const auto [family, number, label] = GetParam();
-  const Asymptote worn = asymptote(condensed(family, number), 1.0, {}, kSteady, settings("auto"));
+  const Asymptote worn = asymptote({condensed(family, number), {}, kSteady}, 1.0, settings("auto"));
   RecordProperty("doubt", worn.doubt);
   RecordProperty("jacobians", worn.jacobians);
   RecordProperty("arbitration_jacobians", worn.arbitration_jacobians);
@@ -69,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(Labelled, Verdicts, testing::ValuesIn(kScenes), [](cons
 // Labelled by construction: loaded far below friction without a crown nothing slips.
 TEST(Verdict, IsTrivialWherePressedBlocksStick) {
   for (unsigned number = 0; number < 8; ++number) {
-    const Asymptote worn = asymptote(condensed(Family::pressed, number), 1.0, {}, kSteady, settings("auto"));
+    const Asymptote worn = asymptote({condensed(Family::pressed, number), {}, kSteady}, 1.0, settings("auto"));
     EXPECT_EQ(worn.verdict, Verdict::asymptote) << number;
     EXPECT_EQ(worn.worn_volume, 0.0) << number;
     EXPECT_EQ(worn.doubt, "") << number;
@@ -81,11 +81,11 @@ TEST(Verdict, OfAnOscillatorFollowsFromItsNormalSpring) {
   for (const double load : {0.05, 0.1, 0.2})
     for (const double omega : {0.8, 1.0, 1.3}) {
       const auto model =
-          std::make_shared<const response::CondensedModel>(scenes::rubbing_oscillator(load, 2.0, 1.0, 0.05));
-      const response::SteadyState unworn = response::steady_state(model, omega, {}, kSteady);
+          std::make_shared<const dynamics::CondensedModel>(scenes::rubbing_oscillator(load, 2.0, 1.0, 0.05));
+      const steady::State unworn = steady::steady_state({model, {}, kSteady}, omega);
       ASSERT_EQ(unworn.status, Status::converged);
       if (unworn.wear_rate[0] == 0.0) continue;
-      const Asymptote worn = asymptote(model, omega, {}, kSteady, settings("always"));
+      const Asymptote worn = asymptote({model, {}, kSteady}, omega, settings("always"));
       EXPECT_EQ(worn.verdict, Verdict::asymptote) << load << " " << omega << " " << worn.doubt;
       EXPECT_TRUE(worn.confirmed_by_history);
       // Worn until it sticks or carries nothing, whichever comes first; sliding gets easier as the load falls.

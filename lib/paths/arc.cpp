@@ -1,0 +1,49 @@
+#include "paths/arc.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dovetail::paths {
+namespace {
+
+Eigen::VectorXd penalty_of(const steady::Summary& state) {
+  const Eigen::Index nodes = std::max<Eigen::Index>(state.penalty.normal.size(), 1);
+  return state.penalty.by_dof(state.displacement.rows() / nodes);
+}
+
+}  // namespace
+
+double ArcMetric::inner(const BranchVector& a, const BranchVector& b) const {
+  const Eigen::VectorXd squares = displacement_weight.cwiseAbs2();
+  return (squares.asDiagonal() * a.displacement).cwiseProduct(b.displacement).sum() +
+         omega_weight * omega_weight * a.omega * b.omega;
+}
+
+double ArcMetric::length(const BranchVector& a) const {
+  return std::sqrt(inner(a, a));
+}
+
+BranchVector ArcMetric::forwards(const Eigen::MatrixXd& like, double sign) const {
+  return {.displacement = Eigen::MatrixXd::Zero(like.rows(), like.cols()), .omega = sign / omega_weight};
+}
+
+ArcMetric::Row ArcMetric::row(const BranchVector& a) const {
+  const Eigen::MatrixXd weighted = displacement_weight.cwiseAbs2().asDiagonal() * a.displacement;
+  return {.displacement = weighted.reshaped(), .omega = omega_weight * omega_weight * a.omega};
+}
+
+Eigen::MatrixXd penalty_forces(const steady::Summary& state) {
+  return penalty_of(state).asDiagonal() * state.displacement;
+}
+
+double vibrating_force(const steady::Summary& state) {
+  // Contact that is almost stuck does not say how large the vibration is, its forces do.
+  constexpr double kSlip = 0.1;
+  return std::max(vibration(penalty_forces(state)), kSlip * vibration(state.force));
+}
+
+ArcMetric arc_metric(const steady::Summary& state, double force, double omega) {
+  return {.displacement_weight = penalty_of(state) / (force > 0 ? force : 1.0), .omega_weight = 1 / omega};
+}
+
+}  // namespace dovetail::paths

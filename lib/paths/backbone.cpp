@@ -1,0 +1,248 @@
+#include "paths/backbone.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "paths/peak.hpp"
+#include "paths/peak_sweep.hpp"
+
+namespace dovetail::paths {
+namespace {
+
+// A resonance that was found, as a support of the predictor.
+struct Support {
+  double parameter = 0;
+  BranchVector point;
+};
+
+class Tracker {
+ public:
+  Tracker(const BackboneFamily& family, const BackboneOptions& backbone) : family_(family), backbone_(backbone) {}
+
+  BackbonePoint first(double parameter, double omega_start) {
+    omega_start_ = omega_start;
+    BackbonePoint found = searched(parameter, omega_start, {}, backbone_.resonance);
+    check(found, omega_start);
+    return found;
+  }
+
+  // Followed from the point before, then held against the others.
+  BackbonePoint next(double parameter) {
+    const double before = supports_.back().point.omega;
+    BackbonePoint found = followed(parameter);
+    check(found, before);
+    if (found.status == Status::converged || !backbone_.search || backbone_.check_range == 0) return found;
+    BackbonePoint anew = searched(parameter, omega_start_, {}, backbone_.resonance);
+    anew.jacobians += found.jacobians;
+    anew.checking = found.checking;
+    anew.jumped = anew.status == Status::converged;
+    return anew;
+  }
+
+  [[nodiscard]] bool started() const { return !supports_.empty(); }
+
+ private:
+  // Newton from the predictor, over intermediate parameters when the way is too far, then resonance() as a last resort.
+  BackbonePoint followed(double parameter) {
+    BackbonePoint result{.parameter = parameter, .state = {}};
+    double target = parameter;
+    int halvings = 0, jacobians = 0;
+    while (true) {
+      BackbonePoint found = newton(target);
+      jacobians += found.jacobians;
+      if (found.status == Status::converged && target == parameter) {
+        found.intermediate = result.intermediate;
+        found.jacobians = jacobians;
+        return found;
+      }
+      if (found.status == Status::converged) {
+        ++result.intermediate;
+        target = parameter;
+        continue;
+      }
+      if (halvings++ >= backbone_.halvings) {
+        result.status = found.status;
+        break;
+      }
+      target = (target + supports_.back().parameter) / 2;
+    }
+    result.jacobians = jacobians;
+    if (!backbone_.search) return result;
+    // Followed, not searched anew: elsewhere there may be the peak of another mode.
+    ResonanceOptions near = backbone_.resonance;
+    near.sweep_range = 0;
+    const Support& last = supports_.back();
+    BackbonePoint found = searched(parameter, last.point.omega, last.point.displacement, near);
+    found.intermediate = result.intermediate;
+    found.jacobians += jacobians;
+    return found;
+  }
+
+  // Takes the highest peak of the branch around `point` instead of it, when that is higher or the point failed.
+  void check(BackbonePoint& point, double near, int rounds = 3) {
+    if (backbone_.check_range == 0) return;
+    const bool known = point.status == Status::converged;
+    const double middle = known ? point.omega : near;
+    const double low = middle * (1 - backbone_.check_range), high = middle * (1 + backbone_.check_range);
+    // Downwards, upwards when the start is not found there, and far out when there is no peak to be held against.
+    std::vector<std::pair<double, double>> ways{{high, low}, {low, high}};
+    if (!known && backbone_.search) ways.emplace_back(kFar * high, low / kFar);
+    const steady::Joint joint = family_(point.parameter);
+    Resonance swept;
+    for (const auto& [from, to] : ways) {
+      swept = peak_sweep(joint, from, to, backbone_.resonance);
+      point.checking += swept.jacobians;
+      if (swept.status == Status::converged) break;
+    }
+    if (swept.status != Status::converged) return;
+    point.checked = true;
+    // Maxima of the sampled equations lie about one peak, that much different in height.
+    const double noise = 1.0 / joint.options.samples;
+    if (known && swept.amplitude <= point.amplitude * (1 + noise)) return;
+    point.status = Status::converged;
+    point.searched = point.jumped = true;
+    adopt(std::move(swept), point);
+    // Elsewhere the range contains others.
+    constexpr double kMoved = 0.05;
+    if (rounds > 1 && std::abs(point.omega / middle - 1) > kMoved) check(point, point.omega, rounds - 1);
+  }
+
+  BackbonePoint searched(double parameter, double omega_start, const Eigen::MatrixXd& guess,
+                         const ResonanceOptions& search) {
+    Resonance found = resonance(family_(parameter), omega_start, search, guess);
+    BackbonePoint point{.parameter = parameter,
+                        .status = found.status,
+                        .omega = found.omega,
+                        .amplitude = found.amplitude,
+                        .searched = true,
+                        .jacobians = found.jacobians,
+                        .state = {}};
+    if (point.status == Status::converged) adopt(std::move(found), point);
+    return point;
+  }
+
+  void adopt(Resonance found, BackbonePoint& point) {
+    point.omega = found.omega;
+    point.amplitude = found.amplitude;
+    point.error = backbone_.resonance.frequency_tolerance;
+    point.state = std::move(found.state);
+    // A polynomial through the points of another peak, or at another eps, predicts nothing.
+    if (!started() || point.jumped) {
+      supports_.clear();
+      penalty_ratio_ = point.state.penalty_ratio;
+    }
+    keeps_tangents_ = family_(point.parameter).options.linearise;
+    keep({.parameter = point.parameter, .point = {.displacement = point.state.displacement, .omega = point.omega}});
+    last_state_ = point.state;
+    last_state_.tangent.reset();
+    curvature_ = kLinear;
+    width_ = peak_width(point.state, backbone_.resonance.output);
+    if (!keeps_tangents_) point.state.tangent.reset();
+  }
+
+  BackbonePoint newton(double parameter) {
+    const BranchEquations branch(family_(parameter), penalty_ratio_);
+    const ArcMetric metric = peak_metric(last_state_, width_);
+    const PeakOptions peak{.output = backbone_.resonance.output,
+                           .frequency_tolerance = backbone_.resonance.frequency_tolerance,
+                           .max_iterations = backbone_.max_iterations};
+    const BranchVector start = predicted(parameter);
+    const Peak found = find_peak(branch, start, metric, peak, curvature_);
+    BackbonePoint point{.parameter = parameter,
+                        .status = found.status,
+                        .omega = found.at.omega,
+                        .amplitude = found.amplitude,
+                        .error = found.error,
+                        .jacobians = found.iterations,
+                        .state = {}};
+    if (point.status != Status::converged) return point;
+    // A peak this far from where it was expected is another one.
+    constexpr double kElsewhere = 0.5;
+    if (std::abs(found.at.omega / supports_.back().point.omega - 1) > kElsewhere) {
+      point.status = Status::stalled;
+      return point;
+    }
+    point.state = described(branch, found, metric);
+    point.status = point.state.status;
+    if (point.status != Status::converged) return point;
+    keep({.parameter = parameter, .point = found.at});
+    last_state_ = point.state;
+    last_state_.tangent.reset();
+    // The next metric has the width found here as its unit, in which the curvature of a peak hardly varies.
+    curvature_ = found.curvature;
+    constexpr double kNarrower = 0.1, kWider = 10;
+    width_ = std::clamp(found.width, kNarrower * width_, kWider * width_);
+    return point;
+  }
+
+  [[nodiscard]] BranchVector predicted(double parameter) const {
+    // Lagrange's polynomial through the last points, of which none may coincide.
+    BranchVector result = 0 * supports_.back().point;
+    for (std::size_t i = 0; i < supports_.size(); ++i) {
+      double weight = 1;
+      for (std::size_t j = 0; j < supports_.size(); ++j)
+        if (j != i) weight *= (parameter - supports_[j].parameter) / (supports_[i].parameter - supports_[j].parameter);
+      result = result + weight * supports_[i].point;
+    }
+    return result;
+  }
+
+  void keep(Support support) {
+    constexpr std::size_t kSupports = 3;
+    std::erase_if(supports_, [&](const Support& old) { return old.parameter == support.parameter; });
+    supports_.push_back(std::move(support));
+    if (supports_.size() > kSupports) supports_.erase(supports_.begin());
+  }
+
+  static constexpr double kFar = 2;
+  static constexpr double kLinear = -0.5;  // the curvature of a linear peak in its metric
+
+  const BackboneFamily& family_;
+  const BackboneOptions& backbone_;
+  std::vector<Support> supports_;
+  steady::State last_state_;
+  bool keeps_tangents_ = true;
+  double penalty_ratio_ = 1, curvature_ = kLinear, width_ = 0, omega_start_ = 0;
+};
+
+}  // namespace
+
+Backbone backbone(const BackboneFamily& family, std::span<const double> parameters, double omega_start,
+                  const BackboneOptions& backbone_options, const std::function<bool(const BackbonePoint&)>& progress) {
+  std::vector<Violation> found = violations(backbone_options.resonance, "resonance");
+  if (backbone_options.max_iterations < 2)
+    found.push_back({.file = {},
+                     .key = "max_iterations",
+                     .value = std::to_string(backbone_options.max_iterations),
+                     .allowed = "must be >= 2"});
+  if (backbone_options.halvings < 0)
+    found.push_back({.file = {},
+                     .key = "halvings",
+                     .value = std::to_string(backbone_options.halvings),
+                     .allowed = kNonNegative.phrase()});
+  if (!(backbone_options.check_range >= 0 && backbone_options.check_range < 1))
+    found.push_back({.file = {},
+                     .key = "check_range",
+                     .value = shortest(backbone_options.check_range),
+                     .allowed = "must be >= 0 and < 1"});
+  if (!found.empty()) throw InputError(std::move(found));
+  Tracker tracker(family, backbone_options);
+  Backbone result{.status = Status::converged, .points = {}};
+  bool stopped = false;
+  for (const double parameter : parameters) {
+    if (stopped) {
+      result.points.push_back({.parameter = parameter, .status = Status::interrupted, .state = {}});
+      continue;
+    }
+    result.points.push_back(tracker.started() ? tracker.next(parameter) : tracker.first(parameter, omega_start));
+    const BackbonePoint& point = result.points.back();
+    result.jacobians += point.jacobians + point.checking;
+    if (point.status != Status::converged) result.status = point.status;
+    stopped = progress && !progress(point);
+  }
+  if (stopped && result.points.back().status == Status::interrupted) result.status = Status::interrupted;
+  return result;
+}
+
+}  // namespace dovetail::paths

@@ -1,0 +1,53 @@
+#pragma once
+
+#include "paths/branch.hpp"
+
+namespace dovetail::paths {
+
+/// Half the peak-to-peak of one output at a point, and what a direction does to it.
+struct AmplitudeAt {
+  double value = 0;
+  double change = 0;  ///< derivative of the value along the direction
+  double speed = 0;   ///< of all coefficients of the output along the direction, relative to its vibration
+};
+[[nodiscard]] AmplitudeAt amplitude_at(const steady::Point& point, const BranchVector& direction, Eigen::Index output);
+
+struct PeakOptions {
+  int output = 0;
+  double frequency_tolerance = 1e-7;  ///< of omega, relative, > 0
+  int max_iterations = 60;            ///< Jacobians, >= 2
+};
+
+struct Peak {
+  Status status = Status::iteration_limit;
+  BranchVector at;
+  double amplitude = 0;
+  double slope = 0;      ///< change of the amplitude with the arc length, relative to the amplitude
+  double curvature = 0;  ///< second derivative with the arc length, relative; < 0 at a maximum
+  double width = 0;      ///< peak_width there
+  double error = 0;      ///< of omega: the correction that was left or the bracket it is in, relative
+  int iterations = 0;    ///< Jacobians
+  int evaluations = 0;   ///< residuals
+  std::shared_ptr<const steady::Point> point = {};
+};
+
+/// The frequency range in which the output changes by its own size at a converged point: the half width of a linear
+/// peak, rad/s. By its linearisation, which must be there.
+[[nodiscard]] double peak_width(const steady::State& state, Eigen::Index output);
+/// Arc length near a peak: one unit is a change of the contact's vibration by its own size, or of the frequency by
+/// `width`.
+[[nodiscard]] ArcMetric peak_metric(const steady::State& state, double width);
+
+/// Newton on (U, omega) for f = 0 and dA/ds = 0, A the amplitude of one output and s the arc length, from `start` near
+/// the maximum of a branch. Each iteration takes one factorisation of J: the bordered system gives the tangent, the
+/// correction towards the branch and dA/ds; the second derivative comes from successive points, because f is piecewise
+/// smooth and a local one says nothing of the way the contact changes (`curvature` < 0 is the first guess of it, 0:
+/// none). It works through turning points. dA/ds jumps where samples change their contact state, and a maximum at such
+/// a jump is accepted when its bracket is as narrow as the tolerance.
+[[nodiscard]] Peak find_peak(const BranchEquations& branch, const BranchVector& start, const ArcMetric& metric,
+                             const PeakOptions& options, double curvature = -0.5);
+
+/// The steady state at a converged peak, with its tangent unless that is singular.
+[[nodiscard]] steady::State described(const BranchEquations& branch, const Peak& peak, const ArcMetric& metric);
+
+}  // namespace dovetail::paths

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "core/options.hpp"
+
+namespace dovetail::paths {
+
+/// The slopes of the amplitude met on the way to its maximum, by their place on the branch (the distance from the start
+/// along one direction), and where to look next: a secant for the slope, kept inside the bracket of the maximum.
+class Stationarity {
+ public:
+  struct Mark {
+    double place = 0, omega = 0, amplitude = 0, slope = 0;
+  };
+
+  explicit Stationarity(double curvature) : curvature_(curvature) {}
+
+  void add(const Mark& now) {
+    if (now_ && now.place != now_->place) {
+      const double secant = (now.slope - now_->slope) / (now.place - now_->place);
+      if (secant < 0) curvature_ = secant;
+    }
+    now_ = now;
+    if (now.slope > 0 && (!rising_ || now.place > rising_->place)) rising_ = now;
+    if (now.slope <= 0 && (!falling_ || now.place < falling_->place)) falling_ = now;
+    // Another peak, or a fold, can cross the marks: keep the newest one.
+    if (rising_ && falling_ && rising_->place >= falling_->place) (now.slope > 0 ? falling_ : rising_).reset();
+    widths_.push_back(bracketed() ? falling_->place - rising_->place : kInfinity);
+  }
+
+  [[nodiscard]] double curvature() const { return curvature_; }
+  [[nodiscard]] bool bracketed() const { return rising_ && falling_; }
+  [[nodiscard]] bool is_end(double place) const {
+    return (rising_ && rising_->place == place) || (falling_ && falling_->place == place);
+  }
+  /// Width of the bracket in omega; infinite without one, or when the curve jumps to another branch within it.
+  [[nodiscard]] double bracket() const {
+    constexpr double kContinuous = 1e-4;
+    if (!bracketed() || std::abs(rising_->amplitude - falling_->amplitude) > kContinuous * now_->amplitude)
+      return kInfinity;
+    return std::abs(falling_->omega - rising_->omega);
+  }
+
+  /// Where to go next, as a step from the last place.
+  [[nodiscard]] double step() const {
+    constexpr double kTrust = 0.25;
+    const double wanted = std::clamp(-now_->slope / curvature_, -kTrust, kTrust);
+    if (!bracketed()) return wanted;
+    const auto inside = [&](double place) { return place > rising_->place && place < falling_->place; };
+    // Points that do not halve the bracket: the slope jumps there, or one end stays. A step somewhat too long brings
+    // the other end near, a bisection what nothing else does.
+    constexpr double kOvershoot = 3, kOneSided = 0.1;
+    const std::size_t n = widths_.size();
+    const bool stalling = n > 2 && widths_[n - 1] > 0.5 * widths_[n - 3];
+    const bool one_sided = std::abs(wanted) < kOneSided * widths_.back() && n % 2 == 0;
+    if (stalling && one_sided && inside(now_->place + kOvershoot * wanted)) return kOvershoot * wanted;
+    if (stalling || !inside(now_->place + wanted)) return (rising_->place + falling_->place) / 2 - now_->place;
+    return wanted;
+  }
+
+ private:
+  double curvature_;  // < 0
+  std::optional<Mark> now_, rising_, falling_;
+  std::vector<double> widths_;
+};
+
+}  // namespace dovetail::paths

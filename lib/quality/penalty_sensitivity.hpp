@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "paths/resonance.hpp"
+#include "quality/quantities.hpp"
+
+namespace dovetail::quality {
+
+struct PenaltySensitivityOptions {
+  std::vector<double> ratios = {0.5, 1, 2, 10};  ///< of eps to the one the state was computed with, each > 0
+  double step = 0.1;                             ///< of ln eps in the slopes, > 0
+};
+
+/// How much results depend on the pseudo-penalty eps, which the exact answer does not contain: what is left of
+/// it is truncation error.
+struct PenaltySensitivity {
+  Status status = Status::iteration_limit;  ///< converged: all states did; otherwise of the first that did not
+  std::vector<double> ratios;
+  std::vector<Status> statuses;    ///< one per ratio
+  std::vector<Quantities> values;  ///< one per ratio; NaN where its state did not converge
+  Quantities slope;                ///< d ln Q / d ln eps at ratio 1, a central difference; 0 where Q = 0
+  int jacobians = 0;
+};
+
+/// Of the steady state near a converged `state` of the joint; each ratio is started from its neighbour.
+/// Both penalties of all nodes are scaled together.
+[[nodiscard]] PenaltySensitivity penalty_sensitivity(const steady::Joint& joint, const steady::State& state,
+                                                     const PenaltySensitivityOptions& sensitivity = {});
+
+/// The same for a resonance: its frequency and amplitude for each ratio, by new searches from the one found.
+struct ResonanceSensitivity {
+  Status status = Status::iteration_limit;
+  std::vector<double> ratios;
+  std::vector<Status> statuses;
+  std::vector<double> omega, amplitude;         ///< one per ratio, rad/s and m; NaN where not converged
+  double omega_slope = 0, amplitude_slope = 0;  ///< d ln / d ln eps
+  int jacobians = 0;
+};
+[[nodiscard]] ResonanceSensitivity penalty_sensitivity(const steady::Joint& joint, const paths::Resonance& resonance,
+                                                       const paths::ResonanceOptions& resonance_options,
+                                                       const PenaltySensitivityOptions& sensitivity = {});
+
+}  // namespace dovetail::quality

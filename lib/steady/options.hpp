@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+
+#include "core/budget.hpp"
+#include "core/options.hpp"
+
+namespace dovetail::steady {
+
+/// How a steady state is computed. Flat; see option_table<Options>() for keys, ranges and help.
+struct Options {
+  int harmonics = 5;                 ///< H >= 1
+  int samples = 128;                 ///< N > 2H per period
+  double tolerance = 1e-9;           ///< of the residual force relative to the excitation, > 0
+  int max_iterations = 60;           ///< Jacobians per pseudo-penalty tried, >= 1
+  std::string solver = "auto";       ///< auto | newton | powell | powell_fd; auto: newton, then the penalty cascade
+  double normal_penalty = 0;         ///< eps_N of all nodes, N/m; 0: local contact stiffness
+  double tangential_penalty = 0;     ///< eps_T of all nodes, N/m; 0: local contact stiffness
+  double penalty_scale = 1;          ///< multiplies both, > 0
+  bool penalty_cascade = true;       ///< try other ratios when a solve fails
+  int max_rescue_iterations = 5000;  ///< Jacobians spent on neighbouring problems when auto has failed, >= 0
+  std::string slip_return = "second_order";  ///< first_order | second_order
+  int max_periods = 2000;                    ///< marched before a node counts as not periodic, >= 2
+  double periodic_tolerance = 1e-10;         ///< of the slip state, relative to the largest limit force, > 0
+  bool linearise = true;  ///< keep the factorised Jacobian of the solution, for predictors and derivatives
+  /// Show that the Jacobian of the solution is regular, which takes a factorisation; may be left out without
+  /// `linearise` for a state next to one that was shown to be.
+  bool show_regular = true;
+  SharedBudget budget = {};  ///< of everything computed with these options; null: not limited
+};
+
+/// Throws InputError listing every option out of range.
+void validate(const Options& options);
+
+}  // namespace dovetail::steady
+
+namespace dovetail {
+template <>
+std::span<const Field<steady::Options>> option_table<steady::Options>();
+}

@@ -1,0 +1,126 @@
+#include "steady/point.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cassert>
+#include <limits>
+#include <numeric>
+
+#include "steady/work.hpp"
+
+namespace dovetail::steady {
+
+void evaluate(std::shared_ptr<const Problem> problem, const Eigen::MatrixXd& displacement, Point& point) {
+  point.problem = std::move(problem);
+  const Problem& of = *point.problem;
+  const Eigen::Index nodes = of.model().nodes(), d = of.model().directions(), k = of.basis().coefficients();
+  assert(displacement.rows() == nodes * d && displacement.cols() == k);
+  point.displacement = displacement;
+  point.has_derivative = false;
+  point.status = Status::converged;
+  const Eigen::MatrixXd external = of.system().force - dynamics::apply_stiffness(of.system(), displacement);
+  point.prediction = external + of.dof_penalty().asDiagonal() * displacement;
+  point.prediction.col(0) -= of.dof_penalty().cwiseProduct(of.offset());
+  const Eigen::MatrixXd samples = of.basis().synthesise(point.prediction);
+  point.nodes.resize(static_cast<std::size_t>(nodes));
+  if (!samples.allFinite()) {
+    point.status = Status::not_finite;
+    point.force = point.residual = Eigen::MatrixXd::Constant(nodes * d, k, std::numeric_limits<double>::quiet_NaN());
+    return;
+  }
+  Eigen::MatrixXd force(samples.rows(), samples.cols());
+  const contact::MarchOptions options = of.march_options();
+  for (Eigen::Index i = 0; i < nodes; ++i) {
+    contact::MarchResult& node = point.nodes[static_cast<std::size_t>(i)];
+    if (of.released(i)) {
+      contact::carry_nothing(samples.middleCols(i * d, d), of.penalty().tangential(i), k, node);
+    } else {
+      contact::march(samples.middleCols(i * d, d), of.law(i), options, node);
+      if (of.budget()) of.budget()->spend(march_operations(of.basis().samples(), node.periods));
+    }
+    force.middleCols(i * d, d) = node.force;
+    if (node.status != Status::converged) point.status = node.status;
+  }
+  point.force = of.basis().analyse(force);
+  point.residual = point.force - external;
+}
+
+void differentiate(Point& point) {
+  if (point.has_derivative || point.status == Status::not_finite) return;
+  const Problem& of = *point.problem;
+  const Eigen::Index d = of.model().directions(), m = d * of.basis().coefficients();
+  const Eigen::MatrixXd samples = of.basis().synthesise(point.prediction);
+  const contact::SlipReturn rule = of.march_options().slip_return;
+  for (Eigen::Index i = 0; i < of.model().nodes(); ++i) {
+    if (of.released(i)) continue;
+    contact::MarchResult& node = point.nodes[static_cast<std::size_t>(i)];
+    contact::differentiate(samples.middleCols(i * d, d), of.law(i), of.basis(), rule, node);
+    if (of.budget()) of.budget()->spend(derivative_operations(of.basis().samples(), node.periods, m));
+  }
+  point.has_derivative = true;
+}
+
+JacobianBlocks blocks(const Point& point) {
+  assert(point.has_derivative);
+  JacobianBlocks blocks;
+  for (const dynamics::HarmonicStiffness& at : point.problem->system().harmonics)
+    blocks.stiffness.push_back(&at.stiffness);
+  for (const contact::MarchResult& node : point.nodes) blocks.derivative.push_back(&node.force_derivative);
+  blocks.penalty = point.problem->dof_penalty();
+  return blocks;
+}
+
+Eigen::MatrixXd jacobian(const Point& point) {
+  const Eigen::Index unknowns = point.problem->unknowns();
+  if (point.problem->budget()) point.problem->budget()->spend(factorisation_operations(unknowns));
+  std::vector<Eigen::Index> rows(static_cast<std::size_t>(unknowns));
+  std::iota(rows.begin(), rows.end(), Eigen::Index{0});
+  Eigen::MatrixXd matrix(unknowns, unknowns);
+  std::vector<double*> columns;
+  for (Eigen::Index j = 0; j < unknowns; ++j) columns.push_back(matrix.col(j).data());
+  assemble(blocks(point), rows, columns);
+  return matrix;
+}
+
+Eigen::MatrixXd apply_force_derivative(const Point& point, const Eigen::MatrixXd& change) {
+  const Eigen::VectorXd applied = apply_derivative(blocks(point), change.reshaped(), false);
+  return applied.reshaped(change.rows(), change.cols());
+}
+
+Eigen::MatrixXd apply_jacobian(const Point& point, const Eigen::MatrixXd& change) {
+  const Eigen::MatrixXd linear = dynamics::apply_stiffness(point.problem->system(), change);
+  return linear + apply_force_derivative(point, point.problem->dof_penalty().asDiagonal() * change - linear);
+}
+
+Eigen::MatrixXd residual_to_frequency(const Point& point) {
+  // lambda_u falls by what the linear part gains, and lambda follows it through D.
+  const Eigen::MatrixXd linear =
+      dynamics::apply_slope(point.problem->model(), point.problem->system(), point.displacement);
+  return linear - apply_force_derivative(point, linear);
+}
+
+double rounding_floor(const Point& point) {
+  const double forces = point.problem->system().force.norm() + point.prediction.norm();
+  return 4e-15 * forces / point.problem->system().force_scale;
+}
+
+double attainable(const Point& point, double tolerance) {
+  return std::max(tolerance, std::min(rounding_floor(point), kLargestFloor));
+}
+
+bool is_held(const Point& point) {
+  const Problem& of = *point.problem;
+  Eigen::MatrixXd stiffness = of.system().harmonics.front().stiffness.real();
+  if (stiffness.size() == 0) return true;
+  // Rounding may turn a direction without stiffness into a slightly negative one.
+  constexpr double kRounding = 1e-11;
+  const double shift = kRounding * stiffness.diagonal().cwiseAbs().maxCoeff();
+  const Eigen::Index d = of.model().directions();
+  for (Eigen::Index i = 0; i < of.model().nodes(); ++i) {
+    const bool carries = !of.released(i) && !point.nodes[static_cast<std::size_t>(i)].always_separated;
+    for (Eigen::Index r = i * d; r < (i + 1) * d; ++r) stiffness(r, r) += carries ? of.dof_penalty()(r) : shift;
+  }
+  return Eigen::LLT<Eigen::MatrixXd>(stiffness).info() == Eigen::Success;
+}
+
+}  // namespace dovetail::steady

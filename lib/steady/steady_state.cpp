@@ -1,0 +1,60 @@
+#include "steady/steady_state.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "steady/ways.hpp"
+
+namespace dovetail::steady {
+
+State steady_state(const Joint& joint, double omega, const Eigen::MatrixXd& guess,
+                   const std::shared_ptr<const Tangent>& reuse) {
+  validate(joint.options);
+  if (!kPositive.contains(omega))
+    throw InputError({.file = {}, .key = "omega", .value = shortest(omega), .allowed = kPositive.phrase()});
+  const Eigen::Index rows = joint.model->contact_size(), columns = 2 * joint.options.harmonics + 1;
+  if (guess.size() > 0 && (guess.rows() != rows || guess.cols() != columns))
+    throw InputError({.file = {},
+                      .key = "guess",
+                      .value = std::to_string(guess.rows()) + " x " + std::to_string(guess.cols()),
+                      .allowed = "must be " + std::to_string(rows) + " x " + std::to_string(columns)});
+  State without;
+  without.omega = omega;
+  without.status = Status::budget_spent;
+  if (spent(joint.options.budget)) return without;
+  auto system = std::make_shared<const dynamics::HarmonicSystem>(
+      dynamics::harmonic_system(*joint.model, joint.options.harmonics, omega));
+  if (system->status != Status::converged) {
+    without.status = system->status;
+    return without;
+  }
+  Found found = try_ways(joint, std::make_shared<const Problem>(joint, std::move(system)), guess, reuse);
+  const AtSolution jacobian = joint.options.linearise      ? AtSolution::linearise
+                              : joint.options.show_regular ? AtSolution::show_regular
+                                                           : AtSolution::trust;
+  State state = described(std::move(found.attempt.point), found.attempt.status, jacobian, found.attempt.tangent.get());
+  state.status = within(joint.options.budget, state.status);
+  state.way = found.way;
+  state.iterations = found.attempt.iterations;
+  state.evaluations = found.attempt.evaluations;
+  return state;
+}
+
+Eigen::MatrixXd padded(const Eigen::MatrixXd& coefficients, int harmonics) {
+  const Eigen::Index columns = 2 * harmonics + 1, kept = std::min(columns, coefficients.cols());
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(coefficients.rows(), columns);
+  result.leftCols(kept) = coefficients.leftCols(kept);
+  return result;
+}
+
+State refined_state(Joint finer, const State& state, const std::shared_ptr<const Tangent>& reuse) {
+  finer.options.penalty_scale *= state.penalty_ratio;
+  finer.options.penalty_cascade = false;
+  finer.options.max_rescue_iterations = 0;
+  finer.options.show_regular = false;
+  State refined = steady_state(finer, state.omega, padded(state.displacement, finer.options.harmonics), reuse);
+  refined.penalty_ratio *= state.penalty_ratio;
+  return refined;
+}
+
+}  // namespace dovetail::steady

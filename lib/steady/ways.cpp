@@ -1,0 +1,245 @@
+#include "steady/ways.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "steady/dashpots.hpp"
+
+namespace dovetail::steady {
+namespace {
+
+// How far neighbouring problems are from each other. A step is relative to what changes; one that fails is cut, one
+// that succeeds lets the next grow, and when it has become too short the way is given up.
+struct Steps {
+  double longest = 0, shortest = 0, growth = 1.3, cut = 2.5;
+};
+
+struct WayParams {
+  // Shares of the Jacobians that the ways before have left; the last takes the rest.
+  double open = 0.024, harmonics = 0.08, growing_penalty = 0.03, frequency = 0.15, damping = 0.4, softer_damping = 1;
+  double softer = 0.1;             // eps of softer_damping
+  double smallest_penalty = 1e-3;  // where eps starts to grow, by factors of two
+  double highest_frequency = 3;    // times the one asked for
+  int higher = 3;                  // tries above that
+  Steps down{.longest = 0.15, .shortest = 3e-4};
+  double strongest = 10, weakest = 1e-5;  // dashpots, in units of eps: below the weakest there are none
+  int weaker = 2;                         // tries below the strongest, each a tenth
+  Steps fade{.longest = 0.6, .shortest = 1e-2};
+};
+
+class Ways {
+ public:
+  Ways(const Joint& joint, const std::shared_ptr<const Problem>& problem)
+      : joint_(joint),
+        options_(joint.options),
+        problem_(problem),
+        method_(options_.solver == "powell"      ? Method::powell
+                : options_.solver == "powell_fd" ? Method::powell_fd
+                                                 : Method::newton),
+        left_(options_.max_rescue_iterations) {}
+
+  Found run(const Eigen::MatrixXd& guess, const std::shared_ptr<const Tangent>& reuse) {
+    Found found{.attempt = {}, .way = way_to(guess, reuse)};
+    found.attempt = std::move(best_);
+    found.attempt.iterations = iterations_;
+    found.attempt.evaluations = evaluations_;
+    return found;
+  }
+
+ private:
+  Way way_to(const Eigen::MatrixXd& guess, const std::shared_ptr<const Tangent>& reuse) {
+    if (guess.size() > 0 && plain(problem_, guess, method_, reuse)) return Way::guess;
+    if (plain(problem_, problem_->closed_start(), method_)) return Way::closed;
+    if (!options_.penalty_cascade) return Way::none;
+    if (other_penalty()) return Way::other_penalty;
+    if (options_.solver != "auto") return Way::none;
+    if (plain(problem_, problem_->closed_start(), Method::powell)) return Way::powell;
+    struct Rescue {
+      Way way;
+      bool (Ways::*take)();
+      double share;
+    };
+    for (const auto& [way, take, share] : {Rescue{Way::open, &Ways::open, params_.open},
+                                           {Way::harmonics, &Ways::harmonics, params_.harmonics},
+                                           {Way::growing_penalty, &Ways::growing_penalty, params_.growing_penalty},
+                                           {Way::frequency, &Ways::frequency, params_.frequency},
+                                           {Way::damping, &Ways::damping, params_.damping},
+                                           {Way::softer_damping, &Ways::softer_damping, params_.softer_damping}}) {
+      reserve_ = left_ - static_cast<int>(share * left_);
+      if (exhausted() || !(this->*take)()) continue;
+      best_ = std::move(last_);
+      return way;
+    }
+    return Way::none;
+  }
+
+  // An attempt at the problem asked for; the best of those that fail is kept.
+  bool plain(const std::shared_ptr<const Problem>& problem, const Eigen::MatrixXd& start, Method method,
+             const std::shared_ptr<const Tangent>& reuse = {}) {
+    if (spent(options_.budget)) return false;
+    Attempt found = count(solve(problem, start, method, options_.max_iterations, reuse));
+    const bool converged = found.status == Status::converged;
+    if (converged || best_.point.displacement.size() == 0 || found.residual < best_.residual) best_ = std::move(found);
+    return converged;
+  }
+
+  // The answer depends slightly on eps: from that of another one the most accurate eps is often within reach.
+  bool other_penalty() {
+    for (const double ratio : contact::kPenaltyCascade) {
+      if (ratio == 1) continue;
+      const auto other = std::make_shared<const Problem>(problem_->with_penalty(ratio));
+      if (!plain(other, other->closed_start(), method_)) continue;
+      const Attempt fallback = best_;
+      if (!plain(problem_, fallback.point.displacement, method_)) best_ = fallback;
+      return true;
+    }
+    return false;
+  }
+
+  Attempt count(Attempt found) {
+    iterations_ += found.iterations;
+    evaluations_ += found.evaluations;
+    return found;
+  }
+
+  [[nodiscard]] bool exhausted() const { return left_ <= reserve_ || spent(options_.budget); }
+
+  // A neighbour of the problem asked for; true when it converged, kept in last_.
+  bool neighbour(const Problem& problem, const Eigen::MatrixXd& start) {
+    if (problem.system().status != Status::converged) return false;
+    const auto shared = std::make_shared<const Problem>(problem);
+    last_ = count(solve(shared, start.size() > 0 ? start : problem.closed_start(), Method::newton,
+                        std::min(options_.max_iterations, std::max(left_ - reserve_, 1))));
+    left_ -= last_.iterations;
+    return last_.status == Status::converged;
+  }
+
+  [[nodiscard]] std::shared_ptr<const dynamics::HarmonicSystem> system(int harmonics, double omega) const {
+    if (harmonics == options_.harmonics && omega == problem_->system().omega) return problem_->shared_system();
+    return std::make_shared<const dynamics::HarmonicSystem>(dynamics::harmonic_system(*joint_.model, harmonics, omega));
+  }
+
+  bool open() {
+    Joint joint = joint_;
+    joint.condition.released.assign(static_cast<std::size_t>(joint.model->nodes()), 1);
+    return neighbour(*problem_, Problem(joint, problem_->shared_system()).closed_start());
+  }
+
+  bool harmonics() {
+    Eigen::MatrixXd start;
+    for (int h = 1; !exhausted(); h = std::min(options_.harmonics, h + 1 + h / 4)) {
+      Eigen::MatrixXd padded = Eigen::MatrixXd::Zero(start.rows(), start.size() > 0 ? 2 * h + 1 : 0);
+      if (start.size() > 0) padded.leftCols(std::min(start.cols(), padded.cols())) = start;
+      Joint joint = joint_;
+      joint.options.harmonics = h;
+      const bool found = neighbour(Problem(joint, system(h, problem_->system().omega)), padded);
+      if (h == options_.harmonics) return found;
+      if (found) start = last_.point.displacement;
+    }
+    return false;
+  }
+
+  bool growing_penalty() {
+    Eigen::MatrixXd start;
+    for (double ratio = params_.smallest_penalty; !exhausted(); ratio = std::min(1.0, 2 * ratio)) {
+      if (!neighbour(problem_->with_penalty(ratio), start)) return false;
+      if (ratio == 1) return true;
+      start = last_.point.displacement;
+    }
+    return false;
+  }
+
+  // From the last solution through the neighbours at `next(step)` to the one at its end; false when steps become too
+  // short. `go(target)` tries a neighbour, `here` is where the last solution stands.
+  template <class Next, class Go>
+  bool step_towards(double end, double& here, const Steps& steps, const Next& next, const Go& go) {
+    Eigen::MatrixXd start = last_.point.displacement;
+    // Each from the one before as it is: a predictor across the kinks of a contact state misleads more than it helps.
+    for (double step = steps.longest; !exhausted() && step > steps.shortest;) {
+      const double target = next(step);
+      if (!go(target, start)) {
+        step /= steps.cut;
+        continue;
+      }
+      if (target == end) return true;
+      start = last_.point.displacement;
+      here = target;
+      step = std::min(steps.longest, step * steps.growth);
+    }
+    // What the last success left is where another way may go on.
+    last_.point.displacement = start;
+    return false;
+  }
+
+  bool frequency() {
+    const double end = problem_->system().omega;
+    double omega = params_.highest_frequency * end;
+    const auto go = [&](double target, const Eigen::MatrixXd& start) {
+      return neighbour(problem_->at(system(options_.harmonics, target)), start);
+    };
+    for (int tries = 0; !go(omega, {}); ++tries) {
+      if (tries == params_.higher || exhausted()) return false;
+      omega *= params_.down.growth;
+    }
+    return step_towards(
+        end, omega, params_.down, [&](double step) { return std::max(end, omega * (1 - step)); }, go);
+  }
+
+  bool damping() { return fade(*problem_); }
+
+  bool softer_damping() {
+    if (!fade(problem_->with_penalty(params_.softer))) return false;
+    // From there the most accurate eps is often within reach.
+    const Attempt fallback = last_;
+    reserve_ = -options_.max_iterations;
+    if (!neighbour(*problem_, fallback.point.displacement)) last_ = fallback;
+    return true;
+  }
+
+  // In plain steps as far as they go, then along the curve through its turns.
+  bool fade(const Problem& problem) {
+    const Dashpots dashpots(problem, problem_->dof_penalty());
+    double alpha = params_.strongest;
+    const auto go = [&](double target, const Eigen::MatrixXd& start) {
+      return neighbour(problem.at(dashpots.system(target)), start);
+    };
+    for (int tries = 0; !go(alpha, {}); ++tries) {
+      if (tries == params_.weaker || exhausted()) return false;
+      alpha /= 10;
+    }
+    const auto next = [&](double step) { return alpha * (1 - step) < params_.weakest ? 0 : alpha * (1 - step); };
+    if (step_towards(0, alpha, params_.fade, next, go)) return true;
+    if (exhausted()) return false;
+    const Dashpots::Followed followed =
+        dashpots.follow(alpha, last_.point.displacement, left_ - reserve_,
+                        [&](const Eigen::MatrixXd& near) { return neighbour(problem, near); });
+    iterations_ += followed.jacobians;
+    evaluations_ += followed.evaluations;
+    left_ -= followed.jacobians;
+    return followed.found;
+  }
+
+  const Joint& joint_;
+  const Options& options_;
+  const std::shared_ptr<const Problem>& problem_;
+  const WayParams params_ = {};
+  Method method_;
+  int left_, reserve_ = 0, iterations_ = 0, evaluations_ = 0;
+  Attempt best_, last_;
+};
+
+}  // namespace
+
+std::string_view to_string(Way way) {
+  constexpr std::array<std::string_view, 11> kNames{
+      "guess",           "closed",    "other_penalty", "powell",         "open", "harmonics",
+      "growing_penalty", "frequency", "damping",       "softer_damping", "none"};
+  return kNames[static_cast<std::size_t>(way)];
+}
+
+Found try_ways(const Joint& joint, const std::shared_ptr<const Problem>& problem, const Eigen::MatrixXd& guess,
+               const std::shared_ptr<const Tangent>& reuse) {
+  return Ways(joint, problem).run(guess, reuse);
+}
+
+}  // namespace dovetail::steady

@@ -1,0 +1,26 @@
+#include "steady/work.hpp"
+
+namespace dovetail::steady {
+
+double factorisation_operations(Eigen::Index unknowns) {
+  const auto n = static_cast<double>(unknowns);
+  return 2.0 / 3.0 * n * n * n;
+}
+
+double march_operations(int samples, int periods) {
+  constexpr double kStep = 200;
+  return kStep * samples * periods;
+}
+
+double derivative_operations(int samples, int periods, Eigen::Index coefficients) {
+  constexpr double kCoefficient = 75;
+  return kCoefficient * samples * periods * static_cast<double>(coefficients);
+}
+
+double jacobian_operations(Eigen::Index nodes, Eigen::Index directions, int harmonics, int samples) {
+  const Eigen::Index coefficients = directions * (2 * harmonics + 1);
+  return static_cast<double>(nodes) * (march_operations(samples, 1) + derivative_operations(samples, 1, coefficients)) +
+         factorisation_operations(nodes * coefficients);
+}
+
+}  // namespace dovetail::steady

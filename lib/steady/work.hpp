@@ -1,0 +1,21 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace dovetail::steady {
+
+/// What computations cost, in operations of dense linear algebra: measured times over that of one operation inside a
+/// large factorisation. They say how a Budget is shared out and need to be right within a factor of two.
+
+/// A dense factorisation of n unknowns, 2/3 n^3.
+[[nodiscard]] double factorisation_operations(Eigen::Index unknowns);
+
+/// One contact node marched over `periods` of `samples`, and the derivative with respect to its m = d (2H+1)
+/// `coefficients`.
+[[nodiscard]] double march_operations(int samples, int periods);
+[[nodiscard]] double derivative_operations(int samples, int periods, Eigen::Index coefficients);
+
+/// One Jacobian in which every node takes part: each marched for one period with derivative, and the factorisation.
+[[nodiscard]] double jacobian_operations(Eigen::Index nodes, Eigen::Index directions, int harmonics, int samples);
+
+}  // namespace dovetail::steady

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string_view>
+
+#include "paths/resonance.hpp"
+#include "steady/steady_state.hpp"
+
+namespace dovetail::tractions {
+
+/// What is bounded over the residual tractions.
+enum class BoundedQuantity {
+  amplitude,            ///< half peak-to-peak of one output at the frequency given
+  friction_energy,      ///< J per cycle
+  wear_rate,            ///< sum over nodes of area times depth per cycle, m^3
+  resonance_amplitude,  ///< amplitude at the maximum of the response curve near the frequency given
+  resonance_frequency,  ///< rad/s
+};
+
+[[nodiscard]] std::string_view to_string(BoundedQuantity quantity);
+
+/// One quantity of the family of steady states over the slip origins: how a member is solved for, its value and
+/// d value / d X_T. Counts the solves.
+class FamilyQuantity {
+ public:
+  /// `omega` rad/s: of all members, or the start of their resonances, which move by `search_range` of it at most.
+  FamilyQuantity(steady::Joint joint, BoundedQuantity quantity, Eigen::Index output, double omega, double search_range);
+
+  [[nodiscard]] const dynamics::CondensedModel& model() const { return *joint_.model; }
+  [[nodiscard]] int solves() const { return solves_; }
+
+  /// The member that starts from `origin` X_T [Nc, d-1], empty for the one given; with its tangent.
+  [[nodiscard]] steady::State solve(const Eigen::MatrixXd& origin, const Eigen::MatrixXd& guess);
+  [[nodiscard]] double value(const steady::State& member) const;
+  /// Below a fraction of this a change of the value is none, however small the value.
+  [[nodiscard]] double scale(const steady::State& member) const;
+  /// [Nc, d-1]; zero for nodes that forgot where they started. Two solves for a resonance frequency.
+  [[nodiscard]] Eigen::MatrixXd gradient(const steady::State& member);
+  /// Looks for resonances near this one from now on.
+  void follow(double omega) { omega_ = omega; }
+
+ private:
+  [[nodiscard]] Eigen::VectorXd weights() const;
+  [[nodiscard]] Eigen::MatrixXd frequency_gradient(const steady::State& member);
+
+  steady::Joint joint_;
+  BoundedQuantity quantity_;
+  Eigen::Index output_;
+  double omega_, search_range_;
+  int solves_ = 0;
+};
+
+}  // namespace dovetail::tractions

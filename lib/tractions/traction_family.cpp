@@ -1,0 +1,100 @@
+#include "tractions/traction_family.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <cassert>
+
+namespace dovetail::tractions {
+namespace {
+
+// Inverse of a symmetric matrix on the directions it has stiffness in: others carry no residual traction.
+Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& matrix) {
+  if (matrix.rows() == 0) return matrix;
+  constexpr double kNothing = 1e-10;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver((matrix + matrix.transpose()) / 2);
+  const double largest = solver.eigenvalues().cwiseAbs().maxCoeff();
+  Eigen::VectorXd inverse = solver.eigenvalues();
+  for (double& value : inverse) value = std::abs(value) > kNothing * largest ? 1 / value : 0;
+  return solver.eigenvectors() * inverse.asDiagonal() * solver.eigenvectors().transpose();
+}
+
+}  // namespace
+
+Eigen::MatrixXd mean_tractions(const steady::State& state, const Eigen::VectorXd& friction) {
+  const Eigen::Index nodes = friction.size(), d = state.force.rows() / std::max<Eigen::Index>(nodes, 1);
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(nodes, std::max<Eigen::Index>(d - 1, 0));
+  for (Eigen::Index i = 0; i < nodes; ++i) {
+    const double limit = friction(i) * state.force(i * d, 0);
+    if (limit > 0) result.row(i) = state.force.col(0).segment(i * d + 1, d - 1).transpose() / limit;
+  }
+  return result;
+}
+
+TractionFamily::TractionFamily(const steady::State& nominal) {
+  assert(nominal.tangent);
+  const steady::Problem& problem = nominal.tangent->problem();
+  const Eigen::Index count = problem.model().nodes(), d = problem.model().directions();
+  friction_ = problem.model().contact().friction;
+  origin_ = problem.condition().slip_origin;
+  std::vector<Eigen::Index> stuck, free;
+  std::vector<double> limit;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const steady::NodeSummary& node = nominal.nodes[static_cast<std::size_t>(i)];
+    if (node.stuck && friction_(i) > 0) {
+      nodes_.push_back(i);
+      limit.push_back(friction_(i) * nominal.force(i * d, 0));
+      // Where it ended if it slipped before it stayed stuck.
+      origin_.row(i) = nominal.slip_end.row(i);
+      for (Eigen::Index r = 1; r < d; ++r) stuck.push_back(i * d + r);
+    } else {
+      if (!node.carries_load) free.push_back(i * d);
+      for (Eigen::Index r = 1; r < d; ++r) free.push_back(i * d + r);
+    }
+  }
+  limit_ = Eigen::Map<const Eigen::VectorXd>(limit.data(), static_cast<Eigen::Index>(limit.size()));
+  const Eigen::MatrixXd stiffness = problem.system().harmonics.front().stiffness.real();
+  Eigen::MatrixXd seen = stiffness(stuck, stuck);
+  if (!free.empty()) {
+    const Eigen::MatrixXd across = stiffness(free, stuck);
+    const Eigen::MatrixXd held = stiffness(free, free);
+    seen -= across.transpose() * Eigen::MatrixXd(held.completeOrthogonalDecomposition().solve(across));
+  }
+  compliance_ = pseudo_inverse(seen);
+  nominal_ = traction(nominal);
+  reach_ = Eigen::VectorXd::Zero(count);
+  for (std::size_t p = 0; p < nodes_.size(); ++p) {
+    const auto row = static_cast<Eigen::Index>(p);
+    reach_(nodes_[p]) = 2 * limit_(row) * compliance_.diagonal().segment(row * (d - 1), d - 1).cwiseAbs().maxCoeff();
+  }
+}
+
+Eigen::MatrixXd TractionFamily::traction(const steady::State& state) const {
+  return mean_tractions(state, friction_)(nodes_, Eigen::all);
+}
+
+Eigen::MatrixXd TractionFamily::slip_origin(const Eigen::MatrixXd& traction) const {
+  // d lambda_T = -K dX_T, node by node in rows.
+  const Eigen::MatrixXd change = limit_.asDiagonal() * (traction - nominal_);
+  const Eigen::MatrixXd by_node = change.transpose();
+  const Eigen::VectorXd moved = -compliance_ * by_node.reshaped();
+  const Eigen::MatrixXd shift = moved.reshaped(by_node.rows(), by_node.cols()).transpose();
+  Eigen::MatrixXd origin = origin_;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) origin.row(nodes_[i]) += shift.row(static_cast<Eigen::Index>(i));
+  return origin;
+}
+
+Eigen::MatrixXd TractionFamily::gradient(const Eigen::MatrixXd& by_slip_origin) const {
+  const Eigen::MatrixXd by_node = by_slip_origin(nodes_, Eigen::all).transpose();
+  const Eigen::VectorXd pulled = -compliance_ * by_node.reshaped();
+  return limit_.asDiagonal() * pulled.reshaped(by_node.rows(), by_node.cols()).transpose();
+}
+
+Eigen::MatrixXd TractionFamily::admissible(Eigen::MatrixXd traction) {
+  for (Eigen::Index i = 0; i < traction.rows(); ++i) {
+    const double length = traction.row(i).norm();
+    if (length > 1) traction.row(i) /= length;
+  }
+  return traction;
+}
+
+}  // namespace dovetail::tractions

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "steady/steady_state.hpp"
+
+namespace dovetail::tractions {
+
+/// Residual tractions of the nodes that stay stuck as coordinates of the family of solutions: m [stuck nodes, d-1] is
+/// the mean lambda_T over mu mean lambda_N, |m| <= 1 for each node since |lambda_T| <= mu lambda_N at all times. Slip
+/// origins follow from m by the static stiffness seen by the stuck tangential displacements while loaded normal
+/// directions stay closed and everything else keeps its mean force: exact as long as mean normal forces do not change,
+/// and in any case a way to reach the whole family.
+class TractionFamily {
+ public:
+  /// Around `nominal`, which keeps its tangent.
+  explicit TractionFamily(const steady::State& nominal);
+
+  [[nodiscard]] const std::vector<Eigen::Index>& nodes() const { return nodes_; }
+  [[nodiscard]] const Eigen::MatrixXd& nominal() const { return nominal_; }          ///< m of the nominal state
+  [[nodiscard]] Eigen::MatrixXd slip_origin(const Eigen::MatrixXd& traction) const;  ///< X_T [Nc, d-1]
+  /// m of a state [stuck nodes, d-1].
+  [[nodiscard]] Eigen::MatrixXd traction(const steady::State& state) const;
+  /// dq/dm from dq/dX_T [Nc, d-1].
+  [[nodiscard]] Eigen::MatrixXd gradient(const Eigen::MatrixXd& by_slip_origin) const;
+  /// How far the slip origin of each node [Nc] moves when its traction goes from one limit to the other; 0: not of the
+  /// family.
+  [[nodiscard]] const Eigen::VectorXd& reach() const { return reach_; }
+  /// The nearest m with |m| <= 1 for each node.
+  [[nodiscard]] static Eigen::MatrixXd admissible(Eigen::MatrixXd traction);
+
+ private:
+  std::vector<Eigen::Index> nodes_;
+  Eigen::VectorXd friction_;  // mu of all nodes
+  Eigen::VectorXd reach_;
+  Eigen::VectorXd limit_;             // mu mean lambda_N of the stuck ones
+  Eigen::MatrixXd origin_, nominal_;  // X_T and m of the nominal state
+  Eigen::MatrixXd compliance_;        // -dX_T / d lambda_T, node by node
+};
+
+/// m of all nodes [Nc, d-1]; 0 where nothing is carried or there is no friction.
+[[nodiscard]] Eigen::MatrixXd mean_tractions(const steady::State& state, const Eigen::VectorXd& friction);
+
+}  // namespace dovetail::tractions
