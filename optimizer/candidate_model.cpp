@@ -92,7 +92,7 @@ std::string first_broken(const geometry::Feasibility& feasibility, std::vector<s
 
 double jacobian_operations(const SolverSettings& solver, const CandidateModel& candidate) {
   return steady::jacobian_operations(candidate.cells.count(), candidate.system.full.dimensions, solver.harmonics,
-                                       solver.samples);
+                                     solver.samples);
 }
 
 }  // namespace
@@ -121,8 +121,8 @@ void lay_contact(const Scene& scene, const std::vector<fem::FlankCells>& flanks,
     candidate.status = failed("reduction", candidate.reduction.status) + " " + candidate.reduction.message;
     return;
   }
-  candidate.preload = steady::quasi_static(
-      std::make_shared<const dynamics::CondensedModel>(candidate.reduction.model), {.budget = candidate.budget});
+  candidate.preload = steady::quasi_static(std::make_shared<const dynamics::CondensedModel>(candidate.reduction.model),
+                                           {.budget = candidate.budget});
   if (candidate.preload.status != Status::converged) {
     candidate.status = failed("preload", candidate.preload.status);
     return;

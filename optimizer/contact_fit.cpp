@@ -232,7 +232,8 @@ ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateMode
     std::vector<fem::FlankCells> flanks;
     Eigen::MatrixXd displacement;
   } best;
-  paths::Resonance peak = paths::resonance({candidate.condensed, {}, steady}, candidate.reduction.glued_frequencies(scene.loading.mode - 1));
+  paths::Resonance peak = paths::resonance({candidate.condensed, {}, steady},
+                                           candidate.reduction.glued_frequencies(scene.loading.mode - 1));
   if (peak.status != Status::converged) return fit;
   // What the last grid says of the edges is not known: they may be anywhere near.
   const auto unsettled = [&fit] {

@@ -6,10 +6,10 @@
 #include <numbers>
 #include <vector>
 
+#include "dynamics/extremes.hpp"
 #include "fem/element.hpp"
 #include "fem/stress.hpp"
 #include "fem/stress_aggregate.hpp"
-#include "dynamics/extremes.hpp"
 
 namespace dovetail::optimizer {
 

@@ -25,8 +25,7 @@ WornState come_to_rest(const Scene& scene, const steady::Joint& joint, const ste
             .held = {},
             .omega = unworn.omega,
             .unfinished = {}};
-  wear::FollowedAsymptote found =
-      wear::followed_asymptote(joint, unworn.omega, options, {}, &unworn);
+  wear::FollowedAsymptote found = wear::followed_asymptote(joint, unworn.omega, options, {}, &unworn);
   return {.asymptote = std::move(found.asymptote),
           .held = std::move(found.held),
           .omega = found.omegas.back(),
@@ -86,8 +85,9 @@ void settle(const Scene& scene, const CandidateModel& model, steady::Joint joint
   joint.options.budget = new_budget(scene.solver, model);
   WornState asked = come_to_rest(scene, joint, unworn, "auto");
   wear::Asymptote &found = asked.asymptote, &direct = worn.asymptote;
-  const std::string unfinished =
-      spent(joint.options.budget) ? "it spent its budget (solver.max_jacobians, solver.time_limit_s)" : "it came to no end";
+  const std::string unfinished = spent(joint.options.budget)
+                                     ? "it spent its budget (solver.max_jacobians, solver.time_limit_s)"
+                                     : "it came to no end";
   if (found.verdict == wear::Verdict::not_converged) {
     direct.doubt = found.doubt.empty() ? "unfinished" : found.doubt;
     worn.unfinished = unfinished;

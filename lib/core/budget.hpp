@@ -9,7 +9,7 @@
 namespace dovetail {
 
 /// The work that all stages of one computation may spend together, counted in operations of dense linear algebra:
-/// every march of the contact and every factorisation adds its own (response/work.hpp). That count depends on nothing
+/// every march of the contact and every factorisation adds its own (steady/work.hpp). That count depends on nothing
 /// but the computation, so that one which is repeated ends at the same place. Seconds, which do not, are optional.
 /// Belongs to one computation on one thread.
 class Budget {

@@ -80,7 +80,8 @@ class Study {
 
   void asymptote() {
     say("asymptote");
-    candidate_.asymptote = wear::asymptote({candidate_.model.condensed, {}, steady_}, candidate_.unworn->omega, {.arbitration = "unsettled"}, &candidate_.unworn->state);
+    candidate_.asymptote = wear::asymptote({candidate_.model.condensed, {}, steady_}, candidate_.unworn->omega,
+                                           {.arbitration = "unsettled"}, &candidate_.unworn->state);
     const wear::Asymptote& found = *candidate_.asymptote;
     if (found.verdict != wear::Verdict::asymptote)
       fail("No worn state at rest was found: " + std::string(wear::to_string(found.verdict)) + ".");
@@ -161,24 +162,22 @@ class Study {
   }
 
   void response_of(const Numbers& omega, WornState& state) {
-    const std::shared_ptr<const dynamics::CondensedModel>& model = candidate_.model.condensed;
-    steady::Condition condition;
-    condition.wear_depth =
-        Eigen::Map<const Eigen::VectorXd>(state.depth_m.data(), static_cast<Eigen::Index>(state.depth_m.size()));
+    const steady::Joint worn = steady::Joint{candidate_.model.condensed, {}, steady_}.worn(
+        Eigen::Map<const Eigen::VectorXd>(state.depth_m.data(), static_cast<Eigen::Index>(state.depth_m.size())));
     int failed = 0;
-    for (const steady::State& found : paths::frequency_response({model, condition, steady_}, omega)) {
+    for (const steady::State& found : paths::frequency_response(worn, omega)) {
       const bool good = found.status == Status::converged;
       if (!good) ++failed;
       state.curve.amplitude_m.push_back(good ? found.amplitudes(0) : kUnknown);
       state.curve.power_w.push_back(good ? found.friction_energy * found.omega / kTurn : kUnknown);
     }
     if (failed > 0) fail(fmt::format("{} of {} points of a response curve did not converge.", failed, omega.size()));
-    const wear::Drift drift = wear::resonance_drift(model, *candidate_.unworn, {}, condition.wear_depth, steady_, {});
+    const wear::Drift drift = wear::resonance_drift(worn, *candidate_.unworn, {});
     state.peak_found = drift.worn.status == Status::converged;
     state.peak_hz = drift.worn.omega / kTurn;
     state.peak_m = drift.worn.amplitude;
     if (!state.peak_found) fail("A worn resonance was not found: " + std::string(to_string(drift.worn.status)) + ".");
-    const steady::State held = steady::steady_state({model, condition, steady_}, candidate_.unworn->omega);
+    const steady::State held = steady::steady_state(worn, candidate_.unworn->omega);
     state.amplitude_m = held.status == Status::converged ? held.amplitudes(0) : kUnknown;
   }
 

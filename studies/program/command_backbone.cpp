@@ -63,7 +63,7 @@ int output_index(const BackboneOptions& options, const LoadedModel& loaded) {
 
 /// Wear whose largest depth is the parameter, in proportion to the rates of the unworn resonance.
 paths::BackboneFamily worn_family(const steady::Joint& joint, double omega, const paths::ResonanceOptions& search,
-                                     const BackboneOptions& options) {
+                                  const BackboneOptions& options) {
   const paths::Resonance unworn = paths::resonance(joint, omega, search);
   const double largest =
       unworn.status == Status::converged && unworn.state.wear_rate.size() > 0 ? unworn.state.wear_rate.maxCoeff() : 0;
@@ -136,9 +136,8 @@ int run_backbone(const BackboneOptions& options, const Streams& streams) {
   const OrderlyInterrupt interrupt;
   steady::Joint joint = loaded.joint;
   joint.options.linearise = false;
-  const paths::BackboneFamily family = options.over == "wear"
-                                              ? worn_family(joint, omega, settings.resonance, options)
-                                              : paths::excitation_levels(joint);
+  const paths::BackboneFamily family =
+      options.over == "wear" ? worn_family(joint, omega, settings.resonance, options) : paths::excitation_levels(joint);
   const bool terminal = error_is_terminal();
   const paths::Backbone found =
       paths::backbone(family, values, omega, settings, [&](const paths::BackbonePoint& point) {

@@ -56,8 +56,9 @@ class CurveRun {
     curve_.output_names = loaded.model.output_names;
     curve_.settings = loaded.joint.options;
     curve_.choice = options.choice;
-    curve_.penalty = contact::pseudo_penalty(loaded.joint.model->local_stiffness(), loaded.joint.model->directions(),
-                                             loaded.joint.options.normal_penalty, loaded.joint.options.tangential_penalty);
+    curve_.penalty =
+        contact::pseudo_penalty(loaded.joint.model->local_stiffness(), loaded.joint.model->directions(),
+                                loaded.joint.options.normal_penalty, loaded.joint.options.tangential_penalty);
   }
   ~CurveRun() {
     if (terminal_) streams_.err << "\r\033[K" << std::flush;
@@ -69,7 +70,9 @@ class CurveRun {
     std::vector<double> omega;
     for (const double f : hz) omega.push_back(kTurn * f);
     curve_.frequency_hz = hz;
-    curve_.states = paths::frequency_response(loaded_.joint, omega, [&](std::size_t, const steady::State& state) { return take(state, interrupt, hz.size()); });
+    curve_.states = paths::frequency_response(loaded_.joint, omega, [&](std::size_t, const steady::State& state) {
+      return take(state, interrupt, hz.size());
+    });
     curve_.analyses.resize(curve_.states.size());
     return std::move(curve_);
   }
@@ -81,7 +84,9 @@ class CurveRun {
     if (options_.points > 1)
       follow.largest_frequency_step = std::min(follow.largest_frequency_step, 1.0 / (options_.points - 1));
     follow.max_points = std::max(follow.max_points, 20 * options_.points);
-    curve_.branch = paths::continuation({loaded_.joint.model, {}, steady}, kTurn * options_.from_hz, kTurn * options_.to_hz, follow, [&](const paths::ContinuationPoint& point) { return take(point.state, interrupt, 0); });
+    curve_.branch =
+        paths::continuation({loaded_.joint.model, {}, steady}, kTurn * options_.from_hz, kTurn * options_.to_hz, follow,
+                            [&](const paths::ContinuationPoint& point) { return take(point.state, interrupt, 0); });
     require_end();
     for (paths::ContinuationPoint& point : curve_.branch->points) {
       curve_.frequency_hz.push_back(hertz(point.state.omega));

@@ -97,10 +97,10 @@ WearBars worn_bars(const LoadedModel& loaded, const WornState& nominal,
       return std::isnan(difference) ? kInfinity : difference;  // not computed: unknown
     };
     return quality::bar_from({.harmonics = change(harmonics),
-                               .samples = change(samples),
-                               .softer = change(softer),
-                               .stiffer = change(stiffer)},
-                              loaded.joint.model->massless_contact());
+                              .samples = change(samples),
+                              .softer = change(softer),
+                              .stiffer = change(stiffer)},
+                             loaded.joint.model->massless_contact());
   };
   return {.worn_volume = bar(&WornState::volume), .largest_depth = bar(&WornState::depth)};
 }
@@ -130,8 +130,7 @@ wear::Spread spread_of(const WearOptions& options, const LoadedModel& loaded, co
     changed.joint = joint;
     WearStart from = at;
     if (at.resonance) {
-      from.resonance =
-          paths::resonance(joint, at.omega, {}, at.resonance->state.displacement);
+      from.resonance = paths::resonance(joint, at.omega, {}, at.resonance->state.displacement);
       if (!from.found()) {
         failed.status = from.resonance->status;
         failed.solves = from.resonance->solves;
@@ -241,7 +240,8 @@ int run_wear(const WearOptions& given, const Streams& streams) {
     WearAnswer answer = unknown_answer(options, loaded.model.contact.count(), status);
     answer.reason = why;
     answer.solves = solves;
-    const WearQuestion question{.frequency_hz = std::nan(""), .follow = options.follow, .settings = loaded.joint.options};
+    const WearQuestion question{
+        .frequency_hz = std::nan(""), .follow = options.follow, .settings = loaded.joint.options};
     if (!options.json.empty()) deliver_json(options.json, wear_json(question, answer), streams);
     return failed("not converged: " + why);
   };

@@ -7,8 +7,8 @@
 #include <fstream>
 #include <string_view>
 
-#include "reduction/model_file.hpp"
 #include "dynamics/condensed_model.hpp"
+#include "reduction/model_file.hpp"
 #include "studies/program/model_toml.hpp"
 #include "studies/report/design_record.hpp"
 
@@ -139,7 +139,7 @@ optimizer::SolverSettings settings_of(const SolverOverrides& solver) {
 
 /// Before a model is read: options that do not fit are told whatever the file is like.
 steady::Options model_options(const std::string& file, const std::vector<Override>& overrides,
-                                      const SolverOverrides& solver) {
+                              const SolverOverrides& solver) {
   if (!overrides.empty())
     throw InputError(Violation{.file = file,
                                .key = overrides.front().origin,

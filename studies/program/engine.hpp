@@ -4,9 +4,9 @@
 #include <optional>
 #include <string>
 
+#include "dynamics/condensed_model.hpp"
 #include "optimizer/evaluator.hpp"
 #include "reduction/reduced_model.hpp"
-#include "dynamics/condensed_model.hpp"
 #include "steady/options.hpp"
 #include "studies/program/commands.hpp"
 
@@ -26,7 +26,7 @@ namespace dovetail::studies {
 /// A reduced model to compute with, from a model file or from a study's candidate.
 struct LoadedModel {
   reduction::ReducedModel model;
-  steady::Joint joint;  ///< of that model, unworn
+  steady::Joint joint;           ///< of that model, unworn
   double glued_omega = 0;        ///< rad/s, of the followed mode (a file: the lowest); 0 when the model has none
   std::string follow = "fixed";  ///< the study's choice of what drives the wear
   std::string failure;           ///< not empty: the candidate's model did not converge, and why

@@ -73,8 +73,7 @@ PointAnalysis analyse(const LoadedModel& loaded, const steady::State& state, con
   PointAnalysis result;
   if (state.status != Status::converged) return result;
   if (choice.error_bars) result.bars = quality::error_bars(loaded.joint, state);
-  if (choice.penalty_sensitivity)
-    result.sensitivity = quality::penalty_sensitivity(loaded.joint, state);
+  if (choice.penalty_sensitivity) result.sensitivity = quality::penalty_sensitivity(loaded.joint, state);
   if (choice.stability) result.stability = stability::local_stability(loaded.model, linearised(loaded, state));
   if (choice.traction_bounds) result.tractions = traction_ranges(loaded, state);
   return result;

@@ -7,8 +7,8 @@
 #include "quality/error_bars.hpp"
 #include "quality/penalty_sensitivity.hpp"
 #include "stability/stability.hpp"
-#include "tractions/traction_bounds.hpp"
 #include "studies/program/engine.hpp"
+#include "tractions/traction_bounds.hpp"
 
 namespace dovetail::studies {
 

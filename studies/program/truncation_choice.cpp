@@ -4,8 +4,8 @@
 
 #include <numbers>
 
-#include "quality/automatic.hpp"
 #include "paths/resonance.hpp"
+#include "quality/automatic.hpp"
 
 namespace dovetail::studies {
 namespace {
@@ -38,8 +38,7 @@ std::optional<Status> choose_truncation(LoadedModel& loaded, const std::vector<d
   options.samples = solver.automatic_samples;
   options.amplitude_tolerance = accuracy(solver);
   options.energy_tolerance = 10 * accuracy(solver);
-  const quality::AutomaticSettings chosen =
-      quality::automatic_settings(loaded.joint, omega, options);
+  const quality::AutomaticSettings chosen = quality::automatic_settings(loaded.joint, omega, options);
   loaded.joint.options = chosen.options;
   return chosen.status;
 }

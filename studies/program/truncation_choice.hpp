@@ -14,8 +14,9 @@ namespace dovetail::studies {
 /// Throws InputError when an accuracy is given that is out of range, or without anything automatic.
 void check_accuracy(const SolverOverrides& solver);
 
-/// Chooses what `solver` leaves to be automatic for a response at these frequencies and writes it to loaded.joint.options.
-/// Returns how the choice ended (see quality::AutomaticSettings), or nothing when nothing was to be chosen.
+/// Chooses what `solver` leaves to be automatic for a response at these frequencies and writes it to
+/// loaded.joint.options. Returns how the choice ended (see quality::AutomaticSettings), or nothing when nothing was to
+/// be chosen.
 std::optional<Status> choose_truncation(LoadedModel& loaded, const std::vector<double>& hz,
                                         const SolverOverrides& solver);
 

@@ -50,8 +50,7 @@ std::vector<double> curve_frequencies(const WearOptions& options, const LoadedMo
     constexpr double kFirst = 1e-5, kWidest = 0.1, kWidths = 3;
     double width = kFirst;
     while (width < kWidest) {
-      const steady::State side =
-          steady::steady_state(unworn, from * (1 - width), peak.displacement);
+      const steady::State side = steady::steady_state(unworn, from * (1 - width), peak.displacement);
       if (side.status == Status::converged && side.amplitudes[0] < 0.5 * peak.amplitudes[0]) break;
       width *= 2;
     }
@@ -66,7 +65,8 @@ std::vector<double> curve_frequencies(const WearOptions& options, const LoadedMo
 
 }  // namespace
 
-ComputedHistory compute_history(const WearOptions& options, const LoadedModel& loaded, const WearStart& at, const wear::Control& control) {
+ComputedHistory compute_history(const WearOptions& options, const LoadedModel& loaded, const WearStart& at,
+                                const wear::Control& control) {
   constexpr double kShare = 0.01;
   ComputedHistory result;
   HistoryChoice& choice = result.choice;
@@ -110,9 +110,10 @@ ComputedHistory compute_history(const WearOptions& options, const LoadedModel& l
   int solves = 0;
   if (options.integrator == "explicit" && !increment) {
     const steady::State* initial =
-        at.resonance && joint.condition.wear_depth.size() == 0 && joint.condition.slip_origin.size() == 0 ? &at.resonance->state : nullptr;
-    const wear::DepthScale scale =
-        wear::depth_scale(joint, omega, settings.rate_threshold, initial, control);
+        at.resonance && joint.condition.wear_depth.size() == 0 && joint.condition.slip_origin.size() == 0
+            ? &at.resonance->state
+            : nullptr;
+    const wear::DepthScale scale = wear::depth_scale(joint, omega, settings.rate_threshold, initial, control);
     solves = scale.solves;
     choice.depth_scale = scale.depth;
     if (scale.depth > 0) increment = kShare * scale.depth;
@@ -121,8 +122,9 @@ ComputedHistory compute_history(const WearOptions& options, const LoadedModel& l
   if (options.integrator == "implicit") {
     const wear::ImplicitHistoryOptions implicit = implicit_options(settings);
     settings.tolerance = implicit.tolerance;
-    result.history = wear::as_history(wear::implicit_history(joint, omega, implicit, nullptr, control, past ? &past->history : nullptr),
-                                      *loaded.joint.model);
+    result.history = wear::as_history(
+        wear::implicit_history(joint, omega, implicit, nullptr, control, past ? &past->history : nullptr),
+        *loaded.joint.model);
   } else {
     result.history = wear::history(joint, omega, settings, {}, control, {}, past ? &past->history : nullptr);
   }
@@ -149,8 +151,7 @@ std::vector<WornCurve> worn_curves(const WearOptions& options, const LoadedModel
     WornCurve curve{.cycles = history.cycles[state], .worn_volume = history.worn_volume[state], .frequency_hz = hz};
     const steady::Joint worn = loaded.joint.worn(history.depth.row(state).transpose());
     const auto go_on = [&](std::size_t, const steady::State&) { return !control.stopped(); };
-    for (const steady::State& found :
-         paths::frequency_response(worn, omega, go_on))
+    for (const steady::State& found : paths::frequency_response(worn, omega, go_on))
       curve.amplitude.push_back(found.status == Status::converged ? found.amplitudes[0] : kUnknown);
     curves.push_back(std::move(curve));
   }

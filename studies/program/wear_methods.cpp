@@ -15,7 +15,8 @@ namespace {
 constexpr double kTurn = 2 * std::numbers::pi;
 constexpr const char* kCyclesReached = "the cycles asked for were reached while wearing";
 
-WearAnswer by_history(const WearOptions& options, const LoadedModel& loaded, const WearStart& at, const wear::Control& control) {
+WearAnswer by_history(const WearOptions& options, const LoadedModel& loaded, const WearStart& at,
+                      const wear::Control& control) {
   ComputedHistory computed = compute_history(options, loaded, at, control);
   const bool held = computed.choice.options.follow == "fixed";
   WearAnswer answer;
@@ -34,7 +35,8 @@ WearAnswer by_history(const WearOptions& options, const LoadedModel& loaded, con
   return answer;
 }
 
-WearAnswer by_asymptote(const WearOptions& options, const LoadedModel& loaded, const WearStart& at, const wear::Control& control) {
+WearAnswer by_asymptote(const WearOptions& options, const LoadedModel& loaded, const WearStart& at,
+                        const wear::Control& control) {
   const steady::Condition& condition = loaded.joint.condition;
   const bool unchanged = condition.slip_origin.size() == 0 && condition.wear_depth.size() == 0;
   const steady::State* initial = at.resonance && unchanged ? &at.resonance->state : nullptr;
@@ -42,14 +44,12 @@ WearAnswer by_asymptote(const WearOptions& options, const LoadedModel& loaded, c
   WearAnswer answer;
   answer.frequencies_hz = {at.hz};
   if (options.follow == "resonance") {
-    wear::FollowedAsymptote found =
-        wear::followed_asymptote(loaded.joint, at.omega, settings, {}, initial, control);
+    wear::FollowedAsymptote found = wear::followed_asymptote(loaded.joint, at.omega, settings, {}, initial, control);
     for (std::size_t i = 1; i < found.omegas.size(); ++i) answer.frequencies_hz.push_back(found.omegas[i] / kTurn);
     answer.solves = found.solves;
     answer.asymptote = std::move(found.asymptote);
   } else {
-    answer.asymptote =
-        wear::asymptote(loaded.joint, at.omega, settings, initial, control);
+    answer.asymptote = wear::asymptote(loaded.joint, at.omega, settings, initial, control);
     answer.solves = answer.asymptote->solves;
   }
   if (at.resonance) answer.solves += at.resonance->solves;
@@ -104,7 +104,8 @@ WearAnswer unknown_answer(const WearOptions& options, Eigen::Index nodes, Status
   return answer;
 }
 
-WearAnswer wear_answer(const WearOptions& options, const LoadedModel& loaded, const WearStart& at, const wear::Control& control) {
+WearAnswer wear_answer(const WearOptions& options, const LoadedModel& loaded, const WearStart& at,
+                       const wear::Control& control) {
   return options.method == "history" ? by_history(options, loaded, at, control)
                                      : by_asymptote(options, loaded, at, control);
 }

@@ -54,7 +54,8 @@ struct WearAnswer {
 [[nodiscard]] WearAnswer unknown_answer(const WearOptions& options, Eigen::Index nodes, Status why);
 
 /// The worn state by the method asked for, the excitation held or tracking the resonance.
-[[nodiscard]] WearAnswer wear_answer(const WearOptions& options, const LoadedModel& loaded, const WearStart& at, const wear::Control& control);
+[[nodiscard]] WearAnswer wear_answer(const WearOptions& options, const LoadedModel& loaded, const WearStart& at,
+                                     const wear::Control& control);
 
 /// Worn states over a band of held frequencies.
 struct WearBand {

@@ -27,26 +27,30 @@ StepTimes measure_step(const PatchOptions& options, int harmonics, int samples, 
                   .samples = samples,
                   .stuck = patch.stuck};
   if (!patch.converged()) return times;
-  const steady::Problem& residual = patch.residual();
+  const std::shared_ptr<const steady::Problem>& problem = patch.problem();
   const Eigen::MatrixXd& at = patch.state.displacement;
-  times.unknowns = residual.unknowns();
+  times.unknowns = problem->unknowns();
   times.factorised = patch.state.tangent->factorised_size();
 
-  steady::Point state;
-  times.residual = median_seconds([&] { residual.evaluate(at, false, state); }, seconds);
-  times.derivative = median_seconds([&] { residual.evaluate(at, true, state); }, seconds);
+  const auto point = std::make_shared<steady::Point>();
+  times.residual = median_seconds([&] { steady::evaluate(problem, at, *point); }, seconds);
+  const auto derivative = [&] {
+    steady::evaluate(problem, at, *point);
+    steady::differentiate(*point);
+  };
+  times.derivative = median_seconds(derivative, seconds);
   Eigen::MatrixXd jacobian;
-  times.jacobian = median_seconds([&] { jacobian = residual.jacobian(state); }, seconds);
+  times.jacobian = median_seconds([&] { jacobian = steady::jacobian(*point); }, seconds);
   times.lu = median_seconds([&] { const numerics::DenseLu lu(jacobian); }, seconds);
-  const Eigen::VectorXd rhs = Eigen::VectorXd::Ones(residual.unknowns());
-  times.linearise = median_seconds([&] { const steady::Tangent linear(residual, state); }, seconds);
-  const steady::Tangent linear(residual, state);
-  times.solve = median_seconds([&] { const Eigen::MatrixXd step = linear.solve(rhs); }, seconds);
+  const Eigen::VectorXd rhs = Eigen::VectorXd::Ones(problem->unknowns());
+  times.linearise = median_seconds([&] { const steady::Tangent tangent(point); }, seconds);
+  const steady::Tangent tangent(point);
+  times.solve = median_seconds([&] { const Eigen::MatrixXd step = tangent.solve(rhs); }, seconds);
   times.step = median_seconds(
       [&] {
-        residual.evaluate(at, true, state);
-        const steady::Tangent now(residual, state);
-        const Eigen::MatrixXd step = now.solve(state.residual.reshaped());
+        derivative();
+        const steady::Tangent now(point);
+        const Eigen::MatrixXd step = now.solve(point->residual.reshaped());
       },
       seconds);
   return times;

@@ -15,7 +15,7 @@ struct PatchState {
   steady::State state;
   int stuck = 0, slipping = 0, separating = 0;  ///< nodes; one that slips may also lift off
 
-  [[nodiscard]] const steady::Problem& residual() const { return state.tangent->problem(); }
+  [[nodiscard]] const std::shared_ptr<const steady::Problem>& problem() const { return state.tangent->point().problem; }
   [[nodiscard]] bool converged() const { return state.status == Status::converged; }
 };
 

@@ -11,12 +11,12 @@ Run timed_resonance(const std::shared_ptr<const dynamics::CondensedModel>& model
   // Without fall-backs, auto is Newton's method, and a search that fails is not continued along the branch.
   const bool bare = !setting.cascade;
   const steady::Options steady{.harmonics = setting.harmonics,
-                                       .samples = setting.samples,
-                                       .tolerance = tolerance,
-                                       .solver = bare && setting.solver == "auto" ? "newton" : setting.solver,
-                                       .penalty_scale = setting.penalty,
-                                       .penalty_cascade = setting.cascade,
-                                       .slip_return = setting.slip_return};
+                               .samples = setting.samples,
+                               .tolerance = tolerance,
+                               .solver = bare && setting.solver == "auto" ? "newton" : setting.solver,
+                               .penalty_scale = setting.penalty,
+                               .penalty_cascade = setting.cascade,
+                               .slip_return = setting.slip_return};
   paths::ResonanceOptions search;
   if (bare) search.sweep_range = 0;
   paths::Resonance found;

@@ -5,10 +5,10 @@
 #include <memory>
 #include <string>
 
-#include "optimizer/scene.hpp"
 #include "dynamics/condensed_model.hpp"
-#include "steady/options.hpp"
+#include "optimizer/scene.hpp"
 #include "paths/resonance.hpp"
+#include "steady/options.hpp"
 
 namespace dovetail::work_precision {
 

@@ -26,24 +26,24 @@
 namespace dovetail {
 namespace {
 
-using Model = std::shared_ptr<const dynamics::CondensedModel>;
 using work_precision::median_seconds;
 using work_precision::processor_seconds;
 
+const steady::Options kSettings{.harmonics = 3, .samples = 128};
+
 struct Scene {
-  Model model;
+  steady::Joint joint;
   double omega = 1.0;
-  steady::Options steady;
 };
 
 Scene plain(const reduction::ReducedModel& model) {
-  return {.model = std::make_shared<const dynamics::CondensedModel>(model), .steady = {.harmonics = 3, .samples = 128}};
+  return {.joint = {std::make_shared<const dynamics::CondensedModel>(model), {}, kSettings}};
 }
 
 Scene dovetail(const std::vector<studies::Override>& changes) {
   const studies::LoadedModel loaded = studies::load_model(QUICKSTART, changes, {});
-  const paths::Resonance unworn = paths::resonance({loaded.condensed, {}, loaded.steady}, loaded.glued_omega);
-  return {.model = loaded.condensed, .omega = unworn.omega, .steady = {.harmonics = 3, .samples = 128}};
+  const paths::Resonance unworn = paths::resonance(loaded.joint, loaded.glued_omega);
+  return {.joint = loaded.joint.with(kSettings), .omega = unworn.omega};
 }
 
 Scene scene(const std::string& name) {
@@ -74,19 +74,19 @@ void compare(const std::string& name) {
   const Scene at = scene(name);
   wear::Asymptote direct;
   const double direct_time =
-      median_seconds([&] { direct = wear::asymptote({at.model, {}, at.steady}, at.omega, direct_options()); }, 0.0);
+      median_seconds([&] { direct = wear::asymptote(at.joint, at.omega, direct_options()); }, 0.0);
   wear::AsymptoteOptions alone = direct_options();
   alone.arbitration = "never";
   alone.certify_finer = false;
   wear::Asymptote released;
-  const double released_time =
-      median_seconds([&] { released = wear::asymptote({at.model, {}, at.steady}, at.omega, alone); }, 0.0);
+  const double released_time = median_seconds([&] { released = wear::asymptote(at.joint, at.omega, alone); }, 0.0);
   if (direct.verdict != wear::Verdict::asymptote || direct.largest_depth == 0.0) {
     std::printf("%-9s %s, nothing to compare\n", name.c_str(), std::string(wear::to_string(direct.verdict)).c_str());
     return;
   }
   const auto run = [&](double share) {
-    return wear::history({at.model, {}, at.steady}, at.omega, {.increment = share * direct.largest_depth,
+    return wear::history(at.joint, at.omega,
+                         {.increment = share * direct.largest_depth,
                           .steps = 20000,
                           .rate_fraction = 1e-6,
                           .rate_threshold = 0.0,
@@ -97,17 +97,17 @@ void compare(const std::string& name) {
   const double history_time = processor_seconds() - before;
   const wear::History fine = run(0.0025), finest = run(0.00125);
   const Eigen::VectorXd reference = 2.0 * finest.final_depth - fine.final_depth;
-  const double volume = wear::worn_volume(at.model->contact(), reference);
+  const double volume = wear::worn_volume(at.joint.model->contact(), reference);
 
   const double start = processor_seconds();
   const wear::ImplicitHistory implicit =
-      wear::implicit_history({at.model, {}, at.steady}, at.omega, {.rate_fraction = 1e-4, .rate_threshold = 0.0});
+      wear::implicit_history(at.joint, at.omega, {.rate_fraction = 1e-4, .rate_threshold = 0.0});
   const double implicit_time = processor_seconds() - start;
   const Eigen::VectorXd followed = implicit.depth.bottomRows(1).transpose();
   std::printf(
       "%-9s %5ld %-8s %-11s %9.1e %9.1e %9.1e | %5d %5d %6d %7.1f | %7.3f %7.3f %7.2f %7.1f | %9.1e %9.1e %5d %6.1f "
       "%7.3f\n",
-      name.c_str(), static_cast<long>(at.model->nodes()), direct.decided_by.c_str(), direct.doubt.c_str(),
+      name.c_str(), static_cast<long>(at.joint.model->nodes()), direct.decided_by.c_str(), direct.doubt.c_str(),
       error(direct.depth, reference), std::abs(direct.worn_volume / volume - 1.0), error(finest.final_depth, reference),
       released.jacobians, direct.jacobians, usual.jacobians, static_cast<double>(usual.jacobians) / direct.jacobians,
       released_time, direct_time, history_time, history_time / direct_time, error(followed, reference),
@@ -143,13 +143,15 @@ void times() {
     int jacobians = 0;
     const auto history_with_curves = [&] {
       const wear::History run =
-          wear::history({model, {}, steady}, omega, {.increment = 0.02 * worn.largest_depth, .steps = 50, .rate_threshold = 0.0, .finish = false});
+          wear::history({model, {}, steady}, omega,
+                        {.increment = 0.02 * worn.largest_depth, .steps = 50, .rate_threshold = 0.0, .finish = false});
       jacobians = run.jacobians;
       std::vector<double> omegas;
       for (int i = 0; i < 60; ++i) omegas.push_back(0.8 + 0.4 * i / 59.0);
       const Eigen::Index states = run.cycles.size();
       for (int k = 0; k < 10; ++k)
-        for (const steady::State& point : paths::frequency_response({model, {.wear_depth = run.depth.row(k * (states - 1) / 9).transpose()}, steady}, omegas))
+        for (const steady::State& point : paths::frequency_response(
+                 {model, {.wear_depth = run.depth.row(k * (states - 1) / 9).transpose()}, steady}, omegas))
           jacobians += point.iterations;
     };
     const double seconds = median_seconds(history_with_curves, 0.0, 1);

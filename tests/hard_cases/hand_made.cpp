@@ -2,7 +2,7 @@
 
 #include "tests/hard_cases/problem.hpp"
 #include "tests/hard_cases/random.hpp"
-#include "tests/verification/response/rod.hpp"
+#include "tests/verification/steady/rod.hpp"
 
 namespace dovetail::hard_cases {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "reduction/reduced_model.hpp"
+#include "steady/joint.hpp"
 #include "steady/options.hpp"
-#include "steady/residual.hpp"
 
 namespace dovetail::hard_cases {
 

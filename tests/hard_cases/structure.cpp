@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/verification/response/rod.hpp"
+#include "tests/verification/steady/rod.hpp"
 
 namespace dovetail::hard_cases {
 

@@ -164,7 +164,8 @@ TEST(SectionEvaluation, DirectAsymptoteAgreesWithTheHistory) {
   // First order in the increment: 1 % of the depth leaves about 1 % of it.
   wear::HistoryOptions options{.increment = 0.01 * direct.largest_depth, .steps = 2000};
   options.rate_fraction = 1e-6;
-  const wear::History history = wear::history({result.model.condensed, {}, steady_options(coarse_scene().solver)}, result.unworn->omega, options, {});
+  const wear::History history = wear::history({result.model.condensed, {}, steady_options(coarse_scene().solver)},
+                                              result.unworn->omega, options, {});
   ASSERT_EQ(history.status, Status::converged);
   const Eigen::VectorXd last = history.depth.row(history.depth.rows() - 1);
   EXPECT_LT((last - direct.depth).cwiseAbs().maxCoeff(), 0.05 * direct.largest_depth);

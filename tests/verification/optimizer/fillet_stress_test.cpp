@@ -18,7 +18,8 @@ FilletStress blade_fillet(Scene scene, int flank_elements) {
   scene.solver.harmonics = 1;
   const CandidateModel model = ModelBuilder(scene).build(scene);
   EXPECT_TRUE(model.converged()) << model.status;
-  const paths::Resonance unworn = paths::resonance({model.condensed, {}, steady_options(scene.solver)}, model.reduction.glued_frequencies(scene.loading.mode - 1));
+  const paths::Resonance unworn = paths::resonance({model.condensed, {}, steady_options(scene.solver)},
+                                                   model.reduction.glued_frequencies(scene.loading.mode - 1));
   EXPECT_EQ(unworn.status, Status::converged);
   const fem::SectorMesh& sector = model.mesh.sector;
   return fillet_stress(scene, model, unworn.state, sector.blade_fillet_nodes, sector.blade_fillet_share,

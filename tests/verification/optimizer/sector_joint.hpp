@@ -35,7 +35,7 @@ inline Scene longer(Scene scene, int factor) {
   return scene;
 }
 
-/// Preload of one flank.
+/// steady::Preload of one flank.
 struct FlankLoad {
   Eigen::MatrixXd pressure, area;                ///< [across, along the slot] Pa, m^2
   double normal = 0, tangential = 0, axial = 0;  ///< resultants along the flank's normal and tangents, N

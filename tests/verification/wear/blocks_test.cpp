@@ -34,7 +34,9 @@ TEST_P(RandomBlock, HistoriesConvergeToTheAsymptote) {
   EXPECT_LT(worn.certificate, 1e-6);
   double error = 0.0;
   for (double fraction : {0.1, 0.02, 0.005}) {
-    const History run = history({model, {}, kSteady}, 1.0, {.increment = fraction * worn.largest_depth, .steps = 3000, .rate_fraction = 1e-4, .rate_threshold = 0.0});
+    const History run = history(
+        {model, {}, kSteady}, 1.0,
+        {.increment = fraction * worn.largest_depth, .steps = 3000, .rate_fraction = 1e-4, .rate_threshold = 0.0});
     EXPECT_EQ(run.end, HistoryEnd::worn_out) << to_string(run.end) << " " << to_string(run.status);
     const Eigen::VectorXd depth = run.depth.bottomRows(1).transpose();
     error = (depth - worn.depth).cwiseAbs().maxCoeff() / worn.largest_depth;
@@ -59,7 +61,9 @@ TEST(Block, HistoryCanEndDeeperThanTheAsymptote) {
   EXPECT_LT(worn.certificate, 1e-6);
   std::vector<double> volumes;
   for (double fraction : {0.08, 0.04, 0.02}) {
-    const History run = history({model, {}, kSteady}, 1.0, {.increment = fraction * worn.largest_depth, .steps = 3000, .rate_fraction = 1e-4, .rate_threshold = 0.0});
+    const History run = history(
+        {model, {}, kSteady}, 1.0,
+        {.increment = fraction * worn.largest_depth, .steps = 3000, .rate_fraction = 1e-4, .rate_threshold = 0.0});
     ASSERT_EQ(run.end, HistoryEnd::worn_out);
     volumes.push_back(run.worn_volume[run.worn_volume.size() - 1] / worn.worn_volume);
   }
@@ -135,7 +139,8 @@ TEST(Block, HalvesAndReportsStepsThatFail) {
 TEST(Block, StopsWhenAsked) {
   int asked = 0;
   const Control control{.stop = [&asked] { return ++asked > 4; }};
-  const History run = history({condensed(scenes::random_block(1)), {}, kSteady}, 1.0, {.increment = 1e-6, .rate_threshold = 0.0}, {}, control);
+  const History run = history({condensed(scenes::random_block(1)), {}, kSteady}, 1.0,
+                              {.increment = 1e-6, .rate_threshold = 0.0}, {}, control);
   EXPECT_EQ(run.status, Status::interrupted);
   EXPECT_EQ(run.cycles.size(), 4);  // four states were allowed and are kept
 }

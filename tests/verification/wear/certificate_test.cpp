@@ -69,8 +69,7 @@ TEST(Certificate, SaysWhatCouldNotBeSolved) {
   hasty.max_iterations = 1;
   hasty.penalty_cascade = false;
   hasty.max_rescue_iterations = 0;
-  const Certificate found =
-      certificate(model, {}, Eigen::VectorXd::Zero(model->nodes()), unworn.wear_rate.maxCoeff(), unworn, hasty);
+  const Certificate found = certificate({model, {}, hasty}, unworn.wear_rate.maxCoeff(), unworn);
   EXPECT_NE(found.status, Status::converged);
   EXPECT_TRUE(std::isnan(found.remaining));
 }

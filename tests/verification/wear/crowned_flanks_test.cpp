@@ -29,7 +29,8 @@ Worn wear_off(const optimizer::ModelBuilder& builder, optimizer::Scene scene, do
   worn.model = builder.build(scene);
   optimizer::fit_contact(scene, {}, worn.model);
   worn.steady = optimizer::steady_options(scene.solver);
-  const paths::Resonance peak = paths::resonance({worn.model.condensed, {}, worn.steady}, worn.model.reduction.glued_frequencies(scene.loading.mode - 1));
+  const paths::Resonance peak = paths::resonance({worn.model.condensed, {}, worn.steady},
+                                                 worn.model.reduction.glued_frequencies(scene.loading.mode - 1));
   EXPECT_EQ(peak.status, Status::converged);
   worn.omega = peak.omega;
   AsymptoteOptions options;

@@ -26,15 +26,15 @@ std::shared_ptr<const dynamics::CondensedModel> oscillator() {
 }
 
 TEST(Drift, EndsAtTheFreeOscillator) {
-  const auto model = oscillator();
-  const paths::Resonance unworn = paths::resonance({model, {}, kSteady}, 1.05, kResonance);
+  const steady::Joint joint{oscillator(), {}, kSteady};
+  const paths::Resonance unworn = paths::resonance(joint, 1.05, kResonance);
   ASSERT_EQ(unworn.status, Status::converged);
-  const Asymptote worn = asymptote({model, {}, kSteady}, unworn.omega, {.rate_threshold = 0.0}, &unworn.state);
+  const Asymptote worn = asymptote(joint, unworn.omega, {.rate_threshold = 0.0}, &unworn.state);
   ASSERT_EQ(worn.verdict, Verdict::asymptote) << to_string(worn.status);
   EXPECT_NEAR(worn.largest_depth, kLoad / kNormal, 1e-9);  // residual 1e-9 of a force 0.1, over k_n = 2
   EXPECT_FALSE(worn.confirmed_by_history);
 
-  const Drift drift = resonance_drift(model, unworn, {}, worn.depth, kSteady, kResonance);
+  const Drift drift = resonance_drift(joint.worn(worn.depth), unworn, kResonance);
   ASSERT_EQ(drift.worn.status, Status::converged);
   // Peak of the displacement of a damped oscillator, w^2 = 1 - c^2 / 2; found to 1e-7.
   EXPECT_NEAR(drift.worn.omega, std::sqrt(1.0 - 0.5 * kDamping * kDamping), 1e-6);
@@ -43,12 +43,12 @@ TEST(Drift, EndsAtTheFreeOscillator) {
 }
 
 TEST(Drift, IsFollowedByTheHistory) {
-  const auto model = oscillator();
-  const paths::Resonance unworn = paths::resonance({model, {}, kSteady}, 1.05, kResonance);
+  const steady::Joint joint{oscillator(), {}, kSteady};
+  const paths::Resonance unworn = paths::resonance(joint, 1.05, kResonance);
   ASSERT_EQ(unworn.status, Status::converged);
   const HistoryOptions options{
       .increment = 0.01, .steps = 100, .rate_fraction = 1e-3, .rate_threshold = 0.0, .follow = "resonance"};
-  const History run = history({model, {}, kSteady}, unworn.omega, options, kResonance);
+  const History run = history(joint, unworn.omega, options, kResonance);
   EXPECT_EQ(run.status, Status::converged);
   EXPECT_EQ(run.end, HistoryEnd::worn_out);
   const Eigen::Index last = run.cycles.size() - 1;

@@ -61,7 +61,8 @@ TEST(ImplicitHistory, FollowsThePathOfExplicitOnes) {
   const double fine = volume(2e-5);
   EXPECT_NEAR(volume(2e-4), fine, 1e-3 * fine);
   const History run =
-      history({model, {}, kSteady}, 1.0, {.increment = 0.004 * 3.04e-4, .steps = 3000, .rate_fraction = 1e-5, .rate_threshold = 0.0});
+      history({model, {}, kSteady}, 1.0,
+              {.increment = 0.004 * 3.04e-4, .steps = 3000, .rate_fraction = 1e-5, .rate_threshold = 0.0});
   ASSERT_EQ(run.end, HistoryEnd::worn_out);
   EXPECT_NEAR(run.final_volume, fine, 4e-3 * fine);
 }
@@ -84,7 +85,8 @@ TEST(ImplicitHistory, UnloadsARubbingNode) {
   ASSERT_EQ(run.end, HistoryEnd::worn_out);
   EXPECT_NEAR(last_depth(run)[0], 0.05, 1e-4 * 0.05);
   const Eigen::Index half = run.cycles.size() / 2;
-  const History fine = history({model, {}, kSteady}, 1.0, {.increment = 0.0005 * 0.05,
+  const History fine = history({model, {}, kSteady}, 1.0,
+                               {.increment = 0.0005 * 0.05,
                                 .steps = 4000,
                                 .cycles = run.cycles[half],
                                 .rate_fraction = 0.0,
@@ -123,9 +125,9 @@ TEST(History, IsResumed) {
   some.steps = 10;
   const History first = history({model, {}, kSteady}, 1.0, some);
   ASSERT_EQ(first.end, HistoryEnd::steps);
-  const Resumption next = resume(first, {}, options);
+  const Resumption next = resume(first, {model, {}, kSteady}, options);
   EXPECT_EQ(next.options.start_cycles, first.cycles[10]);
-  const History second = history({model, next.start, kSteady}, next.omega, next.options);
+  const History second = history(next.joint, next.omega, next.options);
   EXPECT_EQ(second.end, HistoryEnd::worn_out);
   EXPECT_EQ(second.cycles.size() + 10, whole.cycles.size());
   EXPECT_NEAR(second.cycles[second.cycles.size() - 1], whole.cycles[whole.cycles.size() - 1],
@@ -141,11 +143,10 @@ TEST(ImplicitHistory, IsResumed) {
   ASSERT_EQ(whole.end, HistoryEnd::worn_out);
   const History first = as_history(implicit_history({model, {}, kSteady}, 1.0, {.steps = 6}), *model);
   ASSERT_EQ(first.end, HistoryEnd::steps);
-  const Resumption next = resume(first, {}, {});
+  const Resumption next = resume(first, {model, {}, kSteady}, {});
   const ImplicitHistoryOptions options{.start_cycles = next.options.start_cycles,
                                        .reference_rate = next.options.reference_rate};
-  const History second =
-      as_history(implicit_history({model, next.start, kSteady}, next.omega, options, nullptr, {}, &first), *model);
+  const History second = as_history(implicit_history(next.joint, next.omega, options, nullptr, {}, &first), *model);
   EXPECT_EQ(second.end, HistoryEnd::worn_out);
   ASSERT_EQ(second.cycles.size(), whole.cycles.size());
   EXPECT_LT((second.cycles - whole.cycles).cwiseAbs().maxCoeff(), 1e-8 * whole.cycles.maxCoeff());

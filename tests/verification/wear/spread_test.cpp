@@ -18,9 +18,9 @@ steady::Options settings() {
   return {.harmonics = 3, .samples = 128};
 }
 
-WornEnd worn(const Model& model, const steady::Condition& condition) {
+WornEnd worn(const steady::Joint& joint) {
   // The direct answer of every member: one decided by a history would differ from its neighbours by a node.
-  const Asymptote found = asymptote({model, condition, settings()}, 1.0, AsymptoteOptions{.arbitration = "unsettled"});
+  const Asymptote found = asymptote(joint, 1.0, AsymptoteOptions{.arbitration = "unsettled"});
   return {.verdict = found.verdict,
           .status = found.status,
           .volume = found.worn_volume,
@@ -35,9 +35,9 @@ const SpreadRange& range_of(const Spread& spread, const std::string& source) {
 
 class PunchSpread : public testing::Test {
  protected:
-  Model model_ = std::make_shared<const dynamics::CondensedModel>(scenes::punch({.nodes = 41}));
-  steady::State unworn_ = steady::steady_state({model_, {}, settings()}, 1.0);
-  Spread spread_ = spread(model_, {}, worn(model_, {}), worn, &unworn_);
+  steady::Joint joint_{std::make_shared<const dynamics::CondensedModel>(scenes::punch({.nodes = 41})), {}, settings()};
+  steady::State unworn_ = steady::steady_state(joint_, 1.0);
+  Spread spread_ = spread(joint_, worn(joint_), worn, &unworn_);
 };
 
 TEST_F(PunchSpread, ShapeDoesNotDependOnTheWearCoefficient) {
@@ -79,15 +79,15 @@ TEST(Spread, FailedMembersAreCountedAndKept) {
   const Model model = std::make_shared<const dynamics::CondensedModel>(scenes::punch({.nodes = 21}));
   const double friction = model->contact().friction(0);
   const WornEnd nominal{.verdict = Verdict::asymptote, .volume = 1, .depth = Eigen::VectorXd::Ones(21)};
-  const auto compute = [&](const Model& changed, const steady::Condition&) {
+  const auto compute = [&](const steady::Joint& changed) {
     WornEnd end = nominal;
-    if (changed->contact().friction(0) < friction) {
+    if (changed.model->contact().friction(0) < friction) {
       end.verdict = Verdict::not_converged;
       end.status = Status::stalled;
     }
     return end;
   };
-  const Spread result = spread(model, {}, nominal, compute);
+  const Spread result = spread({model, {}, settings()}, nominal, compute);
   const SpreadRange& range = range_of(result, "friction");
   EXPECT_EQ(range.verdict, Verdict::not_converged);
   EXPECT_EQ(range.members, 2);
@@ -98,7 +98,7 @@ TEST(Spread, FailedMembersAreCountedAndKept) {
                           [](const SpreadMember& member) { return member.end.status == Status::stalled; }));
   SpreadOptions wrong;
   wrong.friction = 1;
-  EXPECT_THROW((void)spread(model, {}, nominal, compute, nullptr, wrong), InputError);
+  EXPECT_THROW((void)spread({model, {}, settings()}, nominal, compute, nullptr, wrong), InputError);
 }
 
 TEST(FollowedAsymptote, EndsAtTheResonanceOfItsOwnWornState) {

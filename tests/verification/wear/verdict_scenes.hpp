@@ -2,8 +2,8 @@
 
 #include <string_view>
 
-#include "steady/options.hpp"
 #include "scenes.hpp"
+#include "steady/options.hpp"
 
 namespace dovetail::wear::scenes {
 

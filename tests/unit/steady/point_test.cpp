@@ -1,0 +1,220 @@
+#include "steady/problem.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <random>
+
+#include "dynamics/extremes.hpp"
+#include "steady/steady_state.hpp"
+#include "steady/tangent.hpp"
+#include "tests/unit/steady/random_model.hpp"
+
+namespace dovetail {
+namespace {
+
+bool same_branch(const steady::Point& a, const steady::Point& b) {
+  for (std::size_t i = 0; i < a.nodes.size(); ++i)
+    if (a.nodes[i].state != b.nodes[i].state || a.nodes[i].periods != b.nodes[i].periods) return false;
+  return true;
+}
+
+struct Kind {
+  const char* name;
+  Eigen::Index tangential;
+  const char* slip_return;
+};
+
+class Jacobian : public testing::TestWithParam<Kind> {};
+
+TEST_P(Jacobian, MatchesFiniteDifferencesAndItsOwnSolver) {
+  const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(5, GetParam().tangential, false));
+  steady::Condition condition;
+  condition.released = {0, 0, 1, 0, 0};
+  const std::shared_ptr<const steady::Problem> of = problem(model, 1.3, condition, GetParam().slip_return);
+  std::mt19937 generator(5);
+  std::normal_distribution<double> normal;
+  const Eigen::Index nc = model->contact_size();
+  int compared = 0, mixed = 0;
+  for (int trial = 0; trial < 12; ++trial) {
+    const Eigen::MatrixXd at =
+        of->closed_start() + Eigen::MatrixXd::NullaryExpr(nc, 7, [&] { return 0.02 * normal(generator); });
+    const Eigen::MatrixXd direction = Eigen::MatrixXd::NullaryExpr(nc, 7, [&] { return normal(generator); });
+    const std::shared_ptr<const steady::Point> here = point(of, at);
+    const steady::Point& base = *here;
+    steady::Point plus, minus;
+    const double h = 1e-7;
+    steady::evaluate(of, at + h * direction, plus);
+    steady::evaluate(of, at - h * direction, minus);
+    if (!same_branch(base, plus) || !same_branch(base, minus)) continue;
+    ++compared;
+    for (const contact::MarchResult& node : base.nodes) mixed += !node.always_stuck && !node.always_separated;
+    const Eigen::MatrixXd jacobian = steady::jacobian(base);
+    const Eigen::VectorXd exact = jacobian * direction.reshaped();
+    const Eigen::VectorXd difference = (plus.residual - minus.residual).reshaped() / (2 * h);
+    // Rounding 1e-16 |lambda_u| / h = 1e-8.
+    EXPECT_LT((exact - difference).norm(), 1e-7 * exact.norm());
+    const steady::Tangent linear(here);
+    EXPECT_LT((linear.solve(exact) - direction.reshaped()).norm(), 1e-9 * direction.norm());
+    const Eigen::VectorXd back = jacobian.transpose() * direction.reshaped();
+    EXPECT_LT((linear.solve_transposed(back) - direction.reshaped()).norm(), 1e-9 * direction.norm());
+  }
+  EXPECT_GE(compared, 4);
+  EXPECT_GE(mixed, 4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, Jacobian,
+                         testing::Values(Kind{"Plane", 1, "first_order"}, Kind{"Space", 2, "first_order"},
+                                         Kind{"SpaceSecondOrder", 2, "second_order"}),
+                         [](const testing::TestParamInfo<Kind>& kind) { return std::string(kind.param.name); });
+
+TEST(CondensedModel, IsTheSchurComplementWithItsSlope) {
+  for (const bool general : {false, true}) {
+    const reduction::ReducedModel reduced = random_model(3, 2, general);
+    const dynamics::CondensedModel model(reduced);
+    EXPECT_EQ(model.modal(), !general);
+    const double omega = 1.7, step = 2e-6;  // truncation 4e-12 times the third derivative, rounding 1e-10
+    for (const int h : {0, 1, 3}) {
+      const Eigen::MatrixXcd s = reduced.stiffness.cast<std::complex<double>>() +
+                                 std::complex<double>(0, h * omega) * reduced.damping -
+                                 h * h * omega * omega * reduced.mass;
+      const Eigen::MatrixXcd ii = s.topLeftCorner(6, 6), ci = s.bottomLeftCorner(9, 6);
+      const Eigen::MatrixXcd exact = s.bottomRightCorner(9, 9) - ci * ii.inverse() * ci.transpose();
+      const dynamics::HarmonicStiffness at = model.harmonic(h, omega);
+      EXPECT_LT((at.stiffness - exact).norm(), 1e-12 * exact.norm());
+      const dynamics::HarmonicStiffness up = model.harmonic(h, omega + step), down = model.harmonic(h, omega - step);
+      const Eigen::VectorXcd u = Eigen::VectorXcd::Random(9);
+      const Eigen::VectorXcd slope = ((up.stiffness - down.stiffness) * u - (up.force - down.force)) / (2 * step);
+      EXPECT_LT((model.slope(h, omega, at, u) - slope).norm(), 1e-8 * (1 + slope.norm()));
+      // Internal rows of S q = F hold for the recovered displacements.
+      Eigen::VectorXcd force = Eigen::VectorXcd::Zero(15);
+      if (h == 0) force = reduced.static_force;
+      if (h == 1)
+        force = reduced.cosine_force.row(0).transpose() -
+                std::complex<double>(0, 1) * reduced.sine_force.row(0).transpose();
+      const Eigen::VectorXcd left = s * model.recover(at, u);
+      EXPECT_LT((left - force).head(6).norm(), 1e-12 * (1 + force.norm()));
+      const Eigen::VectorXcd moved = (model.outputs(up, u) - model.outputs(down, u)) / (2 * step);
+      EXPECT_LT((model.output_slope(h, omega, at, u) - moved).norm(), 1e-8);
+      EXPECT_LT((model.outputs(at, u) - model.recover(at, u).head(2)).norm(), 1e-12);
+    }
+  }
+}
+
+TEST(CondensedModel, ReportsEverythingWrong) {
+  reduction::ReducedModel model = random_model(3, 1, false);
+  model.contact.area(1) = 0;
+  model.contact.normal(2) = 99;
+  model.static_force.resize(2);
+  try {
+    dynamics::CondensedModel condensed(model);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.violations().size(), 3u);
+  }
+}
+
+TEST(Extremes, FindsTheLargestOfSeveral) {
+  // 3 cos + 2 sin(3.): dense sampling with 2e5 points is within (pi / 2e5)^2 of the extremes.
+  Eigen::VectorXd a = Eigen::VectorXd::Zero(7);
+  a << 0.3, 3, 0, 0, 0, 0.5, 2;
+  double low = 1e9, high = -1e9;
+  for (int i = 0; i < 200000; ++i) {
+    const double value = dynamics::fourier_row(i * 2 * 3.14159265358979 / 200000, 7).dot(a);
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  const dynamics::Extremes found = dynamics::extremes(a);
+  EXPECT_NEAR(found.maximum, high, 1e-8);
+  EXPECT_NEAR(found.minimum, low, 1e-8);
+  EXPECT_NEAR(dynamics::fourier_row(found.tau_maximum, 7).dot(a), found.maximum, 1e-14);
+  EXPECT_EQ(dynamics::extremes(Eigen::VectorXd::Constant(1, 2.0)).amplitude(), 0);
+}
+
+TEST(State, RefusesBadOptions) {
+  const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(2, 1, false));
+  EXPECT_THROW((void)steady::steady_state({model, {}, {.harmonics = 3, .samples = 6}}, 1), InputError);
+  EXPECT_THROW((void)steady::steady_state({model, {}, {}}, -1), InputError);
+  EXPECT_THROW((void)steady::steady_state({model, {}, {.solver = "magic"}}, 1), InputError);
+  EXPECT_THROW((void)steady::steady_state({model, {}, {}}, 1, Eigen::MatrixXd::Zero(2, 7)), InputError);
+  EXPECT_THROW((void)steady::steady_state({model, {.wear_depth = Eigen::VectorXd::Zero(5)}, {}}, 1), InputError);
+}
+
+TEST(State, SolversAgree) {
+  const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(2, 1, false));
+  const steady::State newton = steady::steady_state({model, {}, {.solver = "newton"}}, 1.3);
+  ASSERT_EQ(newton.status, Status::converged);
+  for (const char* solver : {"powell", "powell_fd"}) {
+    const steady::State other = steady::steady_state({model, {}, {.solver = solver}}, 1.3);
+    ASSERT_EQ(other.status, Status::converged) << solver;
+    EXPECT_LT((other.displacement - newton.displacement).norm(), 1e-7 * newton.displacement.norm()) << solver;
+  }
+}
+
+// A free body on `nodes` contact nodes, pressed on them: nothing else holds it, and rounding leaves its stiffness
+// against being moved as a whole at about 1e-16 of the others instead of zero.
+reduction::ReducedModel free_body(Eigen::Index nodes) {
+  reduction::ReducedModel model = random_model(nodes, 1, false);
+  const Eigen::Index n = model.stiffness.rows();
+  Eigen::MatrixXd rigid = Eigen::MatrixXd::Zero(n, 2);
+  for (Eigen::Index i = 0; i < n; ++i) rigid(i, i % 2) = 1;  // contact dofs begin at an even index: N, T, N, T, ...
+  const Eigen::MatrixXd keep =
+      Eigen::MatrixXd::Identity(n, n) - rigid * (rigid.transpose() * rigid).inverse() * rigid.transpose();
+  model.stiffness = keep * model.stiffness * keep;
+  model.damping = 0.03 * model.stiffness;
+  model.static_force *= 20;
+  model.contact.friction.setConstant(0.8);
+  return model;
+}
+
+TEST(State, OfABodyThatNothingHoldsIsSingular) {
+  const auto model = std::make_shared<const dynamics::CondensedModel>(free_body(3));
+  const steady::State held = steady::steady_state({model, {}, {}}, 1.3);
+  ASSERT_EQ(held.status, Status::converged);
+  ASSERT_TRUE(held.tangent);
+  for (const bool linearise : {true, false}) {
+    const steady::State floating =
+        steady::steady_state({model, {.released = {1, 1, 1}}, {.linearise = linearise}}, 1.3);
+    EXPECT_NE(floating.status, Status::converged) << linearise << " " << floating.residual;
+    EXPECT_FALSE(floating.tangent);
+  }
+}
+
+TEST(State, OfABodyThatIsFreeToGoNowhereInParticularIsSingular) {
+  // Without a static load the free body is in equilibrium wherever it is: the residual vanishes, the place is not
+  // known.
+  reduction::ReducedModel body = free_body(3);
+  body.static_force.setZero();
+  const auto model = std::make_shared<const dynamics::CondensedModel>(body);
+  for (const bool linearise : {true, false}) {
+    const steady::State floating =
+        steady::steady_state({model, {.released = {1, 1, 1}}, {.linearise = linearise}}, 1.3);
+    EXPECT_EQ(floating.status, Status::singular) << linearise << " " << floating.residual;
+    EXPECT_FALSE(floating.tangent);
+  }
+}
+
+TEST(Tangent, PredictsWearAndFrequency) {
+  const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(4, 2, false));
+  const steady::Options options{.tolerance = 1e-13, .periodic_tolerance = 1e-13};
+  const double omega = 1.3, h = 1e-6;
+  const steady::State at = steady::steady_state({model, {}, options}, omega);
+  ASSERT_EQ(at.status, Status::converged);
+  ASSERT_TRUE(at.tangent);
+  const steady::State up = steady::steady_state({model, {}, options}, omega + h, at.displacement);
+  const steady::State down = steady::steady_state({model, {}, options}, omega - h, at.displacement);
+  const Eigen::MatrixXd slope = (up.displacement - down.displacement) / (2 * h);
+  EXPECT_LT((at.tangent->response_to_frequency() - slope).norm(), 1e-5 * slope.norm());
+  const Eigen::VectorXd change = Eigen::Vector4d(1, 0, -0.5, 0.2);
+  const steady::State more = steady::steady_state({model, {.wear_depth = h * change}, options}, omega, at.displacement);
+  const steady::State less =
+      steady::steady_state({model, {.wear_depth = -h * change}, options}, omega, at.displacement);
+  const Eigen::MatrixXd moved = (more.displacement - less.displacement) / (2 * h);
+  EXPECT_LT((at.tangent->response_to_wear(change) - moved).norm(), 1e-5 * moved.norm());
+  const Eigen::VectorXd rate = (more.wear_rate - less.wear_rate) / (2 * h);
+  EXPECT_LT((at.tangent->wear_rate_to_wear({0, 1, 2, 3}) * change - rate).norm(), 1e-5 * rate.norm());
+  EXPECT_GT(rate.norm(), 0);
+}
+
+}  // namespace
+}  // namespace dovetail

@@ -1,0 +1,74 @@
+#include "steady/tangent.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "steady/solve.hpp"
+#include "steady/steady_state.hpp"
+#include "tests/unit/steady/random_model.hpp"
+
+namespace dovetail {
+namespace {
+
+Eigen::MatrixXd random_matrix(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
+  std::mt19937 generator(seed);
+  std::normal_distribution<double> normal;
+  return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return normal(generator); });
+}
+
+// Which nodes carry nothing, by gap; the others slip, lift off or stick.
+class Condensation : public testing::TestWithParam<std::vector<char>> {};
+
+TEST_P(Condensation, OfNodesWithoutForceIsExact) {
+  for (const Eigen::Index tangential : {1, 2}) {
+    const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(5, tangential, false));
+    const std::shared_ptr<const steady::Problem> of = problem(model, 1.3, {.released = GetParam()});
+    const Eigen::Index nc = model->contact_size();
+    const std::shared_ptr<const steady::Point> at = point(of, of->closed_start() + 0.02 * random_matrix(nc, 7, 11));
+    const steady::Tangent linear(at);
+    ASSERT_EQ(linear.status(), Status::converged);
+    const auto open = std::count(GetParam().begin(), GetParam().end(), 1);
+    EXPECT_LE(linear.factorised_size(), 7 * (nc - open * (1 + tangential)));
+    const Eigen::MatrixXd jacobian = steady::jacobian(*at), x = random_matrix(7 * nc, 3, 12);
+    // Both sides agree to rounding times the condition of J, which is below 1e3 here.
+    EXPECT_LT((linear.solve(jacobian * x) - x).norm(), 1e-11 * x.norm());
+    EXPECT_LT((linear.solve_transposed(jacobian.transpose() * x) - x).norm(), 1e-11 * x.norm());
+    const steady::JacobianBlocks blocks = steady::blocks(*at);
+    EXPECT_LT((steady::apply_jacobian(blocks, x) - jacobian * x).norm(), 1e-13 * (jacobian * x).norm());
+    EXPECT_LT((steady::apply_jacobian_transposed(blocks, x) - jacobian.transpose() * x).norm(),
+              1e-13 * (jacobian.transpose() * x).norm());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Nodes, Condensation,
+                         testing::Values(std::vector<char>{0, 0, 0, 0, 0}, std::vector<char>{1, 0, 0, 1, 0},
+                                         std::vector<char>{1, 1, 1, 1, 1}));
+
+TEST(Tangent, SharesTheFactorsOfAnEqualJacobianOnly) {
+  const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(4, 1, false));
+  const std::shared_ptr<const steady::Problem> of = problem(model, 1.3, {});
+  const Eigen::MatrixXd at = of->closed_start() + 0.02 * random_matrix(8, 7, 5);
+  const steady::Tangent first(point(of, at));
+  EXPECT_FALSE(first.shares_factors());
+  // In a plane D changes only where the state of a sample does.
+  EXPECT_TRUE(steady::Tangent(point(of, at + 1e-12 * random_matrix(8, 7, 6)), &first).shares_factors());
+  EXPECT_FALSE(steady::Tangent(point(of, at + 0.05 * random_matrix(8, 7, 7)), &first).shares_factors());
+  EXPECT_FALSE(steady::Tangent(point(problem(model, 1.3001, {}), at), &first).shares_factors());
+}
+
+TEST(State, IsTheSameWithKeptFactorsAndTakesFewerJacobians) {
+  const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(60, 1, false));
+  const steady::Options options{.tolerance = 1e-12};
+  const steady::State from = steady::steady_state({model, {}, options}, 1.30);
+  ASSERT_EQ(from.status, Status::converged);
+  const steady::State fresh = steady::steady_state({model, {}, options}, 1.301, from.displacement);
+  const steady::State kept = steady::steady_state({model, {}, options}, 1.301, from.displacement, from.tangent);
+  ASSERT_EQ(fresh.status, Status::converged);
+  ASSERT_EQ(kept.status, Status::converged);
+  EXPECT_LT((fresh.displacement - kept.displacement).norm(), 1e-10 * fresh.displacement.norm());
+  EXPECT_LT(kept.iterations, fresh.iterations);
+}
+
+}  // namespace
+}  // namespace dovetail
