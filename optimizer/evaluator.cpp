@@ -197,12 +197,4 @@ CandidateResult SceneEvaluator::evaluate(const Scene& scene, const Purpose& purp
   return result;
 }
 
-Evaluator over_design_space(const SceneEvaluator& evaluator, const Scene& base, const DesignSpace& space) {
-  return [&evaluator, base, keys = space.keys()](std::span<const double> x) {
-    Scene scene = base;
-    for (std::size_t i = 0; i < keys.size(); ++i) set_parameter(scene, keys[i], x[i]);
-    return evaluator.evaluate(scene, kSearch).evaluation;
-  };
-}
-
 }  // namespace dovetail::optimizer

@@ -6,7 +6,6 @@
 
 #include "optimizer/candidate_model.hpp"
 #include "optimizer/contact_fit.hpp"
-#include "optimizer/design_space.hpp"
 #include "optimizer/error_bars.hpp"
 #include "optimizer/evaluation.hpp"
 #include "optimizer/fillet_stress.hpp"
@@ -63,8 +62,5 @@ class SceneEvaluator {
 
 /// Options of every steady state of a scene.
 [[nodiscard]] steady::Options steady_options(const SolverSettings& settings);
-
-/// The evaluator as a function of the design variables: `base` with the variables set.
-[[nodiscard]] Evaluator over_design_space(const SceneEvaluator& evaluator, const Scene& base, const DesignSpace& space);
 
 }  // namespace dovetail::optimizer

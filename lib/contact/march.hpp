@@ -28,7 +28,6 @@ struct MarchOptions {
 /// What one node is, besides its prediction forces.
 struct NodeLaw {
   double friction = 0;                   ///< mu >= 0
-  double normal_penalty = 1;             ///< eps_N > 0, N/m
   double tangential_penalty = 1;         ///< eps_T > 0, N/m, one for both tangential directions
   Eigen::Vector2d slip_origin = {0, 0};  ///< X_T at which the march starts, m
 };

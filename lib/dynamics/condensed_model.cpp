@@ -71,11 +71,6 @@ CondensedModel::CondensedModel(const reduction::ReducedModel& model) {
   output_internal_ = Eigen::MatrixXd(outputs(Eigen::all, internal_dofs_)) * basis_;
 }
 
-void CondensedModel::set_slip_origin(const Eigen::MatrixXd& slip_origin) {
-  assert(slip_origin.rows() == nodes() && slip_origin.cols() == directions() - 1);
-  contact_.slip_origin = slip_origin;
-}
-
 reduction::ReducedModel CondensedModel::reduced() const {
   const Eigen::Index nc = contact_size(), ni = force_internal_.rows(), n = nc + ni;
   const auto joined = [&](const Partition& part) {

@@ -40,8 +40,6 @@ class CondensedModel {
   [[nodiscard]] Eigen::Index output_count() const { return output_contact_.rows(); }  ///< n_out
   [[nodiscard]] bool modal() const { return modal_; }
   [[nodiscard]] int force_harmonics() const { return static_cast<int>(force_contact_.cols()) - 1; }
-  /// Replaces the slip X_T at which marches start by default, [Nc, d-1] m (the preload's history).
-  void set_slip_origin(const Eigen::MatrixXd& slip_origin);
   /// Replaces the friction coefficients mu [Nc], >= 0 (large: a node that is held stuck).
   void set_friction(const Eigen::VectorXd& friction) { contact_.friction = friction; }
   /// Replaces the wear coefficients k_w [Nc], 1/Pa, >= 0.

@@ -18,9 +18,9 @@ struct Search {
 // Backtracks from the full step; the minimiser of the quadratic through |r|^2 at 0 (slope -2 |r|^2) and at t guides
 // the next fraction. Keeps the best point in case none decreases enough.
 Search backtrack(const NewtonSystem& system, const Eigen::VectorXd& x, const Eigen::VectorXd& step, double norm,
-                 double reference, double first, const NewtonParams& params, NewtonStats& stats) {
+                 double reference, const NewtonParams& params, NewtonStats& stats) {
   Search best;
-  for (double t = first; t >= params.smallest_step * first;) {
+  for (double t = 1; t >= params.smallest_step;) {
     const Eigen::VectorXd candidate = x + t * step;
     Eigen::VectorXd residual = system.residual(candidate);
     ++stats.evaluations;
@@ -96,10 +96,8 @@ NewtonStats newton(const NewtonSystem& system, Eigen::VectorXd& x, const NewtonP
     if (const Status solved = system.newton_step(step); solved != Status::converged) return finish(solved);
     ++stats.iterations;
     if (!step.allFinite()) return finish(Status::not_finite);
-    const double largest = step.cwiseAbs().maxCoeff();
-    const double first = params.max_step > 0 && largest > params.max_step ? params.max_step / largest : 1.0;
     const double reference = *std::max_element(recent.begin(), recent.end());
-    Search found = backtrack(system, x, step, norm, reference, first, params, stats);
+    Search found = backtrack(system, x, step, norm, reference, params, stats);
     if (!std::isfinite(found.norm)) return finish(Status::not_finite);
     if (!found.sufficient) {
       // At a kink the Newton direction of one side may not descend at all; a few such steps leave it behind.
@@ -107,7 +105,6 @@ NewtonStats newton(const NewtonSystem& system, Eigen::VectorXd& x, const NewtonP
       recent.clear();
     }
     move_to(std::move(found.x), found.norm);
-    if (system.accepted && !system.accepted(stats.iterations, norm)) return finish(Status::interrupted);
     moved_away = !found.sufficient;
   }
   return finish(Status::converged);

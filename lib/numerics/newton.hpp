@@ -14,7 +14,6 @@ struct NewtonParams {
   double decrease = 1e-4;       ///< sufficient decrease per unit step, (0, 0.5)
   double smallest_step = 1e-3;  ///< shortest fraction of the Newton step that is tried, (0, 1)
   int max_failed_searches = 3;  ///< searches without decrease that are accepted at their best step, >= 0
-  double max_step = 0;          ///< longest step in any (scaled) unknown, > 0; 0: no limit
   double chord_ratio = 0.3;     ///< a chord step is accepted when it reduces the norm to this fraction, (0, 1)
 };
 
@@ -38,8 +37,6 @@ struct NewtonSystem {
   /// is none worth trying. May be empty. Tried before every Newton step, since it costs a residual and a back
   /// substitution only, and kept while it contracts well.
   std::function<bool(Eigen::VectorXd& step)> chord_step = {};
-  /// Called after each accepted step; return false to stop with Status::interrupted. May be empty.
-  std::function<bool(int iteration, double norm)> accepted = {};
 };
 
 /// Newton's method globalised by a non-monotone backtracking search on |r|^2 [Grippo, Lampariello & Lucidi 1986],

@@ -9,24 +9,14 @@
 namespace dovetail {
 template <>
 std::span<const Field<quality::AutomaticOptions>> option_table<quality::AutomaticOptions>() {
-  using Options = quality::AutomaticOptions;
-  static const std::array fields{
-      Field<Options>{.key = "harmonics", .member = &Options::harmonics, .help = "choose the harmonics"},
-      Field<Options>{.key = "samples", .member = &Options::samples, .help = "choose the samples"},
-      Field<Options>{.key = "amplitude_tolerance",
-                     .member = &Options::amplitude_tolerance,
-                     .range = kPositive,
-                     .help = "error bar of amplitudes, relative"},
-      Field<Options>{.key = "energy_tolerance",
-                     .member = &Options::energy_tolerance,
-                     .range = kPositive,
-                     .help = "error bar of the friction energy per cycle, relative"},
-      Field<Options>{.key = "max_harmonics",
-                     .member = &Options::max_harmonics,
-                     .range = {.lower = 1},
-                     .help = "most harmonics chosen"},
-      Field<Options>{
-          .key = "max_samples", .member = &Options::max_samples, .range = {.lower = 3}, .help = "most samples chosen"},
+  using O = quality::AutomaticOptions;
+  static const std::vector<Field<O>> fields{
+      {.key = "harmonics", .member = &O::harmonics},
+      {.key = "samples", .member = &O::samples},
+      {.key = "amplitude_tolerance", .member = &O::amplitude_tolerance, .range = kPositive},
+      {.key = "energy_tolerance", .member = &O::energy_tolerance, .range = kPositive},
+      {.key = "max_harmonics", .member = &O::max_harmonics, .range = {.lower = 1}},
+      {.key = "max_samples", .member = &O::max_samples, .range = {.lower = 3}},
   };
   return fields;
 }

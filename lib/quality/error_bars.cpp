@@ -7,9 +7,10 @@
 namespace dovetail {
 template <>
 std::span<const Field<quality::ErrorBarOptions>> option_table<quality::ErrorBarOptions>() {
-  using Options = quality::ErrorBarOptions;
-  static const std::array fields{Field<Options>{
-      .key = "safety", .member = &Options::safety, .range = kPositive, .help = "factor on all error bars"}};
+  using O = quality::ErrorBarOptions;
+  static const std::vector<Field<O>> fields{
+      {.key = "safety", .member = &O::safety, .range = kPositive},
+  };
   return fields;
 }
 }  // namespace dovetail

@@ -18,22 +18,15 @@ namespace dovetail {
 
 template <>
 std::span<const Field<reduction::ReductionOptions>> option_table<reduction::ReductionOptions>() {
-  using Options = reduction::ReductionOptions;
-  static const std::array table{
-      Field<Options>{.key = "modes",
-                     .member = &Options::modes,
-                     .range = kNonNegative,
-                     .help = "Free-interface modes kept, rigid ones included."},
-      Field<Options>{.key = "damping_ratio",
-                     .member = &Options::damping_ratio,
-                     .range = kNonNegative,
-                     .help = "Modal damping of the glued modes, as a fraction of critical."},
-      Field<Options>{.key = "eigen_tolerance",
-                     .member = &Options::eigen_tolerance,
-                     .range = {.lower = 0, .upper = 1, .lower_open = true, .upper_open = true},
-                     .help = "Relative accuracy of the free-interface modes."},
+  using O = reduction::ReductionOptions;
+  static const std::vector<Field<O>> fields{
+      {.key = "modes", .member = &O::modes, .range = kNonNegative},
+      {.key = "damping_ratio", .member = &O::damping_ratio, .range = kNonNegative},
+      {.key = "eigen_tolerance",
+       .member = &O::eigen_tolerance,
+       .range = {.lower = 0, .upper = 1, .lower_open = true, .upper_open = true}},
   };
-  return table;
+  return fields;
 }
 
 }  // namespace dovetail

@@ -15,15 +15,10 @@ using stability::StabilityOptions;
 
 template <>
 std::span<const Field<StabilityOptions>> option_table<StabilityOptions>() {
-  static const std::array fields{
-      Field<StabilityOptions>{.key = "samples",
-                              .member = &StabilityOptions::samples,
-                              .range = {.lower = 16},
-                              .help = "per period, of the first of two passes"},
-      Field<StabilityOptions>{.key = "tolerance",
-                              .member = &StabilityOptions::tolerance,
-                              .range = kNonNegative,
-                              .help = "moduli closer to 1 than this are marginal"},
+  using O = StabilityOptions;
+  static const std::vector<Field<O>> fields{
+      {.key = "samples", .member = &O::samples, .range = {.lower = 16}},
+      {.key = "tolerance", .member = &O::tolerance, .range = kNonNegative},
   };
   return fields;
 }

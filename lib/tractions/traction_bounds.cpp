@@ -15,25 +15,15 @@ using tractions::TractionBoundsOptions;
 
 template <>
 std::span<const Field<TractionBoundsOptions>> option_table<TractionBoundsOptions>() {
-  using Options = tractions::TractionBoundsOptions;
-  static const std::array fields{
-      Field<Options>{.key = "output", .member = &Options::output, .range = {.lower = 0}, .help = "monitored output"},
-      Field<Options>{.key = "starts",
-                     .member = &Options::starts,
-                     .range = {.lower = 0},
-                     .help = "admissible tractions tried as starts besides those given"},
-      Field<Options>{.key = "max_solves",
-                     .member = &Options::max_solves,
-                     .range = {.lower = 2},
-                     .help = "steady states or resonances at most"},
-      Field<Options>{.key = "tolerance",
-                     .member = &Options::tolerance,
-                     .range = kPositive,
-                     .help = "relative gain below which a climb ends"},
-      Field<Options>{.key = "resonance_search_range",
-                     .member = &Options::resonance_search_range,
-                     .range = {.lower = 0, .upper = 1, .lower_open = true, .upper_open = true},
-                     .help = "largest relative move of a resonance"},
+  using O = TractionBoundsOptions;
+  static const std::vector<Field<O>> fields{
+      {.key = "output", .member = &O::output, .range = {.lower = 0}},
+      {.key = "starts", .member = &O::starts, .range = {.lower = 0}},
+      {.key = "max_solves", .member = &O::max_solves, .range = {.lower = 2}},
+      {.key = "tolerance", .member = &O::tolerance, .range = kPositive},
+      {.key = "resonance_search_range",
+       .member = &O::resonance_search_range,
+       .range = {.lower = 0, .upper = 1, .lower_open = true, .upper_open = true}},
   };
   return fields;
 }

@@ -15,9 +15,6 @@ namespace dovetail::wear {
 /// Nodes worn by more than 2 % of the largest depth: less is a trace of the way there.
 [[nodiscard]] std::vector<bool> worn_nodes(const Eigen::VectorXd& depth);
 
-/// Contact nodes with the depth added to the initial gap: what a separate computation of the worn state starts from.
-[[nodiscard]] reduction::ReducedModel worn_model(const reduction::ReducedModel& model, const Eigen::VectorXd& depth);
-
 /// Number of cycles in which the fastest node loses `increment`, dN = W_tot / max_i dW_i [Salles 2009, eq. 21-22].
 /// `rate` is dW [Nc] m per cycle; infinite where nothing wears.
 [[nodiscard]] double cycle_jump(const Eigen::VectorXd& rate, double increment);

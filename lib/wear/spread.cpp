@@ -16,15 +16,12 @@ template <>
 std::span<const Field<wear::SpreadOptions>> option_table<wear::SpreadOptions>() {
   using O = wear::SpreadOptions;
   constexpr Range kShare{.lower = 0, .upper = 1, .upper_open = true};
-  static const std::array fields{
-      Field<O>{.key = "friction", .member = &O::friction, .range = kShare, .help = "change of friction coefficients"},
-      Field<O>{.key = "load", .member = &O::load, .range = kShare, .help = "change of the excitation"},
-      Field<O>{.key = "wear_coefficient",
-               .member = &O::wear_coefficient,
-               .range = kShare,
-               .help = "change of wear coefficients"},
-      Field<O>{.key = "tractions", .member = &O::tractions, .help = "vary residual tractions of stuck nodes"},
-      Field<O>{.key = "combined", .member = &O::combined, .help = "change everything together"},
+  static const std::vector<Field<O>> fields{
+      {.key = "friction", .member = &O::friction, .range = kShare},
+      {.key = "load", .member = &O::load, .range = kShare},
+      {.key = "wear_coefficient", .member = &O::wear_coefficient, .range = kShare},
+      {.key = "tractions", .member = &O::tractions},
+      {.key = "combined", .member = &O::combined},
   };
   return fields;
 }
