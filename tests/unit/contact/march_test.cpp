@@ -35,8 +35,7 @@ TEST_P(MarchDerivative, MatchesFiniteDifferences) {
   const Mixture& mixture = GetParam();
   const FourierBasis basis(3, 64);
   const Eigen::Index d = mixture.directions, k = basis.coefficients();
-  const NodeLaw law{
-      .friction = mixture.friction, .tangential_penalty = 1.7, .slip_origin = {0.05, -0.1}};
+  const NodeLaw law{.friction = mixture.friction, .tangential_penalty = 1.7, .slip_origin = {0.05, -0.1}};
   const MarchOptions options{.slip_return = mixture.rule, .tolerance = 1e-14};
   std::mt19937 generator(11);
   std::normal_distribution<double> normal;
