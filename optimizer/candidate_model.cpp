@@ -34,7 +34,11 @@ reduction::ContactNodes contact_nodes(const Surface& surface, Eigen::Index first
   nodes.area = surface.area;
   nodes.gap = surface.gap;
   nodes.friction = Eigen::VectorXd::Constant(count, properties.friction);
-  nodes.wear_coefficient = Eigen::VectorXd::Constant(count, properties.wear_coefficient);
+  const bool energy = properties.wear_law == "energy";
+  nodes.wear_law = properties.wear_law;
+  nodes.wear_coefficient =
+      Eigen::VectorXd::Constant(count, energy ? properties.energy_coefficient : properties.wear_coefficient);
+  if (energy) nodes.wear_threshold = Eigen::VectorXd::Constant(count, properties.energy_threshold);
   nodes.position = Eigen::MatrixX3d::Zero(count, 3);
   nodes.position.leftCols(directions) = surface.position.transpose();
   nodes.group = surface.flank;

@@ -16,7 +16,7 @@
 #include "optimizer/worn_zones.hpp"
 #include "paths/resonance.hpp"
 #include "quality/truncation.hpp"
-#include "wear/archard.hpp"
+#include "wear/measures.hpp"
 
 namespace dovetail::optimizer {
 
@@ -366,8 +366,10 @@ void add_error_bars(const Scene& scene, const ModelBuilder& builder, const Other
       bars.add("contact_grid", name, (1 - kAgain) * std::max(0.0, of["contact_grid"] / kAgain - of["mesh"]));
     }
   double slip_left_open = slip_at_zone_ends(result);  // J per cycle
+  const dynamics::CondensedModel& condensed = *result.model.condensed;
+  const double volume_per_energy = condensed.wear_law().volume_per_energy(condensed.wear_node(0));
   // Worn zones narrower than the contact nodes are not seen.
-  if (result.asymptote->worn_volume == 0 && scene.contact.wear_coefficient > 0) {
+  if (result.asymptote->worn_volume == 0 && volume_per_energy > 0) {
     const Evaluation shorter = companion(scene, result.model, cells(0.5));
     bars.add("contact_grid", {{&shorter, share(2)}}, result.evaluation);
     const Unseen zone = unseen(scene, result);
@@ -383,9 +385,7 @@ void add_error_bars(const Scene& scene, const ModelBuilder& builder, const Other
   // What friction takes from a vibration is a part of what the load brings, and the amplitude changes by that part.
   bars.add("contact_grid", "peak_amplitude_m",
            result.unworn->amplitude * slip_left_open / result.unworn->state.input_energy);
-  if (scene.contact.friction > 0)
-    bars.add("contact_grid", "initial_wear_rate_m3_per_cycle",
-             scene.contact.wear_coefficient * slip_left_open / scene.contact.friction);
+  bars.add("contact_grid", "initial_wear_rate_m3_per_cycle", volume_per_energy * slip_left_open);
 
   // What the other settings leave hardly depends on the mesh: it is asked where a design costs least, and where that
   // has no answer on a finer one. In space a coarser mesh has two or three cells in a worn zone, which come and go with

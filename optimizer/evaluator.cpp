@@ -1,5 +1,7 @@
 #include "optimizer/evaluator.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -13,7 +15,7 @@
 #include "optimizer/problem.hpp"
 #include "optimizer/stopwatch.hpp"
 #include "optimizer/worn_state.hpp"
-#include "wear/archard.hpp"
+#include "wear/measures.hpp"
 
 namespace dovetail::optimizer {
 
@@ -173,7 +175,7 @@ CandidateResult computed(const Scene& scene, CandidateModel model, const Computa
     evaluation.messages.push_back(
         fit.known
             ? "The edges of the worn zones did not settle: their contact nodes end beside them, by up to " +
-                  shortest(fit.moved) + " of an edge of the mesh."
+                  fmt::format("{:.2g}", fit.moved) + " of an edge of the mesh."
             : "Contact nodes do not end where worn zones do: on the nodes of the mesh the direct method found no worn "
               "state to take their edges from.");
   note_penalties(result);

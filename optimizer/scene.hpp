@@ -15,8 +15,11 @@ namespace dovetail::optimizer {
 
 /// Contact law of the flanks.
 struct ContactProperties {
-  double friction = 0.5;            ///< mu
-  double wear_coefficient = 1e-13;  ///< k_w, 1/Pa
+  double friction = 0.5;              ///< mu
+  double wear_coefficient = 1e-13;    ///< k_w, 1/Pa
+  std::string wear_law = "archard";   ///< archard | energy
+  double energy_coefficient = 2e-13;  ///< alpha, m^3/J
+  double energy_threshold = 0;        ///< J/m^2 per cycle
 };
 
 /// What acts on the sector.

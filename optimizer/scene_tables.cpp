@@ -26,7 +26,7 @@ std::span<const Field<fem::Material>> option_table<fem::Material>() {
 template <>
 std::span<const Field<optimizer::ContactProperties>> option_table<optimizer::ContactProperties>() {
   using C = optimizer::ContactProperties;
-  static const std::array<Field<C>, 2> table{
+  static const std::array<Field<C>, 5> table{
       Field<C>{.key = "friction",
                .member = &C::friction,
                .range = {.lower = 0, .upper = 2},
@@ -34,7 +34,19 @@ std::span<const Field<optimizer::ContactProperties>> option_table<optimizer::Con
       Field<C>{.key = "wear_coefficient_per_pa",
                .member = &C::wear_coefficient,
                .range = {.lower = 0, .upper = 1e-6},
-               .help = "Archard's k_w: wear depth per pressure and slipped distance"}};
+               .help = "Archard's k_w: wear depth per pressure and slipped distance"},
+      Field<C>{.key = "wear_law",
+               .member = &C::wear_law,
+               .help = "archard: depth by pressure and slipped distance; energy: volume by dissipated energy",
+               .choices = {"archard", "energy"}},
+      Field<C>{.key = "energy_wear_coefficient_m3_per_j",
+               .member = &C::energy_coefficient,
+               .range = {.lower = 0, .upper = 1e-6},
+               .help = "of the law energy: volume per energy dissipated beyond the threshold"},
+      Field<C>{.key = "energy_threshold_j_per_m2",
+               .member = &C::energy_threshold,
+               .range = kNonNegative,
+               .help = "of the law energy: dissipated per cycle and area without wear"}};
   return table;
 }
 

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "optimizer/stopwatch.hpp"
-#include "wear/archard.hpp"
 #include "wear/history.hpp"
+#include "wear/measures.hpp"
 
 namespace dovetail::optimizer {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "wear/archard.hpp"
+#include "wear/measures.hpp"
 
 namespace dovetail::optimizer {
 

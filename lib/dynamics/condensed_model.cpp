@@ -33,6 +33,8 @@ CondensedModel::CondensedModel(const reduction::ReducedModel& model) {
   check(model);
   n_ = model.size();
   contact_ = model.contact;
+  wear_law_ = contact::find_wear_law(contact_.wear_law);
+  if (contact_.wear_threshold.size() == 0) contact_.wear_threshold = Eigen::VectorXd::Zero(nodes());
   if (contact_.slip_origin.size() == 0)
     contact_.slip_origin = Eigen::MatrixXd::Zero(nodes(), contact_.tangential.cols());
   output_names_ = model.output_names;
@@ -69,6 +71,13 @@ CondensedModel::CondensedModel(const reduction::ReducedModel& model) {
       model.output_vectors.rows() > 0 ? model.output_vectors : Eigen::MatrixXd(Eigen::MatrixXd::Zero(0, n_));
   output_contact_ = outputs(Eigen::all, contact_dofs_);
   output_internal_ = Eigen::MatrixXd(outputs(Eigen::all, internal_dofs_)) * basis_;
+}
+
+contact::WearNode CondensedModel::wear_node(Eigen::Index node) const {
+  return {.area = contact_.area(node),
+          .friction = contact_.friction(node),
+          .coefficient = contact_.wear_coefficient(node),
+          .threshold = contact_.wear_threshold(node)};
 }
 
 reduction::ReducedModel CondensedModel::reduced() const {

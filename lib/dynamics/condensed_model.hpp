@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "contact/wear_law.hpp"
 #include "core/status.hpp"
 #include "reduction/reduced_model.hpp"
 
@@ -40,9 +41,16 @@ class CondensedModel {
   [[nodiscard]] Eigen::Index output_count() const { return output_contact_.rows(); }  ///< n_out
   [[nodiscard]] bool modal() const { return modal_; }
   [[nodiscard]] int force_harmonics() const { return static_cast<int>(force_contact_.cols()) - 1; }
+  /// What a node wears per cycle for a slip load, N m.
+  [[nodiscard]] contact::WearRate wear_rate(Eigen::Index node, double slip_load) const {
+    return wear_law_->rate(wear_node(node), slip_load);
+  }
+  /// The law behind it, and what it knows of a node.
+  [[nodiscard]] const contact::WearLaw& wear_law() const { return *wear_law_; }
+  [[nodiscard]] contact::WearNode wear_node(Eigen::Index node) const;
   /// Replaces the friction coefficients mu [Nc], >= 0 (large: a node that is held stuck).
   void set_friction(const Eigen::VectorXd& friction) { contact_.friction = friction; }
-  /// Replaces the wear coefficients k_w [Nc], 1/Pa, >= 0.
+  /// Replaces the wear coefficients [Nc], >= 0.
   void set_wear_coefficient(const Eigen::VectorXd& coefficient) { contact_.wear_coefficient = coefficient; }
   /// Multiplies the forces of harmonics >= 1 (an excitation level).
   void scale_excitation(double factor) {
@@ -93,6 +101,7 @@ class CondensedModel {
 
   Eigen::Index n_ = 0;
   reduction::ContactNodes contact_;
+  const contact::WearLaw* wear_law_ = &contact::kArchard;
   std::vector<std::string> output_names_;
   std::vector<Eigen::Index> contact_dofs_, internal_dofs_;
   Eigen::MatrixXd basis_;  // internal dofs = basis_ * internal coordinates

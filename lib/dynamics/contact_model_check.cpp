@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "contact/wear_law.hpp"
 #include "core/errors.hpp"
 #include "core/options.hpp"
 
@@ -56,6 +57,13 @@ void check(const reduction::ReducedModel& model) {
   findings.at_least("contact.area", contact.area, 0, true, nodes);
   findings.at_least("contact.friction", contact.friction, 0, false, nodes);
   findings.at_least("contact.wear_coefficient", contact.wear_coefficient, 0, false, nodes);
+  if (contact.wear_threshold.size() > 0)
+    findings.at_least("contact.wear_threshold", contact.wear_threshold, 0, false, nodes);
+  if (!contact::find_wear_law(contact.wear_law)) {
+    std::string allowed = "must be one of";
+    for (const contact::WearLaw* law : contact::wear_laws()) allowed += " " + std::string(law->name);
+    findings.add("contact.wear_law", contact.wear_law, allowed);
+  }
   findings.matrix("contact.gap", contact.gap, nodes, 1);
   findings.size("contact.tangential", contact.tangential.rows(), nodes);
   if (contact.tangential.cols() < 1 || contact.tangential.cols() > 2)

@@ -157,6 +157,11 @@ ReducedModel read_model(const std::string& path) {
   read.vector("/contact/gap", contact.gap);
   read.vector("/contact/friction", contact.friction);
   read.vector("/contact/wear_coefficient", contact.wear_coefficient);
+  if (file.exists("/contact/wear_threshold")) read.vector("/contact/wear_threshold", contact.wear_threshold);
+  if (std::vector<std::string> law; file.exists("/contact/wear_law")) {
+    read.strings("/contact/wear_law", law);
+    if (law.size() == 1) contact.wear_law = law.front();
+  }
   Eigen::MatrixXd position(0, 3);
   if (file.exists("/contact/position")) read.matrix("/contact/position", position);
   if (file.exists("/contact/group")) read.indices("/contact/group", contact.group);
@@ -212,6 +217,9 @@ void write_model(const std::string& path, const ReducedModel& model) {
     write(file, "/contact/gap", contact.gap);
     write(file, "/contact/friction", contact.friction);
     write(file, "/contact/wear_coefficient", contact.wear_coefficient);
+    if (contact.wear_threshold.size() > 0) write(file, "/contact/wear_threshold", contact.wear_threshold);
+    if (contact.wear_law != ContactNodes().wear_law)
+      file.write("/contact/wear_law", std::vector<std::string>{contact.wear_law});
     if (contact.position.rows() > 0) write(file, "/contact/position", RowMajor(contact.position));
     if (contact.group.size() > 0) write(file, "/contact/group", contact.group);
     if (contact.slip_origin.size() > 0) write(file, "/contact/slip_origin", RowMajor(contact.slip_origin));

@@ -13,7 +13,9 @@ struct ContactNodes {
   Eigen::VectorXd area;              ///< [Nc] m^2, > 0
   Eigen::VectorXd gap;               ///< [Nc] initial gap g, m (negative: interference)
   Eigen::VectorXd friction;          ///< [Nc] mu >= 0
-  Eigen::VectorXd wear_coefficient;  ///< [Nc] k_w >= 0, 1/Pa
+  std::string wear_law = "archard";  ///< archard | energy (contact/wear_law.hpp)
+  Eigen::VectorXd wear_coefficient;  ///< [Nc] >= 0: k_w, 1/Pa; of the law energy alpha, m^3/J
+  Eigen::VectorXd wear_threshold;    ///< [Nc] >= 0, J/m^2 per cycle, of the law energy; or empty: none
   Eigen::MatrixX3d position;         ///< [Nc, 3] m, or empty
   Eigen::VectorXi group;             ///< [Nc] flank of the node, or empty
   Eigen::MatrixXd slip_origin;       ///< [Nc, d-1] tangential slip X_T at which the march starts, m (zeros by default)

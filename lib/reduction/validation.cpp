@@ -102,6 +102,9 @@ void check_contact(const ContactNodes& contact, Eigen::Index n, Checks& checks) 
     checks.each_inside("/contact/friction", contact.friction, kNonNegative);
   if (checks.sized("/contact/wear_coefficient", contact.wear_coefficient.size(), nodes, "[Nc]"))
     checks.each_inside("/contact/wear_coefficient", contact.wear_coefficient, kNonNegative);
+  if (contact.wear_threshold.size() > 0 &&
+      checks.sized("/contact/wear_threshold", contact.wear_threshold.size(), nodes, "[Nc]"))
+    checks.each_inside("/contact/wear_threshold", contact.wear_threshold, kNonNegative);
   if (contact.position.rows() > 0 && checks.sized("/contact/position", contact.position.rows(), 3, nodes, 3, "[Nc,3]"))
     checks.finite("/contact/position", contact.position);
   if (contact.group.size() > 0) checks.sized("/contact/group", contact.group.size(), nodes, "[Nc]");

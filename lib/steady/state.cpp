@@ -26,7 +26,8 @@ NodeSummary summarise_node(const Point& point, Eigen::Index i) {
   node.max_normal_displacement =
       dynamics::extremes(point.displacement.row(i * point.problem->model().directions()).transpose()).maximum;
   node.slip_distance = march.slip_distance;
-  node.wear_rate = contact.wear_coefficient(i) / contact.area(i) * march.slip_load;
+  node.slip_load = march.slip_load;
+  node.wear_rate = point.problem->model().wear_rate(i, march.slip_load).depth;
   node.dissipated_energy = contact.friction(i) * march.slip_load;
   node.friction_margin = slips ? 0 : march.friction_margin;
   node.periods = march.periods;

@@ -20,6 +20,7 @@ struct NodeSummary {
   double min_pressure = 0, max_pressure = 0;          ///< lambda_N / area, Pa
   double max_normal_displacement = 0;                 ///< max_t u_N of the Fourier series, m
   double slip_distance = 0;                           ///< path of X_T under load per cycle, m
+  double slip_load = 0;                               ///< int lambda_N |dX_T| per cycle, N m
   double wear_rate = 0;                               ///< depth per cycle, m
   double dissipated_energy = 0;                       ///< J per cycle
   double friction_margin = 0;  ///< smallest mu lambda_N - |lambda_T| over the loaded samples, N; 0 when slipping

@@ -194,8 +194,8 @@ Eigen::VectorXd Tangent::wear_rate_change(const Eigen::MatrixXd& response_change
   for (Eigen::Index i = 0; i < model.nodes(); ++i) {
     if (wear_change.size() > 0) change(i * d, 0) -= problem().penalty().normal(i) * wear_change(i);
     const Eigen::MatrixXd block = change.middleRows(i * d, d);
-    rate(i) = model.contact().wear_coefficient(i) / model.contact().area(i) *
-              point_->nodes[static_cast<std::size_t>(i)].slip_load_derivative.dot(block.reshaped());
+    const contact::MarchResult& node = point_->nodes[static_cast<std::size_t>(i)];
+    rate(i) = model.wear_rate(i, node.slip_load).by_slip_load * node.slip_load_derivative.dot(block.reshaped());
   }
   return rate;
 }

@@ -27,10 +27,15 @@ steady::State FamilyQuantity::solve(const Eigen::MatrixXd& origin, const Eigen::
   return std::move(found.state);
 }
 
-Eigen::VectorXd FamilyQuantity::weights() const {
-  const reduction::ContactNodes& contact = joint_.model->contact();
-  // Volume is area times depth, so areas cancel.
-  return quantity_ == BoundedQuantity::wear_rate ? contact.wear_coefficient : contact.friction;
+// Of slip loads in the quantity.
+Eigen::VectorXd FamilyQuantity::weights(const steady::State& member) const {
+  const dynamics::CondensedModel& model = *joint_.model;
+  if (quantity_ != BoundedQuantity::wear_rate) return model.contact().friction;
+  Eigen::VectorXd weights(model.nodes());
+  for (Eigen::Index i = 0; i < weights.size(); ++i)
+    weights(i) =
+        model.contact().area(i) * model.wear_rate(i, member.nodes[static_cast<std::size_t>(i)].slip_load).by_slip_load;
+  return weights;
 }
 
 double FamilyQuantity::scale(const steady::State& member) const {
@@ -40,8 +45,7 @@ double FamilyQuantity::scale(const steady::State& member) const {
   if (quantity_ != BoundedQuantity::wear_rate) return 0;
   double ratio = 0;
   for (Eigen::Index i = 0; i < joint_.model->nodes(); ++i)
-    if (joint_.model->contact().friction(i) > 0)
-      ratio = std::max(ratio, joint_.model->contact().wear_coefficient(i) / joint_.model->contact().friction(i));
+    ratio = std::max(ratio, joint_.model->wear_law().volume_per_energy(joint_.model->wear_node(i)));
   return ratio * energy;
 }
 
@@ -65,7 +69,7 @@ Eigen::MatrixXd FamilyQuantity::gradient(const steady::State& member) {
   switch (quantity_) {
     case BoundedQuantity::friction_energy:
     case BoundedQuantity::wear_rate:
-      return slip_load_to_slip_origin(member, weights());
+      return slip_load_to_slip_origin(member, weights(member));
     case BoundedQuantity::resonance_frequency:
       return frequency_gradient(member);
     case BoundedQuantity::amplitude:

@@ -41,7 +41,7 @@ class FamilyQuantity {
   void follow(double omega) { omega_ = omega; }
 
  private:
-  [[nodiscard]] Eigen::VectorXd weights() const;
+  [[nodiscard]] Eigen::VectorXd weights(const steady::State& member) const;
   [[nodiscard]] Eigen::MatrixXd frequency_gradient(const steady::State& member);
 
   steady::Joint joint_;

@@ -4,10 +4,10 @@
 #include <limits>
 #include <utility>
 
-#include "wear/archard.hpp"
 #include "wear/certificate.hpp"
 #include "wear/gross_sliding.hpp"
 #include "wear/implicit_history.hpp"
+#include "wear/measures.hpp"
 #include "wear/passes.hpp"
 #include "wear/start.hpp"
 
@@ -237,8 +237,11 @@ Asymptote asymptote(const steady::Joint& joint, double omega, const AsymptoteOpt
     result.verdict = Verdict::asymptote;
     set_depth(contact, release.depth(passes.released, passes.state), result);
     if (options.certify) certify(release, rates, options, result);
+    const bool slips_at_rest = rests_in_slip(*joint.model) && result.largest_depth > 0.0;
     if (result.verdict != Verdict::asymptote)
       direct.doubt = "certificate";
+    else if (slips_at_rest)
+      direct.doubt = "threshold";
     else if (bearing_of(*joint.model, result).doubtful())
       direct.doubt = "gross_sliding";
     else if (reloads(passes.deepest, result.depth, options.state_tolerance))
@@ -265,7 +268,8 @@ Asymptote asymptote(const steady::Joint& joint, double omega, const AsymptoteOpt
       direct.doubt = "near_slip";
   }
   result.doubt = direct.doubt.empty() && asked ? "always" : direct.doubt;
-  const bool stands = direct.settled && result.verdict == Verdict::asymptote && direct.doubt != "gross_sliding";
+  const bool stands = direct.settled && result.verdict == Verdict::asymptote && direct.doubt != "gross_sliding" &&
+                      direct.doubt != "threshold";
   if (result.doubt.empty() || options.arbitration == "never" || (options.arbitration == "unsettled" && stands)) {
     count_arbitration();
     certify_finer(joint, rates, options, release, result);

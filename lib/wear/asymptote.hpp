@@ -38,8 +38,8 @@ struct AsymptoteOptions {
   // >= 1. Passes of release; each releases every loaded node that slips.
   int passes = 60;
   // auto | unsettled | never | always. Whether the implicit history has the last word: where the direct answer is in
-  // doubt, only where release did not come to a certified end, never (then "no asymptote" is not confirmed either), or
-  // every time.
+  // doubt, only where release did not come to a certified end or the wear law lets nodes rest in slip, never (then "no
+  // asymptote" is not confirmed either), or every time.
   std::string arbitration = "auto";
   // > 0. Two worn states are the same when their depths differ by less than this, relative to the largest depth.
   double state_tolerance = 1e-2;
@@ -84,10 +84,10 @@ struct Asymptote {
   Bearing bearing;
   /// Why the direct answer was in doubt: "" (not at all), nothing_holds (every loaded node slips), pass_failed,
   /// gross_sliding (hardly anything bears, see Bearing),
-  /// certificate (above its limit), lift_off (a worn node touched at times only), reload (a node worn off on the way
-  /// did not need to), worst_first (releasing the fastest nodes first does not end there, or reloads), near_slip (a
-  /// node that sticks has less than 5 % of its friction to spare), finer_settings (the certificate is above its limit
-  /// at finer settings) or always (asked for).
+  /// certificate (above its limit), lift_off (a worn node touched at times only), threshold (the wear law lets worn
+  /// nodes slip without wear), reload (a node worn off on the way did not need to), worst_first (releasing the fastest
+  /// nodes first does not end there, or reloads), near_slip (a node that sticks has less than 5 % of its friction to
+  /// spare), finer_settings (the certificate is above its limit at finer settings) or always (asked for).
   std::string doubt;
   std::string decided_by = "release";    ///< release | history: what `depth` and `verdict` are from
   bool confirmed_by_history = false;     ///< the history was run to an end and has decided

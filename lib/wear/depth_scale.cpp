@@ -1,7 +1,7 @@
 #include "wear/depth_scale.hpp"
 
-#include "wear/archard.hpp"
 #include "wear/asymptote.hpp"
+#include "wear/measures.hpp"
 
 namespace dovetail::wear {
 

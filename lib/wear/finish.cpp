@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "wear/measures.hpp"
 #include "wear/passes.hpp"
 
 namespace dovetail::wear {
@@ -16,7 +17,7 @@ Finish finish_by_release(const steady::Joint& joint, const steady::State& state,
   const double largest = depth.maxCoeff();
   const double threshold = kStillWears * largest / cycles;
   Finish result;
-  if (!(state.wear_rate.maxCoeff() > threshold)) return result;
+  if (!(state.wear_rate.maxCoeff() > threshold) || rests_in_slip(*joint.model)) return result;
   Release release(joint.worn(depth), state.omega, control);
   Passes passes(joint.model->nodes());
   passes.state = state;

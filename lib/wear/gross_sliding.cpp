@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "wear/archard.hpp"
+#include "wear/measures.hpp"
 
 namespace dovetail::wear {
 

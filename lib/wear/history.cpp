@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "wear/archard.hpp"
 #include "wear/finish.hpp"
+#include "wear/measures.hpp"
 #include "wear/steady_rate.hpp"
 
 namespace dovetail::wear {

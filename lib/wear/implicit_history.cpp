@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "wear/archard.hpp"
 #include "wear/finish.hpp"
 #include "wear/implicit_step.hpp"
+#include "wear/measures.hpp"
 #include "wear/start.hpp"
 
 namespace dovetail::wear {

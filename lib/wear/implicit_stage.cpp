@@ -24,10 +24,9 @@ std::shared_ptr<const steady::Problem> ImplicitStage::problem(const VectorXd& de
 }
 
 VectorXd ImplicitStage::rate(const steady::Point& point) const {
-  const reduction::ContactNodes& contact = problem_.model().contact();
-  VectorXd rate(contact.count());
+  VectorXd rate(problem_.model().nodes());
   for (Index i = 0; i < rate.size(); ++i)
-    rate[i] = contact.wear_coefficient[i] / contact.area[i] * point.nodes[static_cast<std::size_t>(i)].slip_load;
+    rate[i] = problem_.model().wear_rate(i, point.nodes[static_cast<std::size_t>(i)].slip_load).depth;
   return rate;
 }
 

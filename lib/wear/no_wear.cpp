@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "wear/archard.hpp"
+#include "wear/measures.hpp"
 
 namespace dovetail::wear {
 
@@ -14,7 +14,8 @@ double no_wear_rate(double given, const dynamics::CondensedModel& model, const s
   for (Eigen::Index i = 0; i < contact.count(); ++i) {
     const double force = unworn.nodes[static_cast<std::size_t>(i)].max_normal_force;
     const double sliding = 4.0 * contact.friction[i] * force / own_stiffness(model, i, 1);
-    largest = std::max(largest, contact.wear_coefficient[i] * force / contact.area[i] * sliding);
+    const double energy = contact.friction[i] * force * sliding;
+    largest = std::max(largest, model.wear_law().volume_per_energy(model.wear_node(i)) * energy / contact.area[i]);
   }
   return kShare * largest;
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "wear/archard.hpp"
+#include "wear/measures.hpp"
 
 namespace dovetail::wear {
 

@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "contact/wear_law.hpp"
 #include "reduction/matrix_market.hpp"
 #include "reduction/validation.hpp"
 #include "studies/program/model_toml.hpp"
@@ -166,6 +167,11 @@ class ModelReader {
     numbers("gap", contact.gap);
     numbers("friction", contact.friction);
     numbers("wear_coefficient", contact.wear_coefficient);
+    std::vector<std::string_view> laws;
+    for (const dovetail::contact::WearLaw* law : dovetail::contact::wear_laws()) laws.push_back(law->name);
+    if (const auto law = section.text("wear_law", laws)) contact.wear_law = *law;
+    if (const Node* node = section.take("wear_threshold"))
+      contact.wear_threshold = lists_.numbers(*node, path("wear_threshold"), count);
     const auto table = [&](const char* key, Eigen::Index columns, auto& target) {
       if (const Node* node = section.take(key)) {
         target.setZero(count, columns);

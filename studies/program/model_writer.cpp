@@ -78,6 +78,8 @@ std::string contact_section(const reduction::ContactNodes& contact) {
   text += "gap = " + numbers(contact.gap) + "\n";
   text += "friction = " + numbers(contact.friction) + "\n";
   text += "wear_coefficient = " + numbers(contact.wear_coefficient) + "\n";
+  if (contact.wear_law != reduction::ContactNodes().wear_law) text += "wear_law = \"" + contact.wear_law + "\"\n";
+  if (contact.wear_threshold.size() > 0) text += "wear_threshold = " + numbers(contact.wear_threshold) + "\n";
   if (contact.position.rows() > 0) text += "position = " + rows(contact.position, real) + "\n";
   if (contact.group.size() > 0) text += "group = " + rows(contact.group, whole) + "\n";
   const auto values = contact.slip_origin.reshaped();

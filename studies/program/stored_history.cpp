@@ -134,8 +134,10 @@ std::string checksum(const reduction::ReducedModel& model) {
   const reduction::ContactNodes& contact = model.contact;
   append(bytes, contact.normal.cast<double>());
   append(bytes, contact.tangential.cast<double>());
-  for (const Eigen::VectorXd* values : {&contact.area, &contact.gap, &contact.friction, &contact.wear_coefficient})
+  for (const Eigen::VectorXd* values :
+       {&contact.area, &contact.gap, &contact.friction, &contact.wear_coefficient, &contact.wear_threshold})
     append(bytes, *values);
+  if (contact.wear_law != reduction::ContactNodes().wear_law) bytes += contact.wear_law;
   const bool slip = contact.slip_origin.size() > 0 && !contact.slip_origin.isZero(0.0);
   if (slip) append(bytes, contact.slip_origin);
   return optimizer::hexadecimal(optimizer::fnv1a(bytes));

@@ -18,10 +18,10 @@
 #include "studies/work_precision/contact_patch.hpp"
 #include "studies/work_precision/processor_time.hpp"
 #include "tests/verification/wear/verdict_scenes.hpp"
-#include "wear/archard.hpp"
 #include "wear/asymptote.hpp"
 #include "wear/history.hpp"
 #include "wear/implicit_history.hpp"
+#include "wear/measures.hpp"
 
 namespace dovetail {
 namespace {

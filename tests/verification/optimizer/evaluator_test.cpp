@@ -14,8 +14,8 @@
 #include "optimizer/problem.hpp"
 #include "reduction/accuracy.hpp"
 #include "tests/verification/optimizer/coarse_scene.hpp"
-#include "wear/archard.hpp"
 #include "wear/history.hpp"
+#include "wear/measures.hpp"
 
 namespace dovetail::optimizer {
 namespace {
@@ -284,6 +284,27 @@ TEST(SectionEvaluation, NodesOfAConfirmingHistoryAreInTheBar) {
   EXPECT_GT(settled.evaluation.error_sources.at(name).at("history"), 0.05 * volume);
   EXPECT_LT(bar, 0.5 * volume);
   for (const double ended : {0.619e-9, 0.705e-9}) EXPECT_LT(std::abs(volume - ended), bar) << volume;
+}
+
+TEST(SectionEvaluation, WearsByEnergyAsByArchardAndLessBeyondAThreshold) {
+  Scene scene = coarse_scene();
+  scene.contact.wear_law = "energy";
+  scene.contact.energy_coefficient = scene.contact.wear_coefficient / scene.contact.friction;
+  const Purpose without_bars{.bars = false};
+  const Evaluation energy = evaluator().evaluate(scene, without_bars).evaluation;
+  ASSERT_TRUE(energy.converged()) << energy.status;
+  const auto volume = [](const Evaluation& evaluation) { return evaluation.responses.at("asymptotic_wear_volume_m3"); };
+  EXPECT_NEAR(volume(energy), volume(baseline().evaluation), 1e-6 * volume(energy));
+  // Where nodes rest in slip no release of nodes finds the end: a search asks the history, too.
+  scene.contact.energy_threshold = 10;
+  const Evaluation less = evaluator().evaluate(scene, without_bars).evaluation;
+  const Evaluation searched = evaluator().evaluate(scene, kSearch).evaluation;
+  ASSERT_TRUE(less.converged()) << less.status;
+  ASSERT_TRUE(searched.converged()) << searched.status;
+  EXPECT_LT(volume(less), 0.9 * volume(energy));
+  EXPECT_GT(volume(less), 0);
+  EXPECT_EQ(less.model.at("wear_decided_by_history"), 1);
+  EXPECT_NEAR(volume(searched), volume(less), 1e-6 * volume(less));
 }
 
 TEST(SectionEvaluation, RunsTwiceToTheSameBits) {

@@ -6,10 +6,10 @@
 
 #include "empty_model.hpp"
 #include "scenes.hpp"
-#include "wear/archard.hpp"
 #include "wear/asymptote.hpp"
 #include "wear/depth_scale.hpp"
 #include "wear/history.hpp"
+#include "wear/measures.hpp"
 
 // A mass pressed on a flat by a constant force slides for ever: its pressure does not change as it wears, and the rate
 // is k_w p times the path per cycle from the first cycle on.

@@ -5,9 +5,9 @@
 #include <memory>
 
 #include "scenes.hpp"
-#include "wear/archard.hpp"
 #include "wear/asymptote.hpp"
 #include "wear/history.hpp"
+#include "wear/measures.hpp"
 
 namespace dovetail::wear {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "wear/archard.hpp"
 #include "wear/asymptote.hpp"
 #include "wear/history.hpp"
+#include "wear/measures.hpp"
 
 namespace dovetail::wear::scenes {
 

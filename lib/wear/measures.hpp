@@ -15,6 +15,10 @@ namespace dovetail::wear {
 /// Nodes worn by more than 2 % of the largest depth: less is a trace of the way there.
 [[nodiscard]] std::vector<bool> worn_nodes(const Eigen::VectorXd& depth);
 
+/// Whether the wear law lets a node slip a little without wear: then worn nodes come to rest under load, before they
+/// are worn off, and no release of nodes finds where.
+[[nodiscard]] bool rests_in_slip(const dynamics::CondensedModel& model);
+
 /// Number of cycles in which the fastest node loses `increment`, dN = W_tot / max_i dW_i [Salles 2009, eq. 21-22].
 /// `rate` is dW [Nc] m per cycle; infinite where nothing wears.
 [[nodiscard]] double cycle_jump(const Eigen::VectorXd& rate, double increment);

@@ -1,4 +1,4 @@
-#include "wear/archard.hpp"
+#include "wear/measures.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -14,6 +14,12 @@ std::vector<bool> worn_nodes(const Eigen::VectorXd& depth) {
   for (Eigen::Index i = 0; i < depth.size(); ++i)
     worn[static_cast<std::size_t>(i)] = depth[i] > 0.02 * depth.maxCoeff();
   return worn;
+}
+
+bool rests_in_slip(const dynamics::CondensedModel& model) {
+  for (Eigen::Index i = 0; i < model.nodes(); ++i)
+    if (model.wear_law().resting_slip_load(model.wear_node(i)) > 0.0) return true;
+  return false;
 }
 
 double cycle_jump(const Eigen::VectorXd& rate, double increment) {

@@ -1,4 +1,4 @@
-#include "wear/archard.hpp"
+#include "wear/measures.hpp"
 
 #include <gtest/gtest.h>
 
