@@ -8,6 +8,7 @@
 #include "geometry/solid_rules.hpp"
 #include "optimizer/cell_grid.hpp"
 #include "optimizer/stopwatch.hpp"
+#include "reduction/rough_interface.hpp"
 #include "reduction/static_condensation.hpp"
 #include "steady/work.hpp"
 
@@ -46,6 +47,10 @@ reduction::ContactNodes contact_nodes(const Surface& surface, Eigen::Index first
   return nodes;
 }
 
+reduction::InterfaceStiffness interface_of(const ContactProperties& contact) {
+  return {.normal = contact.normal_stiffness, .tangential = contact.tangential_stiffness};
+}
+
 reduction::FullModel full_model(const Scene& scene, const fem::SectorSystem& system,
                                 const Eigen::SparseMatrix<double>& stiffness) {
   const double speed = scene.loading.speed;
@@ -66,14 +71,15 @@ Status geometric_stiffness(const Scene& scene, const CandidateModel& candidate, 
                            std::span<const fem::Material> materials, Eigen::SparseMatrix<double>& result) {
   const fem::SectorSystem& system = candidate.system;
   const Eigen::SparseMatrix<double> bare = system.full.stiffness;
-  const reduction::StaticCondensation condensed =
+  reduction::StaticCondensation condensed =
       reduction::on_contact(reduction::condense_statically(full_model(scene, system, bare)), candidate.cells.average,
                             contact_nodes(candidate.cells, 0, scene.contact));
   if (condensed.status != Status::converged) return condensed.status;
+  reduction::add_interface(interface_of(scene.contact), condensed.model, &condensed.recovery);
   const auto model = std::make_shared<const dynamics::CondensedModel>(condensed.model);
   const steady::Preload preload = steady::quasi_static(model, {.budget = candidate.budget});
   if (preload.status != Status::converged) return preload.status;
-  const Eigen::VectorXd independent = condensed.recovery.apply(preload.displacement, preload.force);
+  const Eigen::VectorXd independent = condensed.recovery.apply(preload.full_displacement, preload.force);
   const Eigen::VectorXd displacement = system.constraints.transformation * independent;
   const fem::Mesh& mesh = candidate.mesh.sector.mesh;
   result = assembler.geometric_stiffness(mesh, fem::quadrature_stress(mesh, materials, displacement));
@@ -125,14 +131,16 @@ void lay_contact(const Scene& scene, const std::vector<fem::FlankCells>& flanks,
     candidate.status = failed("reduction", candidate.reduction.status) + " " + candidate.reduction.message;
     return;
   }
-  candidate.preload = steady::quasi_static(std::make_shared<const dynamics::CondensedModel>(candidate.reduction.model),
+  candidate.model = candidate.reduction.model;
+  reduction::add_interface(interface_of(scene.contact), candidate.model, &candidate.reduction.recovery);
+  candidate.preload = steady::quasi_static(std::make_shared<const dynamics::CondensedModel>(candidate.model),
                                            {.budget = candidate.budget});
   if (candidate.preload.status != Status::converged) {
     candidate.status = failed("preload", candidate.preload.status);
     return;
   }
-  candidate.reduction.model.contact.slip_origin = candidate.preload.slip_origin;
-  candidate.condensed = std::make_shared<const dynamics::CondensedModel>(candidate.reduction.model);
+  candidate.model.contact.slip_origin = candidate.preload.slip_origin;
+  candidate.condensed = std::make_shared<const dynamics::CondensedModel>(candidate.model);
 }
 
 ModelBuilder::ModelBuilder(const Scene& reference) : sizes_(reference.mesh), solid_sizes_(reference.solid_mesh) {
@@ -218,7 +226,7 @@ CandidateModel ModelBuilder::build(const Scene& scene) const {
                      {"dofs", static_cast<double>(candidate.system.size())},
                      {"contact_nodes", static_cast<double>(candidate.cells.count())},
                      {"modes", scene.solver.modes},
-                     {"reduced_size", static_cast<double>(candidate.reduction.model.size())},
+                     {"reduced_size", static_cast<double>(candidate.model.size())},
                      {"harmonics", scene.solver.harmonics},
                      {"samples", scene.solver.samples},
                      {"remeshed", candidate.mesh.remeshed ? 1.0 : 0.0},

@@ -32,7 +32,8 @@ struct CandidateModel {
   reduction::TraceModel trace;
   // With contact nodes on the trace, see lay_contact:
   fem::ContactCells cells;
-  reduction::Reduction reduction;  ///< its model carries the preload's slip origin
+  reduction::Reduction reduction;
+  reduction::ReducedModel model;  ///< of it, with the rough interface and the slip that the preload leaves
   std::shared_ptr<const dynamics::CondensedModel> condensed;
   steady::Preload preload;
   SharedBudget budget;             ///< of everything computed with contact; counts also where nothing is limited

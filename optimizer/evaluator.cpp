@@ -100,8 +100,7 @@ std::string dynamics(const Scene& scene, const Computation& how, const ContactFi
   responses["resonance_hz"] = hertz(result.unworn->omega);
   responses["peak_amplitude_m"] = result.unworn->amplitude;
   responses["dissipated_energy_j"] = result.unworn->state.friction_energy;
-  responses["initial_wear_rate_m3_per_cycle"] =
-      wear::worn_volume(model.reduction.model.contact, result.unworn->state.wear_rate);
+  responses["initial_wear_rate_m3_per_cycle"] = wear::worn_volume(model.model.contact, result.unworn->state.wear_rate);
   fillet_responses(scene, result);
   evaluation.timings_s["stress"] = watch.lap();
   if (!how.wear) return "converged";

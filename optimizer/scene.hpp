@@ -19,6 +19,8 @@ struct ContactProperties {
   double wear_coefficient = 1e-13;    ///< k_w, 1/Pa
   std::string wear_law = "archard";   ///< archard | energy
   double energy_coefficient = 2e-13;  ///< alpha, m^3/J
+  double normal_stiffness = 0;        ///< of the rough interface, N/m^3; 0: rigid
+  double tangential_stiffness = 0;    ///< N/m^3; 0: rigid
   double energy_threshold = 0;        ///< J/m^2 per cycle
 };
 

@@ -26,7 +26,7 @@ std::span<const Field<fem::Material>> option_table<fem::Material>() {
 template <>
 std::span<const Field<optimizer::ContactProperties>> option_table<optimizer::ContactProperties>() {
   using C = optimizer::ContactProperties;
-  static const std::array<Field<C>, 5> table{
+  static const std::array<Field<C>, 7> table{
       Field<C>{.key = "friction",
                .member = &C::friction,
                .range = {.lower = 0, .upper = 2},
@@ -46,7 +46,15 @@ std::span<const Field<optimizer::ContactProperties>> option_table<optimizer::Con
       Field<C>{.key = "energy_threshold_j_per_m2",
                .member = &C::energy_threshold,
                .range = kNonNegative,
-               .help = "of the law energy: dissipated per cycle and area without wear"}};
+               .help = "of the law energy: dissipated per cycle and area without wear"},
+      Field<C>{.key = "normal_stiffness_n_per_m3",
+               .member = &C::normal_stiffness,
+               .range = kNonNegative,
+               .help = "of rough flanks, in series with their contact; 0: rigid"},
+      Field<C>{.key = "tangential_stiffness_n_per_m3",
+               .member = &C::tangential_stiffness,
+               .range = kNonNegative,
+               .help = "the same along the flanks; 0: rigid"}};
   return table;
 }
 

@@ -107,7 +107,7 @@ LoadedModel from_study(const std::string& file, const std::vector<Override>& ove
     loaded.failure = candidate.status;
     return loaded;
   }
-  loaded.model = candidate.reduction.model;
+  loaded.model = candidate.model;
   loaded.joint.model = candidate.condensed;
   loaded.glued_omega = candidate.reduction.glued_frequencies(study.scene.loading.mode - 1);
   return loaded;

@@ -29,6 +29,10 @@ TEST_P(HardCases, AreSolvedOrClassified) {
     const int least = outcomes.front().contact_mass ? (family.fresh ? 50 : 90) : (family.fresh ? 80 : 98);
     EXPECT_GE(converged, family.count * least / 100);
   }
+  // What drifts for ever at fine steps the finer march cannot judge: one in three hundred problems.
+  const auto drifting =
+      std::count_if(outcomes.begin(), outcomes.end(), [](const Outcome& o) { return o.verdict.drifting > 0; });
+  EXPECT_LE(drifting, std::max(1, family.count / 50));
   if (family.fresh) std::cout << "DOVETAIL_SEED=" << seed_of_run() << " repeats these problems.\n";
   std::cout << table(outcomes) << failures(outcomes);
 }

@@ -49,13 +49,14 @@ struct Verdict {
   double rounding = 0;    ///< what rounding leaves of the forces, relative to the excitation
   double resolution = 0;  ///< largest cost of large steps of a node, relative to its largest force
   bool periodic = true;   ///< the march repeats
+  int drifting = 0;       ///< nodes without an orbit at fine steps: the finer march does not judge them
 
   [[nodiscard]] const Finding& operator[](Check check) const { return findings[static_cast<std::size_t>(check)]; }
   [[nodiscard]] bool rejects(Check check) const { return (*this)[check].rejects(); }
 };
 
 /// Condenses the model itself, marches the contact law itself from its own Fourier sums, and compares. Nothing of
-/// dovetail::contact, dovetail::numerics or dovetail::response takes part. O(n^3 H + Nc N H).
+/// dovetail::contact, dovetail::numerics or dovetail::steady takes part. O(n^3 H + Nc N H).
 [[nodiscard]] Verdict examine(const Problem& problem, const Claim& claim);
 
 /// What a node does at a sample by the oracle's march; `touching` at the first loaded sample.

@@ -33,6 +33,7 @@ Outcome attempt(const Family& family, int index, const Problem& problem) {
   outcome.iterations = state.iterations;
   outcome.residual = state.residual;
   outcome.penalty_ratio = state.penalty_ratio;
+  outcome.way = state.way;
   outcome.unknowns = static_cast<int>(state.displacement.size());
   if (!outcome.converged()) return outcome;
   outcome.claim = {.displacement = state.displacement,
@@ -71,7 +72,7 @@ double median(std::vector<double> values) {
 
 // What the columns of the table count, of one family or of several.
 struct Line {
-  int problems = 0, converged = 0, wrong = 0, thrown = 0, max_iterations = 0;
+  int problems = 0, converged = 0, wrong = 0, thrown = 0, drifting = 0, max_iterations = 0;
   std::map<Status, int> classified;
   std::vector<double> iterations, milliseconds;
 
@@ -80,6 +81,7 @@ struct Line {
     milliseconds.push_back(outcome.milliseconds);
     if (!outcome.wrong.empty()) ++wrong;
     if (!outcome.thrown.empty()) ++thrown;
+    if (outcome.verdict.drifting > 0) ++drifting;
     if (outcome.converged()) {
       ++converged;
       iterations.push_back(outcome.iterations);
@@ -93,10 +95,22 @@ struct Line {
     for (const auto& [status, count] : classified)
       reasons += fmt::format("{}{} {}", reasons.empty() ? "" : ", ", count, to_string(status));
     if (thrown > 0) reasons += fmt::format(", {} threw", thrown);
+    if (drifting > 0) reasons += fmt::format("{}{} drift at fine steps", reasons.empty() ? "" : ", ", drifting);
     return fmt::format("{:<24}{:>9}{:>11}{:>7}{:>8.0f}{:>6}{:>9.1f}  {}\n", name, problems, converged, wrong,
                        median(iterations), max_iterations, median(milliseconds), reasons.empty() ? "-" : reasons);
   }
 };
+
+// States that each way led to, and what they took with all ways before it.
+std::string ways(const std::vector<Outcome>& outcomes) {
+  std::map<steady::Way, std::vector<double>> iterations;
+  for (const Outcome& outcome : outcomes) iterations[outcome.way].push_back(outcome.iterations);
+  std::string text = fmt::format("\n{:<24}{:>9}{:>14}\n", "way", "states", "iterations");
+  for (const auto& [way, taken] : iterations)
+    if (way != steady::Way::none)
+      text += fmt::format("{:<24}{:>9}{:>14.0f}\n", steady::to_string(way), taken.size(), median(taken));
+  return text;
+}
 
 }  // namespace
 
@@ -119,7 +133,7 @@ std::string table(const std::vector<Outcome>& outcomes) {
   if (fresh.problems > 0) text += fresh.print("massless, fresh");
   if (massive.problems > 0) text += massive.print("mass on contact nodes");
   if (none.problems > 0) text += none.print("no steady state exists");
-  return text + all.print("all");
+  return text + all.print("all") + ways(outcomes);
 }
 
 namespace {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/status.hpp"
+#include "steady/ways.hpp"
 #include "tests/hard_cases/mutations.hpp"
 #include "tests/hard_cases/oracle.hpp"
 
@@ -23,6 +24,7 @@ struct Outcome {
   bool contact_mass = false;
   int nodes = 0, unknowns = 0, iterations = 0;
   double milliseconds = 0, residual = 0, penalty_ratio = 1;
+  steady::Way way = steady::Way::none;  ///< that led to the state
 
   [[nodiscard]] std::string id() const { return family + "/" + std::to_string(index); }
   [[nodiscard]] bool converged() const { return status == Status::converged && thrown.empty(); }
@@ -37,7 +39,7 @@ struct Outcome {
 /// converged.
 void spoil(const Problem& problem, const Outcome& outcome, std::vector<Score>& scores);
 
-/// One line per family and their sums.
+/// One line per family and their sums, and one per way to a solution: what it earned.
 [[nodiscard]] std::string table(const std::vector<Outcome>& outcomes);
 /// One line per problem that did not converge or is wrong.
 [[nodiscard]] std::string failures(const std::vector<Outcome>& outcomes);

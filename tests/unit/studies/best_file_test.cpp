@@ -52,7 +52,8 @@ TEST(BestFile, ColumnsCountCodePoints) {
 TEST(BestFile, InlineTablesAreWrittenAnew) {
   std::string text = study_template("sample");
   text = without(text, "[contact]");
-  text = without(without(text, "friction"), "wear_coefficient_per_pa");
+  for (const Field<optimizer::ContactProperties>& field : option_table<optimizer::ContactProperties>())
+    text = without(text, std::string(field.key));
   text = replaced(text, "title = \"sample\"\n", "title = \"sample\"\ncontact = { friction = 0.4 }\n");
   text += "[[variable]]\nkey = \"contact.wear_coefficient_per_pa\"\nlower = 1e-14\nupper = 1e-12\n";
   const std::string best =

@@ -307,6 +307,21 @@ TEST(SectionEvaluation, WearsByEnergyAsByArchardAndLessBeyondAThreshold) {
   EXPECT_NEAR(volume(searched), volume(less), 1e-6 * volume(less));
 }
 
+TEST(SectionEvaluation, RoughFlanksAreSofterAndRigidInTheLimit) {
+  const auto resonance = [](double stiffness) {
+    Scene scene = coarse_scene();
+    scene.contact.normal_stiffness = scene.contact.tangential_stiffness = stiffness;
+    const Evaluation found = evaluator().evaluate(scene, {.bars = false, .wear = false}).evaluation;
+    EXPECT_TRUE(found.converged()) << found.status;
+    return std::pair{found.responses.at("resonance_hz"), found.responses.at("blade_fillet_stress_pa")};
+  };
+  const auto rigid = resonance(0), soft = resonance(1e13), stiff = resonance(1e15), stiffer = resonance(1e16);
+  EXPECT_LT(soft.first, 0.999 * rigid.first);
+  // What is left falls with the compliance.
+  EXPECT_NEAR((rigid.first - stiff.first) / (rigid.first - stiffer.first), 10, 1);
+  EXPECT_NEAR(stiffer.second, rigid.second, 1e-2 * rigid.second);
+}
+
 TEST(SectionEvaluation, RunsTwiceToTheSameBits) {
   const CandidateResult again = evaluator().evaluate(coarse_scene());
   EXPECT_EQ(again.evaluation.responses, baseline().evaluation.responses);

@@ -79,11 +79,13 @@ TEST(EnergyWear, LeavesNodesAtRestInSlip) {
   EXPECT_GT(slipping, 2);
   // Wear without the threshold goes further.
   EXPECT_LT(end.worn_volume, asymptote(plain, 1.0).worn_volume);
-  // Cycle by cycle it ends there, too, to the accuracy of its increment.
+  // Cycle by cycle it ends there, too: steps overshoot the rest by an amount of first order in their increment, 5 % of
+  // the volume at one of 1 %.
   const History run =
-      history(joint, 1.0, {.increment = 0.01 * end.largest_depth, .steps = 2000, .rate_threshold = 0.0});
+      history(joint, 1.0, {.increment = 0.0025 * end.largest_depth, .steps = 2000, .rate_threshold = 0.0});
   ASSERT_EQ(run.end, HistoryEnd::worn_out);
-  EXPECT_NEAR(run.final_volume, end.worn_volume, 0.02 * end.worn_volume);
+  EXPECT_FALSE(run.finished);
+  EXPECT_NEAR(run.final_volume, end.worn_volume, 0.015 * end.worn_volume);
 }
 
 TEST(EnergyWear, OfAnUnknownLawIsRefused) {
