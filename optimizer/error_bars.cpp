@@ -421,7 +421,7 @@ void add_error_bars(const Scene& scene, const ModelBuilder& builder, const Other
   const quality::TruncationFactors factors = quality::truncation_factors(true);
   ask("harmonics", factors.harmonics, {[&](Scene& changed, Computation&) {
         changed.solver.harmonics = more_harmonics;
-        while (changed.solver.samples < 4 * changed.solver.harmonics + 4) changed.solver.samples *= 2;
+        changed.solver.samples = quality::samples_for(changed.solver.harmonics, changed.solver.samples);
       }});
   ask("samples", factors.samples, {[](Scene& changed, Computation&) { changed.solver.samples *= 2; }});
   ask("pseudo_penalty", factors.penalty,

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "optimizer/stopwatch.hpp"
+#include "quality/truncation.hpp"
 #include "wear/history.hpp"
 #include "wear/measures.hpp"
 
@@ -115,7 +116,7 @@ Scene finer(Scene scene, int level) {
   };
   raise("mesh.flank_elements", std::ldexp(scene.mesh.flank_elements, level));
   raise("solver.harmonics", 2 * scene.solver.harmonics + 1);
-  raise("solver.samples", 2 * scene.solver.samples);
+  raise("solver.samples", quality::samples_for(scene.solver.harmonics, 2 * scene.solver.samples));
   return scene;
 }
 

@@ -116,27 +116,19 @@ void march_node(const double* prediction, const NodeLaw& law, int samples, const
 
   // Increments of X_T under load with trapezoidal normal forces; the sample before the first is the last one.
   result.slip_distance = result.slip_load = 0;
-  result.friction_margin = kInfinity;
   result.always_closed = result.always_separated = true;
   for (int n = 0; n < samples; ++n) {
     const bool separated = result.state[static_cast<std::size_t>(n)] == SampleState::separated;
     result.always_closed = result.always_closed && !separated;
     result.always_separated = result.always_separated && separated;
-    double square = 0, traction = 0;
-    for (int r = 0; r < Directions; ++r) {
-      square += std::pow(result.slip_step(n, r), 2);
-      traction += std::pow(result.force(n, 1 + r), 2);
-    }
-    if (!separated)
-      result.friction_margin =
-          std::min(result.friction_margin, std::max(0.0, law.friction * result.force(n, 0) - std::sqrt(traction)));
+    double square = 0;
+    for (int r = 0; r < Directions; ++r) square += std::pow(result.slip_step(n, r), 2);
     const double load = (result.force(n, 0) + result.force((n + samples - 1) % samples, 0)) / 2;
     if (load <= 0 || square <= 0) continue;
     const double distance = std::sqrt(square) / law.tangential_penalty;
     result.slip_distance += distance;
     result.slip_load += load * distance;
   }
-  if (result.always_separated) result.friction_margin = 0;
   result.slip_end.setZero();
   for (int r = 0; r < Directions; ++r) result.slip_end(r) = memory.slip_force[r] / law.tangential_penalty;
 }

@@ -63,7 +63,6 @@ struct MarchResult {
   bool always_closed = false;         ///< lambda_N = lambda_u,N > 0 at all samples
   bool always_separated = false;      ///< no force at any sample
   double slip_distance = 0;           ///< path length of X_T under load over the last period, m
-  double friction_margin = 0;         ///< smallest mu lambda_N - |lambda_T| over the loaded samples, N
   double slip_load = 0;               ///< sum of mean lambda_N |dX_T| over the last period, N m
   Eigen::Vector2d slip_end = {0, 0};  ///< X_T after the last sample, m
   DerivativeStart start = {};

@@ -10,7 +10,7 @@
 namespace dovetail::paths {
 
 /// How a branch of steady states is followed. One unit of arc length is a change of the vibration by its own size, so
-/// the steps adapt to a resonance of any width; see arc_metric.
+/// the steps adapt to a resonance of any width; see ArcMetric.
 struct ContinuationOptions {
   double largest_frequency_step = 0.05;  ///< between points, fraction of the interval followed, (0, 1]
   double largest_change = 0.3;           ///< of displacements and outputs between points, relative, > 0

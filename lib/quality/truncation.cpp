@@ -15,10 +15,14 @@ TruncationFactors truncation_factors(bool massless) {
   return {.harmonics = massless ? kHarmonics : kHarmonicsWithMass, .samples = kSamples, .penalty = kPenalty};
 }
 
+int samples_for(int harmonics, int samples) {
+  while (samples <= 4 * harmonics) samples *= 2;
+  return samples;
+}
+
 steady::Options more_harmonics(steady::Options options) {
   options.harmonics = 2 * options.harmonics + 1;
-  // The highest harmonics of a series of N samples alias each other.
-  while (options.samples <= 4 * options.harmonics) options.samples *= 2;
+  options.samples = samples_for(options.harmonics, options.samples);
   return options;
 }
 

@@ -15,6 +15,9 @@ struct Refinements {
   int jacobians = 0;
 };
 
+/// `samples`, doubled while the highest harmonics of their series alias each other: more than four for each harmonic.
+[[nodiscard]] int samples_for(int harmonics, int samples);
+
 /// Settings of the first two refinements.
 [[nodiscard]] steady::Options more_harmonics(steady::Options options);
 [[nodiscard]] steady::Options more_samples(steady::Options options);

@@ -29,7 +29,6 @@ NodeSummary summarise_node(const Point& point, Eigen::Index i) {
   node.slip_load = march.slip_load;
   node.wear_rate = point.problem->model().wear_rate(i, march.slip_load).depth;
   node.dissipated_energy = contact.friction(i) * march.slip_load;
-  node.friction_margin = slips ? 0 : march.friction_margin;
   node.periods = march.periods;
   return node;
 }

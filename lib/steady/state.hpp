@@ -23,8 +23,7 @@ struct NodeSummary {
   double slip_load = 0;                               ///< int lambda_N |dX_T| per cycle, N m
   double wear_rate = 0;                               ///< depth per cycle, m
   double dissipated_energy = 0;                       ///< J per cycle
-  double friction_margin = 0;  ///< smallest mu lambda_N - |lambda_T| over the loaded samples, N; 0 when slipping
-  int periods = 0;             ///< marched until periodic
+  int periods = 0;                                    ///< marched until periodic
 };
 
 /// Everything reported of a point.

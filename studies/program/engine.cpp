@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "dynamics/condensed_model.hpp"
+#include "quality/truncation.hpp"
 #include "reduction/model_file.hpp"
 #include "studies/program/model_toml.hpp"
 #include "studies/report/design_record.hpp"
@@ -169,8 +170,7 @@ void fit_to_force(const std::string& file, const SolverOverrides& solver, const 
   const Range& harmonics = optimizer::find_parameter("solver.harmonics")->range;
   if (!harmonics.contains(steady.harmonics))
     refuse("/force/cosine, harmonics", forced, "of the force with harmonics " + harmonics.phrase());
-  if (!solver.samples)
-    while (steady.samples < 4 * steady.harmonics + 4) steady.samples *= 2;
+  if (!solver.samples) steady.samples = quality::samples_for(steady.harmonics, steady.samples);
   if (steady.samples < 2 * steady.harmonics + 2)
     refuse("--samples", steady.samples,
            "must be >= 2 * harmonics + 2 = " + std::to_string(2 * steady.harmonics + 2) + " for " +

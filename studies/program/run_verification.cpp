@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <ostream>
+#include <string_view>
 #include <system_error>
 
 #include "studies/program/json_values.hpp"
@@ -62,11 +64,13 @@ struct Kept {
   VerificationRecord record;
 };
 
-/// A bar that is not known is no number in JSON: null.
+/// What is not known is no number in JSON, but null: an infinite bar, or a value that is none.
 template <class T>
-void read(const Json& json, T& value) {
+void read(std::string_view name, const Json& json, T& value) {
   if constexpr (std::is_same_v<T, double>)
-    value = json.is_null() ? kInfinity : json.get<double>();
+    value = !json.is_null()                          ? json.get<double>()
+            : name.find("_bar") != std::string::npos ? kInfinity
+                                                     : std::numeric_limits<double>::quiet_NaN();
   else
     value = json.get<T>();
 }
@@ -89,7 +93,7 @@ std::vector<Kept> kept_before(const fs::path& file, const std::string& fingerpri
       const Json json = Json::parse(line);
       if (json.at("fingerprint") != fingerprint) continue;
       Kept kept{.x = json.at("x").get<std::vector<double>>(), .record = {}};
-      visit(kept.record, [&](const char* name, auto& value) { read(json.at(name), value); });
+      visit(kept.record, [&](const char* name, auto& value) { read(name, json.at(name), value); });
       all.push_back(std::move(kept));
     } catch (const Json::exception&) {
       // Cut short when the program was ended: it is computed again.

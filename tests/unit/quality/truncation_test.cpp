@@ -23,6 +23,13 @@ void expect_local_stiffness_is_the_limit(const reduction::ReducedModel& model) {
     EXPECT_NEAR(high.stiffness(i, i).real(), condensed.local_stiffness()(i), 1e-5 * largest) << i;
 }
 
+TEST(SamplesFor, AreMoreThanFourForEachHarmonic) {
+  EXPECT_EQ(quality::samples_for(11, 128), 128);
+  EXPECT_EQ(quality::samples_for(51, 128), 256);
+  EXPECT_EQ(quality::samples_for(32, 128), 256);  // 128 samples alias its 32nd harmonic with its 96th
+  EXPECT_GT(quality::samples_for(25, 40), 100);
+}
+
 TEST(LocalStiffness, IsTheHighHarmonicLimitForMasslessContact) {
   for (unsigned seed = 0; seed < 10; ++seed)
     expect_local_stiffness_is_the_limit(verification::random_contact(seed).model);
