@@ -147,7 +147,10 @@ lower = 4e-3
 }  // namespace
 
 std::string unit_of_key(std::string_view key) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 10> endings{{{"_kg_m3", "kg/m^3"},
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 13> endings{{{"_m3_per_j", "m^3/J"},
+                                                                                          {"_j_per_m2", "J/m^2"},
+                                                                                          {"_n_per_m3", "N/m^3"},
+                                                                                          {"_kg_m3", "kg/m^3"},
                                                                                           {"_n_per_m", "N/m"},
                                                                                           {"_per_pa", "1/Pa"},
                                                                                           {"_gpa", "GPa"},

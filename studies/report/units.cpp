@@ -39,7 +39,10 @@ constexpr std::array kChoices{
 constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kSiEndings{
     {{"_m3_per_cycle", "m^3"}, {"_m3", "m^3"}, {"_m", "m"}, {"_hz", "Hz"}, {"_pa", "Pa"}, {"_kg", "kg"}, {"_j", "J"}}};
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 16> kKeyEndings{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 19> kKeyEndings{{
+    {"_m3_per_j", "m\u00b3/J"},
+    {"_j_per_m2", "J/m\u00b2"},
+    {"_n_per_m3", "N/m\u00b3"},
     {"_um", "\u00b5m"},
     {"_mm", "mm"},
     {"_deg", "\u00b0"},
