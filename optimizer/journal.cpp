@@ -126,8 +126,10 @@ Journal Journal::open(const std::filesystem::path& file, const std::string& fing
     refuse(file, 0, "in use", "must not be written by another run at the same time");
   JournalContents contents = read_journal(file);
   if (contents.valid_bytes > 0 && contents.fingerprint != fingerprint)
-    refuse(file, 1, contents.fingerprint,
-           "must belong to the study at hand (" + fingerprint + "); its variables, limits or physics have changed");
+    refuse(
+        file, 1, contents.fingerprint,
+        "must belong to the study at hand (" + fingerprint +
+            "); its variables, limits or physics have changed: choose another folder for this run or move the old one");
   if (::ftruncate(journal.descriptor_, static_cast<off_t>(contents.valid_bytes)) != 0)
     system_failure(file, "cannot cut off the torn last line");
   journal.note_ = std::move(contents.note);

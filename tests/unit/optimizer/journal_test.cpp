@@ -141,7 +141,8 @@ TEST_F(JournalFile, RefusesAnotherStudy) {
     static_cast<void>(Journal::resume(file, "study-2"));
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), ::testing::HasSubstr("must belong to the study at hand"));
+    EXPECT_THAT(error.what(), ::testing::AllOf(::testing::HasSubstr("must belong to the study at hand"),
+                                               ::testing::HasSubstr("choose another folder")));
   }
   EXPECT_EQ(contents(), before);
 }
