@@ -139,10 +139,10 @@ class Bars {
 WornChange within_nodes(const fem::ContactCells& cells, const wear::Asymptote& asymptote) {
   // Of a node, from histories on nodes a quarter as long. Where another order of release ends elsewhere, or nodes that
   // stick have little to spare, a history depends on its nodes much more than where some touch at times only.
-  const double part = asymptote.doubt == "lift_off" ? 0.055 : 0.25;
+  const double part = asymptote.doubt == wear::Doubt::lift_off ? 0.055 : 0.25;
   // Of a history that decided nodes may touch that it has worn: they carry what is left there.
   const std::vector<bool> worn =
-      asymptote.decided_by == "history" ? wear::worn_nodes(asymptote.depth) : asymptote.released;
+      asymptote.decided_by == wear::FoundBy::history ? wear::worn_nodes(asymptote.depth) : asymptote.released;
   return ends_moved_by(part, cells, worn, asymptote.depth);
 }
 
@@ -150,10 +150,11 @@ WornChange within_nodes(const fem::ContactCells& cells, const wear::Asymptote& a
 /// in the same state, or nothing else was there to compare with, what its nodes leave open; and without a history that
 /// ends it may be anything.
 WornChange left_in_doubt(const fem::ContactCells& cells, const wear::Asymptote& asymptote) {
-  if (asymptote.doubt.empty()) return {};
+  if (asymptote.doubt == wear::Doubt::none) return {};
   if (!asymptote.confirmed_by_history) return {.volume = asymptote.worn_volume, .depth = asymptote.largest_depth};
   for (const wear::OtherState& other : asymptote.other_states)
-    if (other.found_by == (asymptote.decided_by == "history" ? "release" : "history"))
+    if (other.found_by ==
+        (asymptote.decided_by == wear::FoundBy::history ? wear::FoundBy::release : wear::FoundBy::history))
       return {.volume = std::abs(other.worn_volume - asymptote.worn_volume),
               .depth = std::abs(other.largest_depth - asymptote.largest_depth)};
   return within_nodes(cells, asymptote);
@@ -318,7 +319,7 @@ void add_error_bars(const Scene& scene, const ModelBuilder& builder, const Other
   };
   // Where the history decided, it does so for the companions.
   Computation as_here;
-  as_here.history = result.asymptote->decided_by == "history";
+  as_here.history = result.asymptote->decided_by == wear::FoundBy::history;
   const auto cells = [&as_here](double longer) {
     Computation how = as_here;
     how.contact.lengths.finest *= longer;

@@ -52,7 +52,7 @@ std::string wear_down(const Scene& scene, const CandidateResult& fine, const Ver
     settings.increment = part * options.increment * wear::largest_penetration(*model, fine.unworn->state);
     settings.steps = options.steps;
     settings.finish = false;
-    const wear::History history = wear::history({model, {}, steady}, fine.unworn->omega, settings, {}, control);
+    const wear::History history = wear::history({model, {}, steady}, {.omega = fine.unworn->omega}, settings, control);
     verification.history_solves += history.solves;
     const Eigen::Index last = history.cycles.size() - 1;
     if (last < 0) return failure("history", to_string(history.status));

@@ -32,10 +32,7 @@ WornState come_to_rest(const Scene& scene, const steady::Joint& joint, const ste
           .unfinished = {}};
 }
 
-/// A history with more harmonics and samples than the one at hand.
-constexpr const char* kFinerHistory = "finer_history";
-
-wear::OtherState other_state(const char* found_by, wear::Asymptote found) {
+wear::OtherState other_state(wear::FoundBy found_by, wear::Asymptote found) {
   return {.found_by = found_by,
           .depth = std::move(found.depth),
           .worn_volume = found.worn_volume,
@@ -56,7 +53,7 @@ std::optional<wear::OtherState> finer_history(Scene scene, const CandidateModel&
   if (start.status != Status::converged) return {};
   wear::Asymptote found = come_to_rest(scene, joint, start, "always").asymptote;
   if (found.verdict != wear::Verdict::asymptote || !found.confirmed_by_history) return {};
-  return other_state(kFinerHistory, std::move(found));
+  return other_state(wear::FoundBy::finer_history, std::move(found));
 }
 
 /// Where history and direct method end, and where a finer history does if they are far apart.
@@ -89,20 +86,21 @@ void settle(const Scene& scene, const CandidateModel& model, steady::Joint joint
                                      ? "it spent its budget (solver.max_jacobians, solver.time_limit_s)"
                                      : "it came to no end";
   if (found.verdict == wear::Verdict::not_converged) {
-    direct.doubt = found.doubt.empty() ? "unfinished" : found.doubt;
+    direct.doubt = found.doubt == wear::Doubt::none ? wear::Doubt::unfinished : found.doubt;
     worn.unfinished = unfinished;
     return;
   }
   Ends ends;
-  if (found.decided_by == "history" && direct.decided_by == "release" && found.verdict == wear::Verdict::asymptote)
+  if (found.decided_by == wear::FoundBy::history && direct.decided_by == wear::FoundBy::release &&
+      found.verdict == wear::Verdict::asymptote)
     ends = compared(scene, model, joint, unworn, found, direct);
   if (ends.direct_stays) {
     direct.doubt = found.doubt;
     direct.confirmed_by_history = true;
-    direct.other_states = {other_state("history", std::move(found))};
+    direct.other_states = {other_state(wear::FoundBy::history, std::move(found))};
   } else {
     worn = std::move(asked);
-    const bool undecided = !worn.asymptote.doubt.empty() && !worn.asymptote.confirmed_by_history;
+    const bool undecided = worn.asymptote.doubt != wear::Doubt::none && !worn.asymptote.confirmed_by_history;
     worn.unfinished = undecided ? unfinished : ends.unfinished;
   }
   if (ends.finer) worn.asymptote.other_states.push_back(std::move(*ends.finer));
@@ -118,16 +116,18 @@ WornState worn_state(const Scene& scene, const CandidateModel& model, const stea
 }
 
 void note_doubt(const wear::Asymptote& asymptote, const std::string& unfinished, Evaluation& evaluation) {
-  const bool by_history = asymptote.decided_by == "history";
-  evaluation.model["wear_history_may_differ"] = asymptote.doubt.empty() || asymptote.confirmed_by_history ? 0 : 1;
+  const bool by_history = asymptote.decided_by == wear::FoundBy::history;
+  evaluation.model["wear_history_may_differ"] =
+      asymptote.doubt == wear::Doubt::none || asymptote.confirmed_by_history ? 0 : 1;
   evaluation.model["wear_decided_by_history"] = by_history ? 1 : 0;
-  if (asymptote.doubt.empty()) return;
-  const auto found = [&asymptote](const char* by) {
+  if (asymptote.doubt == wear::Doubt::none) return;
+  const auto found = [&asymptote](wear::FoundBy by) {
     const auto at = std::find_if(asymptote.other_states.begin(), asymptote.other_states.end(),
                                  [by](const wear::OtherState& other) { return other.found_by == by; });
     return at == asymptote.other_states.end() ? nullptr : &*at;
   };
-  const wear::OtherState *direct = found("release"), *history = found("history"), *finer = found(kFinerHistory);
+  const wear::OtherState *direct = found(wear::FoundBy::release), *history = found(wear::FoundBy::history),
+                         *finer = found(wear::FoundBy::finer_history);
   const auto volume = [](double value) { return fmt::format("{:.4g} m^3", value); };
   std::string outcome;
   if (by_history && direct != nullptr) {
@@ -151,7 +151,8 @@ void note_doubt(const wear::Asymptote& asymptote, const std::string& unfinished,
   } else {
     outcome = "no wear history has decided" + (unfinished.empty() ? "" : ": " + unfinished);
   }
-  evaluation.messages.push_back("The worn state was in doubt (" + asymptote.doubt + "): " + outcome + ".");
+  evaluation.messages.push_back(fmt::format("The worn state was in doubt ({}: {}): {}.", to_string(asymptote.doubt),
+                                            entry(asymptote.doubt).meaning, outcome));
 }
 
 }  // namespace dovetail::optimizer

@@ -4,9 +4,8 @@
 #include <limits>
 #include <utility>
 
-#include "wear/certificate.hpp"
-#include "wear/gross_sliding.hpp"
-#include "wear/implicit_history.hpp"
+#include "wear/friction_reserve.hpp"
+#include "wear/history.hpp"
 #include "wear/measures.hpp"
 #include "wear/passes.hpp"
 #include "wear/start.hpp"
@@ -23,12 +22,6 @@ void set_depth(const reduction::ContactNodes& contact, const VectorXd& depth, As
   result.worn_volume = worn_volume(contact, depth);
   result.largest_depth = depth.size() == 0 ? 0.0 : depth.maxCoeff();
 }
-
-/// What is known when the passes of release are over.
-struct Direct {
-  bool settled = false;  ///< `result` holds its depth
-  std::string doubt;     ///< why it may not be where wear ends
-};
 
 /// A node that an earlier pass wore deeper than the last one needs lost contact on the way; a history may have worn it
 /// before the load came back to others, and ends deeper.
@@ -59,23 +52,6 @@ struct Rates {
   }
 };
 
-/// Solves once more with the worn gap and contact everywhere.
-void certify(Release& release, const Rates& rates, const AsymptoteOptions& options, Asymptote& result) {
-  const steady::State worn = release.solve_worn(result.depth, result.steady.displacement);
-  if (worn.status != Status::converged) {
-    result.verdict = Verdict::not_converged;
-    result.status = worn.status;
-    return;
-  }
-  result.rate = worn.wear_rate;
-  result.steady = worn;
-  result.certificate = rates.certificate(worn.wear_rate.maxCoeff());
-  if (!(result.certificate <= rates.limit(options.certificate_limit))) {
-    result.verdict = Verdict::not_converged;
-    result.status = Status::stalled;
-  }
-}
-
 /// A node that sticks with little to spare may slip while its neighbours wear, and the history wears it, too.
 bool near_slip(const dynamics::CondensedModel& model, const steady::State& state, const std::vector<bool>& released) {
   // Half-plane punches whose histories took one node more ended with 0.015 to 0.03, others with 0.04 and above.
@@ -89,35 +65,8 @@ bool near_slip(const dynamics::CondensedModel& model, const steady::State& state
   return false;
 }
 
-Bearing bearing_of(const dynamics::CondensedModel& model, const Asymptote& result) {
-  return bearing(model, result.unworn, result.steady, result.depth);
-}
-
-/// A state that hardly anything bears is an answer only when the history comes to it.
-void refuse_gross_sliding(const dynamics::CondensedModel& model, Asymptote& result) {
-  if (result.verdict != Verdict::asymptote) return;
-  result.bearing = bearing_of(model, result);
-  if (!result.bearing.impossible() && (result.confirmed_by_history || !result.bearing.doubtful())) return;
-  result.verdict = Verdict::not_converged;
-  result.status = Status::gross_sliding;
-}
-
-/// Whether the answer rests at finer settings, too.
-void certify_finer(const steady::Joint& joint, const Rates& rates, const AsymptoteOptions& options, Release& release,
-                   Asymptote& result) {
-  if (result.verdict != Verdict::asymptote || !options.certify_finer || release.stopped()) return;
-  result.finer =
-      certificate(joint.worn(result.depth).with(finer_settings(joint.options)), rates.fastest, result.steady);
-  release.count(1, result.finer.jacobians);
-  if (!(rates.fastest > rates.none)) result.finer.remaining = rates.certificate(result.finer.remaining * rates.fastest);
-  result.holds_finer =
-      result.finer.status == Status::converged && result.finer.remaining <= rates.limit(options.certificate_limit);
-  // Whatever else was in doubt has been settled when the history has decided.
-  if (!result.holds_finer && (result.doubt.empty() || result.confirmed_by_history)) result.doubt = "finer_settings";
-}
-
-OtherState other_state(std::string found_by, const reduction::ContactNodes& contact, const VectorXd& depth) {
-  return {.found_by = std::move(found_by),
+OtherState other_state(FoundBy found_by, const reduction::ContactNodes& contact, const VectorXd& depth) {
+  return {.found_by = found_by,
           .depth = depth,
           .worn_volume = worn_volume(contact, depth),
           .largest_depth = depth.size() == 0 ? 0.0 : depth.maxCoeff()};
@@ -128,49 +77,215 @@ bool same_depth(const VectorXd& a, const VectorXd& b, double tolerance) {
   return (a - b).cwiseAbs().maxCoeff() <= tolerance * std::max(a.maxCoeff(), b.maxCoeff());
 }
 
-/// The implicit history has the last word. Where it cannot be followed to its end a settled direct answer stands,
-/// unconfirmed; any other becomes not_converged.
-void arbitrate(const steady::Joint& joint, Release& release, const Rates& rates, const AsymptoteOptions& options,
-               const Direct& direct, const Control& control, Asymptote& result) {
-  const reduction::ContactNodes& contact = joint.model->contact();
-  const ImplicitHistory past = implicit_history(joint, result.unworn.omega,
-                                                {.tolerance = options.history_tolerance,
-                                                 .rate_fraction = options.relative_threshold,
-                                                 .rate_threshold = rates.none},
-                                                &result.unworn, control);
-  release.count(past.solves, past.jacobians);
-  const Index last = past.cycles.size() - 1;
-  const bool certified = direct.settled && result.verdict == Verdict::asymptote;
-  if (past.end != HistoryEnd::worn_out && past.end != HistoryEnd::steady_rate) {
+/// The direct answer, what is in doubt about it, and who settles that.
+class WornStateSearch {
+ public:
+  WornStateSearch(const steady::Joint& joint, double omega, const AsymptoteOptions& options, const Control& control)
+      : joint_(joint),
+        model_(*joint.model),
+        options_(options),
+        control_(control),
+        wearing_(joint, omega, control),
+        passes_(joint.model->nodes()) {}
+
+  [[nodiscard]] Asymptote run(const steady::State* unworn) {
+    if (begin(unworn) && release()) {
+      const int solves = wearing_.solves(), jacobians = wearing_.jacobians();
+      const bool asked = options_.arbitration == "always";
+      if ((asked || options_.arbitration == "auto") && settled_ && passes_.count > 0 &&
+          (doubt() == Doubt::none || asked))
+        look_further();
+      if (doubt() == Doubt::none && asked) result_.doubt = Doubt::always;
+      if (history_decides()) arbitrate();
+      result_.arbitration_solves = wearing_.solves() - solves;
+      result_.arbitration_jacobians = wearing_.jacobians() - jacobians;
+      certify_finer();
+    }
+    refuse_gross_sliding();
+    result_.released = std::move(passes_.released);
+    result_.trail = std::move(passes_.trail);
+    result_.passes = passes_.count;
+    result_.solves = wearing_.solves();
+    result_.jacobians = wearing_.jacobians();
+    return std::move(result_);
+  }
+
+ private:
+  [[nodiscard]] Doubt doubt() const { return result_.doubt; }
+  [[nodiscard]] const reduction::ContactNodes& contact() const { return model_.contact(); }
+  [[nodiscard]] bool rests() const { return result_.verdict == Verdict::asymptote; }
+
+  /// The unworn state; false where there is none.
+  [[nodiscard]] bool begin(const steady::State* unworn) {
+    result_.certificate = std::numeric_limits<double>::quiet_NaN();
+    set_depth(contact(), wearing_.start(), result_);
+    result_.rate = VectorXd::Zero(model_.nodes());
+    passes_.state = unworn != nullptr ? *unworn : wearing_.worn(wearing_.start(), {});
+    result_.unworn = passes_.state;
+    result_.status = passes_.state.status;
+    if (result_.status != Status::converged) return false;
+    result_.unworn_rate = passes_.state.wear_rate;
+    rates_.fastest = options_.reference_rate;
+    rates_.none = no_wear_rate(options_.rate_threshold, model_, result_.unworn);
+    if (!(rates_.fastest > 0.0) && result_.unworn_rate.size() > 0) rates_.fastest = result_.unworn_rate.maxCoeff();
+    threshold_ = std::max(rates_.none, options_.relative_threshold * rates_.fastest);
+    return true;
+  }
+
+  /// The direct answer and what its own passes leave in doubt; false where it was cut short.
+  [[nodiscard]] bool release() {
+    const Ending ending = release_slipping(wearing_, threshold_, options_.passes, control_, passes_);
+    result_.status = passes_.status;
+    result_.steady = passes_.state;
+    result_.rate = passes_.state.wear_rate;
+    if (cut_short(passes_.status)) return false;
+    if (ending == Ending::failed) {
+      result_.doubt = Doubt::pass_failed;
+    } else if (ending == Ending::nothing_holds) {
+      result_.doubt = Doubt::nothing_holds;
+      result_.rate = result_.unworn_rate;
+      result_.verdict = Verdict::no_asymptote;
+      result_.status = Status::converged;
+    } else {
+      settled_ = true;
+      result_.verdict = Verdict::asymptote;
+      set_depth(contact(), wearing_.depth(passes_.released, passes_.state), result_);
+      if (options_.certify) certify();
+      result_.doubt = doubt_of_passes();
+    }
+    return true;
+  }
+
+  [[nodiscard]] Doubt doubt_of_passes() const {
+    if (!rests()) return Doubt::certificate;
+    if (rests_in_slip(model_) && result_.largest_depth > 0.0) return Doubt::threshold;
+    if (bears().doubtful()) return Doubt::gross_sliding;
+    if (reloads(passes_.deepest, result_.depth, options_.state_tolerance)) return Doubt::reload;
+    if (lifts_off(passes_, result_.depth, options_.state_tolerance)) return Doubt::lift_off;
+    return Doubt::none;
+  }
+
+  /// Solves once more with the worn gap and contact everywhere.
+  void certify() {
+    const steady::State worn = wearing_.worn(result_.depth, result_.steady.displacement);
+    if (worn.status != Status::converged) {
+      result_.verdict = Verdict::not_converged;
+      result_.status = worn.status;
+      return;
+    }
+    result_.rate = worn.wear_rate;
+    result_.steady = worn;
+    result_.certificate = rates_.certificate(worn.wear_rate.maxCoeff());
+    if (!(result_.certificate <= rates_.limit(options_.certificate_limit))) {
+      result_.verdict = Verdict::not_converged;
+      result_.status = Status::stalled;
+    }
+  }
+
+  /// The other order of release, and nodes that hardly stick.
+  void look_further() {
+    const SlowRelease slow = release_slowly(wearing_, result_.unworn, threshold_, options_.passes);
+    const bool elsewhere = !same_depth(slow.depth, result_.depth, options_.state_tolerance);
+    if (slow.settled && elsewhere)
+      result_.other_states.push_back(other_state(FoundBy::worst_first, contact(), slow.depth));
+    if (doubt() != Doubt::none) return;
+    if (!slow.settled || elsewhere || reloads(slow.deepest, slow.depth, options_.state_tolerance))
+      result_.doubt = Doubt::worst_first;
+    else if (near_slip(model_, result_.steady, passes_.released))
+      result_.doubt = Doubt::near_slip;
+  }
+
+  [[nodiscard]] bool history_decides() const {
+    if (doubt() == Doubt::none || options_.arbitration == "never") return false;
+    return options_.arbitration != "unsettled" || !entry(doubt()).direct_stands;
+  }
+
+  /// The implicit history has the last word. Where it cannot be followed to its end a settled direct answer stands,
+  /// unconfirmed; any other becomes not_converged.
+  void arbitrate() {
+    HistoryOptions options = HistoryOptions::implicit();
+    options.tolerance = options_.history_tolerance;
+    options.rate_fraction = options_.relative_threshold;
+    options.rate_threshold = rates_.none;
+    const History past = history(joint_, {.omega = result_.unworn.omega, .unworn = &result_.unworn}, options, control_);
+    wearing_.count(past.solves, past.jacobians);
+    const bool certified = settled_ && rests();
+    if (past.end != HistoryEnd::worn_out && past.end != HistoryEnd::steady_rate) return keep_direct(past, certified);
+    result_.confirmed_by_history = true;
+    result_.status = Status::converged;
+    const VectorXd& depth = past.final_depth;
+    if (past.end == HistoryEnd::worn_out && certified && same_depth(depth, result_.depth, options_.state_tolerance))
+      return;
+    std::erase_if(result_.other_states,
+                  [&](const OtherState& state) { return same_depth(state.depth, depth, options_.state_tolerance); });
+    if (certified)
+      result_.other_states.insert(result_.other_states.begin(),
+                                  other_state(FoundBy::release, contact(), result_.depth));
+    set_depth(contact(), depth, result_);
+    result_.decided_by = FoundBy::history;
+    result_.rate = past.final_rate;
+    result_.steady = past.steady;
+    if (past.end == HistoryEnd::steady_rate) {
+      result_.verdict = Verdict::no_asymptote;
+    } else {
+      result_.certificate = rates_.certificate(past.final_rate.maxCoeff());
+      result_.verdict = Verdict::asymptote;
+    }
+    for (std::size_t i = 0; i < passes_.released.size(); ++i)
+      passes_.released[i] = depth[static_cast<Index>(i)] > wearing_.start()[static_cast<Index>(i)] &&
+                            !result_.steady.nodes[i].carries_load;
+  }
+
+  /// What is left where the history came to no end.
+  void keep_direct(const History& past, bool certified) {
     if (past.end == HistoryEnd::interrupted || !certified) {
-      result.verdict = Verdict::not_converged;
-      if (result.status == Status::converged || cut_short(past.status)) result.status = past.status;
+      result_.verdict = Verdict::not_converged;
+      const Status status = past.end == HistoryEnd::steps ? Status::iteration_limit : past.status;
+      if (result_.status == Status::converged || cut_short(status)) result_.status = status;
     }
     // However it went on: it has worn more than any state of the joint has.
-    if (result.verdict == Verdict::not_converged && past.end != HistoryEnd::interrupted && last >= 0 &&
-        bearing(*joint.model, result.unworn, result.unworn, past.depth.row(last).transpose()).impossible())
-      result.status = Status::gross_sliding;
-    return;
+    if (!rests() && past.end != HistoryEnd::interrupted && past.cycles.size() > 0 &&
+        bearing(model_, result_.unworn, result_.unworn, past.final_depth).impossible())
+      result_.status = Status::gross_sliding;
   }
-  result.confirmed_by_history = true;
-  result.status = Status::converged;
-  const VectorXd depth = past.depth.row(last).transpose();
-  const VectorXd rate = past.rate.row(last).transpose();
-  if (past.end == HistoryEnd::worn_out && certified && same_depth(depth, result.depth, options.state_tolerance)) return;
-  std::erase_if(result.other_states,
-                [&](const OtherState& state) { return same_depth(state.depth, depth, options.state_tolerance); });
-  if (certified) result.other_states.insert(result.other_states.begin(), other_state("release", contact, result.depth));
-  set_depth(contact, depth, result);
-  result.decided_by = "history";
-  result.rate = rate;
-  result.steady = past.steady;
-  if (past.end == HistoryEnd::steady_rate) {
-    result.verdict = Verdict::no_asymptote;
-    return;
+
+  [[nodiscard]] Bearing bears() const { return bearing(model_, result_.unworn, result_.steady, result_.depth); }
+
+  /// A state that hardly anything bears is an answer only when the history comes to it.
+  void refuse_gross_sliding() {
+    if (!rests()) return;
+    result_.bearing = bears();
+    if (!result_.bearing.impossible() && (result_.confirmed_by_history || !result_.bearing.doubtful())) return;
+    result_.verdict = Verdict::not_converged;
+    result_.status = Status::gross_sliding;
   }
-  result.certificate = rates.certificate(rate.maxCoeff());
-  result.verdict = Verdict::asymptote;
-}
+
+  /// Whether the answer rests at finer settings, too.
+  void certify_finer() {
+    if (!rests() || !options_.certify_finer || control_.stopped()) return;
+    Certificate& finer = result_.finer;
+    finer =
+        certificate(joint_.worn(result_.depth).with(finer_settings(joint_.options)), rates_.fastest, result_.steady);
+    wearing_.count(1, finer.jacobians);
+    if (!(rates_.fastest > rates_.none)) finer.remaining = rates_.certificate(finer.remaining * rates_.fastest);
+    result_.holds_finer =
+        finer.status == Status::converged && finer.remaining <= rates_.limit(options_.certificate_limit);
+    // Whatever else was in doubt has been settled when the history has decided.
+    if (!result_.holds_finer && (doubt() == Doubt::none || result_.confirmed_by_history))
+      result_.doubt = Doubt::finer_settings;
+  }
+
+  const steady::Joint& joint_;
+  const dynamics::CondensedModel& model_;
+  const AsymptoteOptions& options_;
+  const Control& control_;
+  WearingJoint wearing_;
+  Passes passes_;
+  Rates rates_;
+  double threshold_ = 0.0;  // wear per cycle below which a node sticks, m
+  bool settled_ = false;    // release came to an end: the result has its depth
+  Asymptote result_;
+};
 
 }  // namespace
 
@@ -192,97 +307,7 @@ Asymptote asymptote(const steady::Joint& joint, double omega, const AsymptoteOpt
     throw InputError(std::move(wrong));
   require_nothing_released(joint.condition);
 
-  const reduction::ContactNodes& contact = joint.model->contact();
-  Release release(joint, omega, control);
-  Asymptote result;
-  result.certificate = std::numeric_limits<double>::quiet_NaN();
-  Passes passes(joint.model->nodes());
-  const auto finish = [&] {
-    refuse_gross_sliding(*joint.model, result);
-    result.released = passes.released;
-    result.trail = passes.trail;
-    result.passes = passes.count;
-    result.solves = release.solves();
-    result.jacobians = release.jacobians();
-    return std::move(result);
-  };
-
-  set_depth(contact, release.start(), result);
-  result.rate = VectorXd::Zero(joint.model->nodes());
-  passes.state = unworn != nullptr ? *unworn : release.solve(passes.released, {});
-  result.unworn = passes.state;
-  result.status = passes.state.status;
-  if (passes.state.status != Status::converged) return finish();
-  result.unworn_rate = passes.state.wear_rate;
-  Rates rates{.fastest = options.reference_rate,
-              .none = no_wear_rate(options.rate_threshold, *joint.model, result.unworn)};
-  if (!(rates.fastest > 0.0) && result.unworn_rate.size() > 0) rates.fastest = result.unworn_rate.maxCoeff();
-  const double threshold = std::max(rates.none, options.relative_threshold * rates.fastest);
-
-  const Ending ending = release_slipping(release, threshold, options.passes, control, passes);
-  result.status = passes.status;
-  result.steady = passes.state;
-  result.rate = passes.state.wear_rate;
-  if (cut_short(passes.status)) return finish();
-  Direct direct;
-  if (ending == Ending::failed) {
-    direct.doubt = "pass_failed";
-  } else if (ending == Ending::nothing_holds) {
-    direct.doubt = "nothing_holds";
-    result.rate = result.unworn_rate;
-    result.verdict = Verdict::no_asymptote;
-    result.status = Status::converged;
-  } else {
-    direct.settled = true;
-    result.verdict = Verdict::asymptote;
-    set_depth(contact, release.depth(passes.released, passes.state), result);
-    if (options.certify) certify(release, rates, options, result);
-    const bool slips_at_rest = rests_in_slip(*joint.model) && result.largest_depth > 0.0;
-    if (result.verdict != Verdict::asymptote)
-      direct.doubt = "certificate";
-    else if (slips_at_rest)
-      direct.doubt = "threshold";
-    else if (bearing_of(*joint.model, result).doubtful())
-      direct.doubt = "gross_sliding";
-    else if (reloads(passes.deepest, result.depth, options.state_tolerance))
-      direct.doubt = "reload";
-    else if (lifts_off(passes, result.depth, options.state_tolerance))
-      direct.doubt = "lift_off";
-  }
-  const int solves = release.solves();
-  const int jacobians = release.jacobians();
-  const auto count_arbitration = [&] {
-    result.arbitration_solves = release.solves() - solves;
-    result.arbitration_jacobians = release.jacobians() - jacobians;
-  };
-  const bool asked = options.arbitration == "always";
-  const bool looks_further = asked || options.arbitration == "auto";
-  if (looks_further && passes.count > 0 && direct.settled && (direct.doubt.empty() || asked)) {
-    const SlowRelease slow = release_slowly(release, result.unworn, threshold, options.passes);
-    const bool elsewhere = !same_depth(slow.depth, result.depth, options.state_tolerance);
-    if (slow.settled && elsewhere) result.other_states.push_back(other_state("worst_first", contact, slow.depth));
-    if (direct.doubt.empty() &&
-        (!slow.settled || elsewhere || reloads(slow.deepest, slow.depth, options.state_tolerance)))
-      direct.doubt = "worst_first";
-    else if (direct.doubt.empty() && near_slip(*joint.model, result.steady, passes.released))
-      direct.doubt = "near_slip";
-  }
-  result.doubt = direct.doubt.empty() && asked ? "always" : direct.doubt;
-  const bool stands = direct.settled && result.verdict == Verdict::asymptote && direct.doubt != "gross_sliding" &&
-                      direct.doubt != "threshold";
-  if (result.doubt.empty() || options.arbitration == "never" || (options.arbitration == "unsettled" && stands)) {
-    count_arbitration();
-    certify_finer(joint, rates, options, release, result);
-    return finish();
-  }
-  arbitrate(joint, release, rates, options, direct, control, result);
-  if (result.decided_by == "history")
-    for (std::size_t i = 0; i < passes.released.size(); ++i)
-      passes.released[i] = result.depth[static_cast<Index>(i)] > release.start()[static_cast<Index>(i)] &&
-                           !result.steady.nodes[i].carries_load;
-  count_arbitration();
-  certify_finer(joint, rates, options, release, result);
-  return finish();
+  return WornStateSearch(joint, omega, options, control).run(unworn);
 }
 
 }  // namespace dovetail::wear

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,6 +11,7 @@
 #include "steady/steady_state.hpp"
 #include "wear/certificate.hpp"
 #include "wear/control.hpp"
+#include "wear/doubt.hpp"
 #include "wear/gross_sliding.hpp"
 #include "wear/no_wear.hpp"
 #include "wear/zone_edges.hpp"
@@ -57,7 +57,7 @@ struct AsymptoteOptions {
 
 /// Another state in which nothing wears.
 struct OtherState {
-  std::string found_by;        ///< release | worst_first | history
+  FoundBy found_by = FoundBy::release;
   Eigen::VectorXd depth;       ///< [Nc] m
   double worn_volume = 0.0;    ///< m^3
   double largest_depth = 0.0;  ///< m
@@ -82,23 +82,17 @@ struct Asymptote {
   /// Of the answer. Where it is doubtful and no history confirms it, or impossible, the verdict is not_converged and
   /// the status gross_sliding, whatever `arbitration` says.
   Bearing bearing;
-  /// Why the direct answer was in doubt: "" (not at all), nothing_holds (every loaded node slips), pass_failed,
-  /// gross_sliding (hardly anything bears, see Bearing),
-  /// certificate (above its limit), lift_off (a worn node touched at times only), threshold (the wear law lets worn
-  /// nodes slip without wear), reload (a node worn off on the way did not need to), worst_first (releasing the fastest
-  /// nodes first does not end there, or reloads), near_slip (a node that sticks has less than 5 % of its friction to
-  /// spare), finer_settings (the certificate is above its limit at finer settings) or always (asked for).
-  std::string doubt;
-  std::string decided_by = "release";    ///< release | history: what `depth` and `verdict` are from
-  bool confirmed_by_history = false;     ///< the history was run to an end and has decided
-  std::vector<OtherState> other_states;  ///< states at rest where the history does not go
-  int arbitration_solves = 0;            ///< of `solves`: looking for doubt and the history
-  int arbitration_jacobians = 0;         ///< of `jacobians`
-  steady::State unworn;                  ///< steady state before wear
-  steady::State steady;                  ///< at the limit (no asymptote: the last one computed)
-  int passes = 0;                        ///< of release
-  int solves = 0;                        ///< steady states computed
-  int jacobians = 0;                     ///< factorised Jacobians over all of them
+  Doubt doubt = Doubt::none;              ///< of the direct answer
+  FoundBy decided_by = FoundBy::release;  ///< release | history: what `depth` and `verdict` are from
+  bool confirmed_by_history = false;      ///< the history was run to an end and has decided
+  std::vector<OtherState> other_states;   ///< states at rest where the history does not go
+  int arbitration_solves = 0;             ///< of `solves`: looking for doubt and the history
+  int arbitration_jacobians = 0;          ///< of `jacobians`
+  steady::State unworn;                   ///< steady state before wear
+  steady::State steady;                   ///< at the limit (no asymptote: the last one computed)
+  int passes = 0;                         ///< of release
+  int solves = 0;                         ///< steady states computed
+  int jacobians = 0;                      ///< factorised Jacobians over all of them
 };
 
 /// Limiting worn geometry without the history: solve with the released nodes free of contact, release every loaded

@@ -18,22 +18,22 @@ Finish finish_by_release(const steady::Joint& joint, const steady::State& state,
   const double threshold = kStillWears * largest / cycles;
   Finish result;
   if (!(state.wear_rate.maxCoeff() > threshold) || rests_in_slip(*joint.model)) return result;
-  Release release(joint.worn(depth), state.omega, control);
+  WearingJoint wearing(joint.worn(depth), state.omega, control);
   Passes passes(joint.model->nodes());
   passes.state = state;
-  const Ending ending = release_slipping(release, threshold, kPasses, {}, passes);
+  const Ending ending = release_slipping(wearing, threshold, kPasses, {}, passes);
   if (ending == Ending::settled) {
-    result.depth = release.depth(passes.released, passes.state);
+    result.depth = wearing.depth(passes.released, passes.state);
     const Eigen::VectorXd change = result.depth - depth;
     const Eigen::VectorXd left = kTail * cycles * state.wear_rate;
     if (change.maxCoeff() <= close * largest && (change - left).maxCoeff() <= kSlack * largest) {
-      result.steady = release.solve_worn(result.depth, state.displacement);
+      result.steady = wearing.worn(result.depth, state.displacement);
       result.done = result.steady.status == Status::converged &&
                     result.steady.wear_rate.maxCoeff() <= std::max(threshold, state.wear_rate.maxCoeff());
     }
   }
-  result.solves = release.solves();
-  result.jacobians = release.jacobians();
+  result.solves = wearing.solves();
+  result.jacobians = wearing.jacobians();
   return result;
 }
 

@@ -17,7 +17,7 @@ void keep_doubt(const Asymptote& earlier, Asymptote& last) {
   last.bearing.needed = last.bearing.needed || earlier.bearing.needed;
   last.bearing.share = std::min(last.bearing.share, earlier.bearing.share);
   last.bearing.closing = std::max(last.bearing.closing, earlier.bearing.closing);
-  if (!last.doubt.empty() || earlier.doubt.empty()) return;
+  if (last.doubt != Doubt::none || earlier.doubt == Doubt::none) return;
   last.doubt = earlier.doubt;
   last.decided_by = earlier.decided_by;
   last.confirmed_by_history = earlier.confirmed_by_history;

@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "wear/finish.hpp"
+#include "wear/integrator.hpp"
 #include "wear/measures.hpp"
+#include "wear/start.hpp"
 #include "wear/steady_rate.hpp"
 
 namespace dovetail::wear {
@@ -17,71 +21,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// One state of a history as solved, at the fixed frequency or at the resonance of this wear.
-struct Solved {
-  Status status = Status::converged;
-  steady::State state;
-  int solves = 0;
-  int jacobians = 0;
-};
-
-struct Record {
-  double cycles = 0, volume = 0, amplitude = 0, frequency = 0;
-  VectorXd depth, rate;
-};
-
-class Run {
- public:
-  Run(const steady::Joint& joint, const HistoryOptions& options, const paths::ResonanceOptions& resonance)
-      : joint_(joint), options_(options), resonance_(resonance) {
-    if (depth().size() == 0) joint_.condition.wear_depth = VectorXd::Zero(joint_.model->nodes());
-    resonance_.sweep_range = 0;  // the peak is followed: one found elsewhere would not be the same
-  }
-
-  [[nodiscard]] const VectorXd& depth() const { return joint_.condition.wear_depth; }
-
-  [[nodiscard]] Solved solve(double omega, const VectorXd& depth, const MatrixXd& guess,
-                             const std::shared_ptr<const steady::Tangent>& reuse = {}) const {
-    Solved solved;
-    if (options_.follow == "resonance") {
-      paths::Resonance found = paths::resonance(joint_.worn(depth), omega, resonance_, guess);
-      solved.status = found.status;
-      solved.solves = found.solves;
-      solved.jacobians = found.jacobians;
-      solved.state = std::move(found.state);
-    } else {
-      solved.state = steady::steady_state(joint_.worn(depth), omega, guess, reuse);
-      solved.status = solved.state.status;
-      solved.solves = 1;
-      solved.jacobians = solved.state.iterations;
-    }
-    return solved;
-  }
-
-  [[nodiscard]] const steady::Joint& joint() const { return joint_; }
-
-  void accept(const VectorXd& depth, const steady::State& state) {
-    joint_.condition.wear_depth = depth;
-    if (options_.carry_slip) joint_.condition.slip_origin = state.slip_end;
-  }
-
-  [[nodiscard]] Record record(double cycles, const steady::State& state) const {
-    return {.cycles = cycles,
-            .volume = worn_volume(joint_.model->contact(), depth()),
-            .amplitude = state.amplitudes.size() > resonance_.output ? state.amplitudes[resonance_.output] : 0.0,
-            .frequency = state.omega,
-            .depth = depth(),
-            .rate = state.wear_rate};
-  }
-
- private:
-  steady::Joint joint_;
-  HistoryOptions options_;
-  paths::ResonanceOptions resonance_;
-};
-
-std::vector<Record> states_of(const History& past) {
-  std::vector<Record> records;
+std::vector<WornRecord> records_of(const History& past) {
+  std::vector<WornRecord> records;
   for (Index i = 0; i < past.cycles.size(); ++i)
     records.push_back({.cycles = past.cycles[i],
                        .volume = past.worn_volume[i],
@@ -92,16 +33,14 @@ std::vector<Record> states_of(const History& past) {
   return records;
 }
 
-void store(const std::vector<Record>& records, Index nodes, History& result) {
+void store(const std::vector<WornRecord>& records, Index nodes, History& result) {
   const auto count = static_cast<Index>(records.size());
-  result.cycles.resize(count);
-  result.worn_volume.resize(count);
-  result.amplitude.resize(count);
-  result.frequency.resize(count);
+  for (VectorXd* list : {&result.cycles, &result.worn_volume, &result.amplitude, &result.frequency})
+    list->resize(count);
   result.depth.resize(count, nodes);
   result.rate.resize(count, nodes);
   for (Index i = 0; i < count; ++i) {
-    const Record& record = records[static_cast<std::size_t>(i)];
+    const WornRecord& record = records[static_cast<std::size_t>(i)];
     result.cycles[i] = record.cycles;
     result.worn_volume[i] = record.volume;
     result.amplitude[i] = record.amplitude;
@@ -111,7 +50,191 @@ void store(const std::vector<Record>& records, Index nodes, History& result) {
   }
 }
 
+double largest(const VectorXd& rate) {
+  return rate.size() > 0 ? rate.maxCoeff() : 0.0;
+}
+
+/// When a history is finished by the direct method.
+struct FinishParams {
+  double below;         ///< rate, over the first one, from which on it is tried; 0: where the history is worn out only
+  double close_before;  ///< largest change of depth by it, relative, while the history still wears: what the released
+                        ///< nodes leave to others would still have to wear in time
+  double close_at_end;  ///< the same when it is worn out
+  bool follows_tail;    ///< where it is no way out the tail is followed until it leaves nothing
+};
+constexpr FinishParams kExplicit{.below = 0.0, .close_before = 0.0, .close_at_end = 0.05, .follows_tail = false};
+constexpr FinishParams kImplicit{.below = 1e-2, .close_before = 3e-3, .close_at_end = 5e-3, .follows_tail = true};
+// Rate times cycles, relative to the depth, that ends a tail, and the rate, over the one that counts as none, that ends
+// any: slip far below it is noise of the samples.
+constexpr double kNothingLeft = 1e-4;
+constexpr double kSilent = 0.1;
+
+/// The one loop of wear: depth -> state -> rate -> depth.
+class Loop {
+ public:
+  Loop(const steady::Joint& joint, const HistoryStart& start, const HistoryOptions& options, const Control& control)
+      : start_(start),
+        options_(options),
+        control_(control),
+        params_(implicit() ? kImplicit : kExplicit),
+        limit_(options.cycles > 0.0 ? options.cycles : kInfinity),
+        wearing_(begun(joint, start), start.omega, control) {
+    if (options.follow == "resonance") wearing_.follow(start.resonance);
+  }
+
+  [[nodiscard]] History run() {
+    if (resumed()) {
+      records_ = records_of(*start_.past);
+      result_.steady.displacement = start_.past->steady.displacement;
+      course_.memory = start_.past->memory;
+    }
+    if (control_.stopped()) return ended(HistoryEnd::interrupted, Status::interrupted);
+    if (const Status status = begin(); status != Status::converged) return ended(end_of(status), status);
+    // A resumed one may be following its tail.
+    if (largest(course_.point.rate) <= (resumed() ? 0.0 : worn_out_)) return ended(HistoryEnd::worn_out);
+    for (int step = 0; step < options_.steps && course_.cycles < limit_; ++step) {
+      const Status status = integrator_->advance(limit_, course_);
+      if (status != Status::converged) return ended(end_of(status), status);
+      state_.reset();
+      record();
+      control_.report(static_cast<int>(records_.size()) - 1, records_.back().volume, largest(course_.point.rate));
+      if (at_rest()) return ended(HistoryEnd::worn_out);
+      if (levelled_out()) return ended(HistoryEnd::steady_rate);
+    }
+    return ended(course_.cycles >= limit_ ? HistoryEnd::cycles : HistoryEnd::steps);
+  }
+
+ private:
+  [[nodiscard]] bool implicit() const { return options_.integrator == "implicit"; }
+  [[nodiscard]] bool resumed() const { return start_.past != nullptr && start_.past->cycles.size() > 0; }
+  [[nodiscard]] static HistoryEnd end_of(Status status) {
+    return status == Status::interrupted ? HistoryEnd::interrupted : HistoryEnd::failed;
+  }
+
+  [[nodiscard]] static steady::Joint begun(const steady::Joint& joint, const HistoryStart& start) {
+    const bool resumed = start.past != nullptr && start.past->cycles.size() > 0;
+    steady::Joint worn = resumed ? joint.worn(start.past->depth.bottomRows(1).transpose()) : joint;
+    worn.options.linearise = true;
+    return worn;
+  }
+
+  [[nodiscard]] Status begin() {
+    const VectorXd& depth = wearing_.start();
+    steady::State first = start_.unworn != nullptr && start_.unworn->tangent && !resumed()
+                              ? *start_.unworn
+                              : wearing_.worn(depth, result_.steady.displacement);
+    if (first.status != Status::converged) return first.status;
+    course_.point = {.displacement = first.displacement, .depth = depth, .rate = first.wear_rate};
+    course_.first_depth = resumed() ? VectorXd(records_.front().depth) : depth;
+    course_.cycles = resumed() ? records_.back().cycles : 0.0;
+    if (resumed()) records_.pop_back();  // solved again
+    reference_ = largest(records_.empty() ? first.wear_rate : records_.front().rate);
+    StepMemory& memory = course_.memory;
+    if (memory.penetration == 0.0) memory.penetration = largest_penetration(wearing_.model(), first);
+    if (!(memory.no_wear > 0.0)) memory.no_wear = no_wear_rate(options_.rate_threshold, wearing_.model(), first);
+    if (memory.finish_below == 0.0) memory.finish_below = params_.below;
+    worn_out_ = std::max(memory.no_wear, options_.rate_fraction * reference_);
+    integrator_ =
+        implicit() ? implicit_steps(wearing_, options_, first, memory) : explicit_jumps(wearing_, options_, first);
+    state_ = std::move(first);
+    record();
+    return Status::converged;
+  }
+
+  const steady::State& state() {
+    if (!state_) state_ = integrator_->state(course_);
+    return *state_;
+  }
+
+  void record() {
+    WornRecord record{.cycles = course_.cycles,
+                      .volume = worn_volume(wearing_.model().contact(), course_.point.depth),
+                      .amplitude = std::nan(""),
+                      .frequency = start_.omega,
+                      .depth = course_.point.depth,
+                      .rate = course_.point.rate};
+    if (!implicit()) record.frequency = state().omega;
+    if (!implicit()) record.amplitude = amplitude(state());
+    records_.push_back(std::move(record));
+  }
+
+  [[nodiscard]] double amplitude(const steady::State& state) const {
+    const Index output = start_.resonance.output;
+    return state.amplitudes.size() > output ? state.amplitudes[output] : 0.0;
+  }
+
+  /// Whether wear is over; where the direct method finishes it, the result is finished.
+  [[nodiscard]] bool at_rest() {
+    double& below = course_.memory.finish_below;
+    const double fastest = largest(course_.point.rate);
+    const bool quiet = fastest <= worn_out_;
+    const bool early = fastest <= below * reference_;
+    if (!options_.finish || options_.follow == "resonance") return quiet;
+    if (early || (quiet && !params_.follows_tail)) {
+      finish(quiet ? params_.close_at_end : params_.close_before);
+      if (result_.finished) return true;
+      if (params_.follows_tail) below = 0.1 * fastest / reference_;
+    }
+    if (!quiet || !params_.follows_tail) return quiet;
+    const double left = fastest * course_.cycles / course_.point.depth.maxCoeff();
+    return left <= kNothingLeft || fastest <= kSilent * worn_out_;
+  }
+
+  void finish(double close) {
+    Finish last = finish_by_release(wearing_.joint(), state(), course_.point.depth, course_.cycles, close, control_);
+    wearing_.count(last.solves, last.jacobians);
+    if (!last.done) return;
+    result_.finished = true;
+    result_.final_depth = std::move(last.depth);
+    result_.final_rate = last.steady.wear_rate;
+    result_.steady = std::move(last.steady);
+  }
+
+  /// Whether rates have stayed as they were while the depth doubled, and will. Who asks for cycles gets them.
+  [[nodiscard]] bool levelled_out() {
+    if (limit_ < kInfinity || !unchanged_while_doubling(records_, kLevelChange)) return false;
+    const double far = kLevelDepth * course_.memory.penetration;
+    return course_.point.depth.maxCoeff() >= far || insensitive_to_wear(state(), far, kLevelChange);
+  }
+
+  [[nodiscard]] History ended(HistoryEnd end, Status status = Status::converged) {
+    result_.end = end;
+    result_.status = within(wearing_.joint().options.budget, status);
+    if (!result_.finished) {
+      if (integrator_) result_.steady = state();
+      result_.final_depth = records_.empty() ? wearing_.start() : records_.back().depth;
+      if (!records_.empty()) result_.final_rate = records_.back().rate;
+    }
+    if (implicit() && integrator_) records_.back().amplitude = amplitude(result_.steady);
+    store(records_, wearing_.model().nodes(), result_);
+    result_.final_volume = worn_volume(wearing_.model().contact(), result_.final_depth);
+    result_.memory = course_.memory;
+    result_.rejected = course_.rejected;
+    result_.solves = wearing_.solves();
+    result_.jacobians = wearing_.jacobians();
+    return std::move(result_);
+  }
+
+  HistoryStart start_;
+  HistoryOptions options_;
+  Control control_;
+  FinishParams params_;
+  double limit_;
+  WearingJoint wearing_;
+  Course course_;
+  std::unique_ptr<Integrator> integrator_;
+  std::optional<steady::State> state_;  // of the last accepted point, when asked for
+  std::vector<WornRecord> records_;
+  double reference_ = 0.0;  // largest rate of the first state
+  double worn_out_ = 0.0;   // rate that counts as none
+  History result_;
+};
+
 }  // namespace
+
+double Course::error_scale(const VectorXd& depth) const {
+  return std::max(memory.penetration, (depth - first_depth).maxCoeff());
+}
 
 std::string_view to_string(HistoryEnd end) {
   switch (end) {
@@ -131,133 +254,22 @@ std::string_view to_string(HistoryEnd end) {
   return "unknown";
 }
 
-Resumption resume(const History& stored, const steady::Joint& joint, const HistoryOptions& options) {
-  const Index last = stored.cycles.size() - 1;
-  Resumption next{
-      .omega = stored.frequency.size() > 0 ? stored.frequency[last] : 0.0, .joint = joint, .options = options};
-  if (last < 0) return next;
-  next.joint.condition.wear_depth = stored.depth.row(last).transpose();
-  if (options.carry_slip) next.joint.condition.slip_origin = stored.steady.slip_end;
-  next.options.start_cycles = stored.cycles[last];
-  if (options.reference_rate == 0.0 && stored.rate.size() > 0)
-    next.options.reference_rate = stored.rate.row(0).maxCoeff();
-  return next;
-}
-
-History history(const steady::Joint& joint, double omega, const HistoryOptions& options,
-                const paths::ResonanceOptions& resonance, const Control& control, const StateObserver& observer,
-                const History* past) {
-  if (std::vector<Violation> wrong = violations(options, "history"); !wrong.empty()) throw InputError(std::move(wrong));
-
-  Run run(joint, options, resonance);
-  History result;
-  std::vector<Record> records;
-  const auto count = [&result](const Solved& solved) {
-    result.solves += solved.solves;
-    result.jacobians += solved.jacobians;
-  };
-  const auto finish = [&](HistoryEnd end, Status status) {
-    result.end = end;
-    result.status = status;
-    store(records, joint.model->nodes(), result);
-    result.final_depth = run.depth();
-    if (!records.empty()) result.final_rate = records.back().rate;
-    if (end == HistoryEnd::worn_out && options.finish && options.follow == "fixed" && records.size() > 1) {
-      constexpr double kClose = 0.05;
-      const Finish last =
-          finish_by_release(run.joint(), result.steady, run.depth(), records.back().cycles, kClose, control);
-      result.solves += last.solves;
-      result.jacobians += last.jacobians;
-      result.finished = last.done;
-      if (last.done) {
-        result.final_depth = last.depth;
-        result.final_rate = last.steady.wear_rate;
-      }
-    }
-    result.final_volume = worn_volume(joint.model->contact(), result.final_depth);
-    return std::move(result);
-  };
-  const auto accept = [&](double cycles, const VectorXd& depth) {
-    run.accept(depth, result.steady);
-    records.push_back(run.record(cycles, result.steady));
-    if (observer) observer(static_cast<int>(records.size()) - 1, cycles, run.joint().condition, result.steady);
-  };
-
-  const bool resumed = past != nullptr && past->cycles.size() > 0;
-  if (resumed) {
-    records = states_of(*past);
-    result.memory = past->memory;
-    result.steady.displacement = past->steady.displacement;
+History history(const steady::Joint& joint, const HistoryStart& start, const HistoryOptions& options,
+                const Control& control) {
+  std::vector<Violation> wrong = violations(options, "history");
+  if (options.integrator == "implicit") {
+    if (!(options.tolerance > 0.0))
+      wrong.push_back(
+          {.file = {}, .key = "history.tolerance", .value = "0", .allowed = "must be > 0 for implicit steps"});
+    if (options.follow == "resonance")
+      wrong.push_back({.file = {},
+                       .key = "history.follow",
+                       .value = options.follow,
+                       .allowed = "must be fixed for implicit steps"});
   }
-  if (control.stopped()) return finish(HistoryEnd::interrupted, Status::interrupted);
-  Solved current = run.solve(omega, run.depth(), resumed ? past->steady.displacement : MatrixXd());
-  count(current);
-  if (current.status != Status::converged) return finish(HistoryEnd::failed, current.status);
-  const double limit = options.cycles > 0.0 ? options.cycles : kInfinity;
-  if (resumed) records.pop_back();  // solved again
-  const VectorXd first_depth = resumed ? VectorXd(past->depth.row(0).transpose()) : run.depth();
-  double cycles = options.start_cycles;
-  result.steady = std::move(current.state);
-  accept(cycles, VectorXd(run.depth()));
-  const double reference = options.reference_rate > 0.0 ? options.reference_rate : result.steady.wear_rate.maxCoeff();
-  if (!(result.memory.no_wear > 0.0))
-    result.memory.no_wear = no_wear_rate(options.rate_threshold, *joint.model, result.steady);
-  const double worn_out = std::max(result.memory.no_wear, options.rate_fraction * reference);
-  if (result.memory.penetration == 0.0) result.memory.penetration = largest_penetration(*joint.model, result.steady);
-  const double penetration = result.memory.penetration;
-  double longest = options.tolerance > 0.0 && result.memory.step > 0.0
-                       ? result.memory.step
-                       : kInfinity;  // jump the last step's error permits
-
-  for (int step = 1; step <= options.steps; ++step) {
-    const VectorXd rate = result.steady.wear_rate;
-    if (rate.size() == 0 || rate.maxCoeff() <= worn_out) return finish(HistoryEnd::worn_out, Status::converged);
-    const double remaining = limit - cycles;
-    if (remaining <= 0.0) return finish(HistoryEnd::cycles, Status::converged);
-    double jump = std::min({cycle_jump(rate, options.increment), remaining, longest});
-
-    Solved next;
-    VectorXd change;
-    for (int halving = 0;;) {
-      if (control.stopped()) return finish(HistoryEnd::interrupted, Status::interrupted);
-      change = jump * rate;
-      MatrixXd guess = result.steady.displacement;
-      if (options.predictor && result.steady.tangent) guess += result.steady.tangent->response_to_wear(change);
-      next = run.solve(result.steady.omega, run.depth() + change, guess, result.steady.tangent);
-      count(next);
-      if (next.status != Status::converged) {
-        ++result.rejected;
-        if (halving++ == options.halvings) return finish(HistoryEnd::failed, next.status);
-        jump *= 0.5;
-        continue;
-      }
-      if (options.tolerance == 0.0) break;
-      const double scale = std::max(penetration, (run.depth() + change - first_depth).maxCoeff());
-      const double error = 0.5 * jump * (next.state.wear_rate - rate).cwiseAbs().maxCoeff() / scale;
-      const double factor = 0.9 * std::sqrt(options.tolerance / std::max(error, 1e-300));
-      constexpr double kLeast = 1e-3;  // of the increment: a jump of the rates cannot be resolved
-      if (error > options.tolerance && change.maxCoeff() > kLeast * options.increment) {
-        ++result.rejected;
-        jump *= std::clamp(factor, 0.1, 0.8);
-        continue;
-      }
-      // A step cut to end at the cycles asked for says nothing against longer ones.
-      const double permitted = jump * std::clamp(factor, 0.5, 2.0);
-      longest = jump == remaining && std::isfinite(longest) ? std::max(longest, permitted) : permitted;
-      result.memory.step = longest;
-      break;
-    }
-    cycles = jump == remaining ? limit : cycles + jump;
-    result.steady = std::move(next.state);
-    accept(cycles, run.depth() + change);
-    control.report(step, records.back().volume, records.back().rate.maxCoeff());
-    // Who asks for a number of cycles gets them.
-    if (limit == kInfinity && unchanged_while_doubling(records, kLevelChange) &&
-        insensitive_to_wear(result.steady, kLevelDepth * penetration, kLevelChange))
-      return finish(HistoryEnd::steady_rate, Status::converged);
-  }
-  const bool done = result.steady.wear_rate.maxCoeff() <= worn_out;
-  return finish(done ? HistoryEnd::worn_out : HistoryEnd::steps, Status::converged);
+  if (!wrong.empty()) throw InputError(std::move(wrong));
+  if (options.integrator == "implicit") require_nothing_released(joint.condition);
+  return Loop(joint, start, options, control).run();
 }
 
 }  // namespace dovetail::wear

@@ -79,7 +79,6 @@ Status ImplicitStage::solve(const VectorXd& base, const VectorXd& cycles, int ma
     depth = u.tail(nodes).cwiseMax(base);
     if (at.use_count() > 1) at = std::make_shared<steady::Point>();
     steady::evaluate(problem(depth), shaped(u.head(unknowns)), *at);
-    ++evaluations_;
     rates = rate(*at);
     excess = u.tail(nodes) - base - cycles.cwiseProduct(rates);
     VectorXd all(unknowns + nodes);

@@ -4,15 +4,9 @@
 #include <memory>
 
 #include "steady/state.hpp"
+#include "wear/wear_point.hpp"
 
 namespace dovetail::wear {
-
-/// A point (U, W) of a history and its rate.
-struct WearPoint {
-  Eigen::MatrixXd displacement;  ///< U [nc, 2H+1], m
-  Eigen::VectorXd depth;         ///< W [Nc], m
-  Eigen::VectorXd rate;          ///< r(U, W) [Nc], m per cycle
-};
 
 /// One implicit stage f(U; W) = 0, W = B + c r(U, W): Newton's method on (U, W) with U eliminated. Factors are kept
 /// from stage to stage as long as chord steps with them contract. Residuals are forces relative to the excitation,
@@ -40,7 +34,6 @@ class ImplicitStage {
 
   [[nodiscard]] int solves() const { return solves_; }
   [[nodiscard]] int jacobians() const { return jacobians_; }
-  [[nodiscard]] int evaluations() const { return evaluations_; }
 
  private:
   [[nodiscard]] std::shared_ptr<const steady::Problem> problem(const Eigen::VectorXd& depth) const;
@@ -51,7 +44,7 @@ class ImplicitStage {
   WearPoint factored_at_;     // without its rate
   Eigen::MatrixXd response_;  // dU/dW along f = 0, [nc (2H+1), Nc]
   Eigen::MatrixXd slope_;     // R = dr/dW along f = 0, [Nc, Nc]
-  int solves_ = 0, jacobians_ = 0, evaluations_ = 0;
+  int solves_ = 0, jacobians_ = 0;
 };
 
 }  // namespace dovetail::wear

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "wear/friction_reserve.hpp"
 #include "wear/measures.hpp"
 
 namespace dovetail::wear {
@@ -37,7 +38,7 @@ std::vector<bool> wear_off(const steady::State& state, const std::vector<bool>& 
   return off;
 }
 
-Ending release_slipping(Release& release, double threshold, int limit, const Control& control, Passes& passes) {
+Ending release_slipping(WearingJoint& joint, double threshold, int limit, const Control& control, Passes& passes) {
   for (;; ++passes.count) {
     const std::vector<bool> loaded = loaded_nodes(passes.state, passes.released);
     const std::vector<bool> slips = wear_off(passes.state, passes.released, threshold);
@@ -53,12 +54,12 @@ Ending release_slipping(Release& release, double threshold, int limit, const Con
       passes.status = Status::iteration_limit;
       return Ending::failed;
     }
-    steady::State state = release.solve(next, passes.state.displacement, !held);
+    steady::State state = joint.released(next, passes.state.displacement, !held);
     if (state.status != Status::converged) {
       passes.status = state.status;
       return held || cut_short(state.status) ? Ending::failed : Ending::nothing_holds;
     }
-    passes.trail.reserves.push_back(friction_reserve(release.model(), passes.state, slips));
+    passes.trail.reserves.push_back(friction_reserve(joint.model(), passes.state, slips));
     for (std::size_t i = 0; i < next.size(); ++i) {
       if (!next[i] || passes.released[i]) continue;
       passes.trail.released_in[i] = static_cast<int>(passes.trail.reserves.size()) - 1;
@@ -66,18 +67,18 @@ Ending release_slipping(Release& release, double threshold, int limit, const Con
     }
     passes.released = std::move(next);
     passes.state = std::move(state);
-    const Eigen::VectorXd depth = release.depth(passes.released, passes.state);
+    const Eigen::VectorXd depth = joint.depth(passes.released, passes.state);
     passes.deepest = passes.deepest.size() == 0 ? depth : Eigen::VectorXd(passes.deepest.cwiseMax(depth));
-    control.report(passes.count + 1, worn_volume(release.model().contact(), depth), passes.state.wear_rate.maxCoeff());
+    control.report(passes.count + 1, worn_volume(joint.model().contact(), depth), passes.state.wear_rate.maxCoeff());
   }
 }
 
-SlowRelease release_slowly(Release& release, const steady::State& unworn, double threshold, int limit) {
+SlowRelease release_slowly(WearingJoint& joint, const steady::State& unworn, double threshold, int limit) {
   constexpr double kShare = 0.5;
   steady::State state = unworn;
-  std::vector<bool> released(static_cast<std::size_t>(release.model().nodes()), false);
+  std::vector<bool> released(static_cast<std::size_t>(joint.model().nodes()), false);
   SlowRelease slow;
-  slow.depth = slow.deepest = release.depth(released, state);
+  slow.depth = slow.deepest = joint.depth(released, state);
   for (int pass = 0; pass <= limit; ++pass) {
     const std::vector<bool> loaded = loaded_nodes(state, released);
     double fastest = 0.0;
@@ -90,9 +91,9 @@ SlowRelease release_slowly(Release& release, const steady::State& unworn, double
     for (std::size_t i = 0; i < loaded.size(); ++i)
       if (loaded[i] && state.wear_rate[static_cast<Index>(i)] >= std::max(threshold, kShare * fastest))
         released[i] = true;
-    state = release.solve(released, state.displacement, true);
+    state = joint.released(released, state.displacement, true);
     if (state.status != Status::converged) return slow;
-    slow.depth = release.depth(released, state);
+    slow.depth = joint.depth(released, state);
     slow.deepest = slow.deepest.cwiseMax(slow.depth);
   }
   return slow;

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "wear/release.hpp"
+#include "wear/wearing_joint.hpp"
 #include "wear/zone_edges.hpp"
 
 namespace dovetail::wear {
@@ -36,7 +36,7 @@ struct Passes {
 
 /// Releases every loaded node that wears by more than `threshold` m per cycle (`wear_off`), solves again, and so on,
 /// beginning with `passes.state`. At most `limit` passes.
-[[nodiscard]] Ending release_slipping(Release& release, double threshold, int limit, const Control& control,
+[[nodiscard]] Ending release_slipping(WearingJoint& joint, double threshold, int limit, const Control& control,
                                       Passes& passes);
 
 /// The other order of release, towards the one of a history: only nodes at least half as fast as the fastest at each
@@ -46,6 +46,6 @@ struct SlowRelease {
   Eigen::VectorXd depth;    ///< [Nc] of the state it ends in, when settled
   Eigen::VectorXd deepest;  ///< [Nc] largest depth that any pass asked for
 };
-[[nodiscard]] SlowRelease release_slowly(Release& release, const steady::State& unworn, double threshold, int limit);
+[[nodiscard]] SlowRelease release_slowly(WearingJoint& joint, const steady::State& unworn, double threshold, int limit);
 
 }  // namespace dovetail::wear

@@ -1,8 +1,20 @@
 #include "wear/steady_rate.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 namespace dovetail::wear {
+
+bool unchanged_while_doubling(const std::vector<WornRecord>& records, double change) {
+  const WornRecord& last = records.back();
+  if (last.depth.size() == 0) return false;
+  const double deep = last.depth.maxCoeff();
+  const auto earlier = std::find_if(records.rbegin(), records.rend(),
+                                    [deep](const WornRecord& record) { return record.depth.maxCoeff() <= 0.5 * deep; });
+  if (earlier == records.rend() || earlier->depth.maxCoeff() < 0.05 * deep) return false;
+  const Eigen::VectorXd rise = (last.rate - earlier->rate) / last.rate.maxCoeff();
+  return rise.minCoeff() >= -change && rise.maxCoeff() <= std::max(change, kLevelRise);
+}
 
 bool insensitive_to_wear(const steady::State& state, double depth, double change) {
   const double fastest = state.wear_rate.size() == 0 ? 0.0 : state.wear_rate.maxCoeff();

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <vector>
 
 #include "steady/steady_state.hpp"
@@ -16,19 +15,15 @@ inline constexpr double kLevelDepth = 300.0;
 inline constexpr double kLevelChange = 1e-3;
 inline constexpr double kLevelRise = 0.05;
 
+/// One state of a wearing joint.
+struct WornRecord {
+  double cycles = 0, volume = 0, amplitude = 0, frequency = 0;  ///< m^3, m, rad/s
+  Eigen::VectorXd depth, rate;                                  ///< [Nc] m, m per cycle
+};
+
 /// Whether no rate fell by more than `change`, or rose by more than kLevelRise, of the largest one while the largest
-/// depth doubled to what it is now. Records have `depth` and `rate` [Nc], in order.
-template <class Record>
-[[nodiscard]] bool unchanged_while_doubling(const std::vector<Record>& records, double change) {
-  const Record& last = records.back();
-  if (last.depth.size() == 0) return false;
-  const double deep = last.depth.maxCoeff();
-  const auto earlier = std::find_if(records.rbegin(), records.rend(),
-                                    [deep](const Record& record) { return record.depth.maxCoeff() <= 0.5 * deep; });
-  if (earlier == records.rend() || earlier->depth.maxCoeff() < 0.05 * deep) return false;
-  const Eigen::VectorXd rise = (last.rate - earlier->rate) / last.rate.maxCoeff();
-  return rise.minCoeff() >= -change && rise.maxCoeff() <= std::max(change, kLevelRise);
-}
+/// depth doubled to what it is now.
+[[nodiscard]] bool unchanged_while_doubling(const std::vector<WornRecord>& records, double change);
 
 /// Whether wearing by `depth` (m, of the fastest node) at the rates of `state` moves no rate by more than `change` of
 /// the largest one, by their exact derivative: loads that do not depend on wear. False where nothing wears or without

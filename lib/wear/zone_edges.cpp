@@ -1,25 +1,10 @@
 #include "wear/zone_edges.hpp"
 
 #include <cmath>
-#include <limits>
 
 namespace dovetail::wear {
 
 using Eigen::Index;
-
-Eigen::VectorXd friction_reserve(const dynamics::CondensedModel& model, const steady::State& state,
-                                 const std::vector<bool>& slips) {
-  Eigen::VectorXd reserve(model.nodes());
-  for (Index i = 0; i < reserve.size(); ++i) {
-    const auto node = static_cast<std::size_t>(i);
-    if (!state.nodes[node].carries_load)
-      reserve[i] = std::numeric_limits<double>::quiet_NaN();
-    else
-      reserve[i] = slips[node] ? -slip_excess(model, state, i)
-                               : std::max(0.0, friction_margin(state, i, model.contact().friction[i]));
-  }
-  return reserve;
-}
 
 namespace {
 

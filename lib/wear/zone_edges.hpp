@@ -3,9 +3,6 @@
 #include <Eigen/Core>
 #include <span>
 #include <vector>
-
-#include "wear/release.hpp"
-
 namespace dovetail::wear {
 
 /// What the passes of release saw on their way, for finding where between two nodes a worn zone ends.
@@ -13,12 +10,6 @@ struct ReleaseTrail {
   std::vector<int> released_in;           ///< [Nc] pass that released the node, from 0; -1: none
   std::vector<Eigen::VectorXd> reserves;  ///< per pass [Nc]: `friction_reserve` of the state before it
 };
-
-/// What a node has left of its friction: the margin of one that sticks (friction_margin), minus the excess of one that
-/// slips (slip_excess), both in units of mu lambda_N and zero at the edge between the two; NaN of one without load.
-/// Only nodes next to one that is slipping are looked at: NaN elsewhere, too.
-[[nodiscard]] Eigen::VectorXd friction_reserve(const dynamics::CondensedModel& model, const steady::State& state,
-                                               const std::vector<bool>& slips);
 
 /// A place on a line of nodes where a worn zone ends: between a worn node and the one that bears next to it. Where the
 /// last pass that moved the end found a zone there already, it lies as far beyond the old end as the fraction says.

@@ -109,7 +109,7 @@ class Study {
     options.increment = depth / options_.history_steps;
     options.steps = 5 * options_.history_steps;
     const wear::History found =
-        wear::history({candidate_.model.condensed, {}, steady_}, candidate_.unworn->omega, options);
+        wear::history({candidate_.model.condensed, {}, steady_}, {.omega = candidate_.unworn->omega}, options);
     if (found.status != Status::converged)
       fail("The history ended early: " + std::string(to_string(found.status)) + ".");
     History& out = results_.history;

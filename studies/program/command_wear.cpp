@@ -161,11 +161,12 @@ std::string certificate_words(const wear::Asymptote& asymptote) {
                         asymptote.holds_finer ? "" : ": raise --harmonics and --samples");
   }
   text += "\n";
-  if (asymptote.doubt.empty()) return text;
-  text += "doubt           " + asymptote.doubt;
+  if (asymptote.doubt == wear::Doubt::none) return text;
+  text += fmt::format("doubt           {}: {}", to_string(asymptote.doubt), entry(asymptote.doubt).meaning);
   if (asymptote.confirmed_by_history && asymptote.holds_finer) text += ", settled by the history at these settings";
   for (const wear::OtherState& other : asymptote.other_states)
-    if (other.found_by == "release") text += fmt::format("; the direct method ends with {:.6g} m^3", other.worn_volume);
+    if (other.found_by == wear::FoundBy::release)
+      text += fmt::format("; the direct method ends with {:.6g} m^3", other.worn_volume);
   return text + "\n";
 }
 
@@ -202,7 +203,7 @@ int verdict(const std::string& input, const WearAnswer& answer, bool interrupted
   const bool out_of_steps = answer.history && answer.history->end == wear::HistoryEnd::steps;
   streams.err << fmt::format("dovetail: {}: the worn state did not converge: {}{}\n", input, to_string(answer.solver),
                              !out_of_steps ? ""
-                             : answer.choice.integrator == "implicit"
+                             : answer.choice.options.integrator == "implicit"
                                  ? ": allow more --steps"
                                  : ": allow more --steps, or a larger --increment of depth");
   return kNotConverged;

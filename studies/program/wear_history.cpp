@@ -11,7 +11,6 @@
 #include "studies/program/stored_history.hpp"
 #include "studies/program/wear_methods.hpp"
 #include "wear/depth_scale.hpp"
-#include "wear/implicit_history.hpp"
 
 namespace dovetail::studies {
 
@@ -22,17 +21,6 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Steps that a history in hundredths of its depth may take before it counts as going nowhere.
 constexpr int kSteps = 1000;
-
-wear::ImplicitHistoryOptions implicit_options(const wear::HistoryOptions& given) {
-  wear::ImplicitHistoryOptions options;
-  if (given.tolerance > 0) options.tolerance = given.tolerance;
-  options.steps = given.steps;
-  options.cycles = given.cycles;
-  options.rate_threshold = given.rate_threshold;
-  options.start_cycles = given.start_cycles;
-  options.reference_rate = given.reference_rate;
-  return options;
-}
 
 /// Frequencies of the curves, Hz.
 std::vector<double> curve_frequencies(const WearOptions& options, const LoadedModel& loaded,
@@ -71,7 +59,7 @@ ComputedHistory compute_history(const WearOptions& options, const LoadedModel& l
   ComputedHistory result;
   HistoryChoice& choice = result.choice;
   wear::HistoryOptions& settings = choice.options;
-  choice.integrator = options.integrator;
+  if (options.integrator == "implicit") settings = wear::HistoryOptions::implicit();
   settings.follow = options.follow == "resonance" ? "resonance" : "fixed";
   settings.cycles = options.cycles.value_or(settings.cycles);
   settings.steps = options.steps.value_or(kSteps);
@@ -79,7 +67,7 @@ ComputedHistory compute_history(const WearOptions& options, const LoadedModel& l
 
   choice.identity = history_identity(options, loaded, at.hz);
   double omega = at.omega;
-  steady::Joint joint = loaded.joint;
+  const steady::Joint& joint = loaded.joint;
   std::optional<double> increment = options.increment_m;
   std::optional<StoredHistory> past;
   if (!options.resume.empty()) {
@@ -92,19 +80,16 @@ ComputedHistory compute_history(const WearOptions& options, const LoadedModel& l
                                  .key = "--cycles",
                                  .value = shortest(*options.cycles),
                                  .allowed = "must be > " + shortest(done) + ", the cycles done in " + options.resume});
-    if (!options.history_tolerance) settings.tolerance = past->tolerance;
+    if (!options.history_tolerance && past->tolerance > 0) settings.tolerance = past->tolerance;
+    choice.start_cycles = done;
     choice.depth_scale = past->depth_scale;
     // A joint at rest, or one that wears steadily for ever, stays so.
     if (past->history.end == wear::HistoryEnd::worn_out || past->history.end == wear::HistoryEnd::steady_rate) {
-      settings.start_cycles = done;
       settings.increment = increment.value_or(past->increment);
       result.history = past->history;
       return result;
     }
-    const wear::Resumption next = wear::resume(past->history, joint, settings);
-    omega = next.omega;
-    joint = next.joint;
-    settings = next.options;
+    omega = past->history.frequency[past->history.frequency.size() - 1];
     if (!increment && past->increment > 0) increment = past->increment;
   }
   int solves = 0;
@@ -119,15 +104,8 @@ ComputedHistory compute_history(const WearOptions& options, const LoadedModel& l
     if (scale.depth > 0) increment = kShare * scale.depth;
   }
   settings.increment = increment.value_or(settings.increment);
-  if (options.integrator == "implicit") {
-    const wear::ImplicitHistoryOptions implicit = implicit_options(settings);
-    settings.tolerance = implicit.tolerance;
-    result.history = wear::as_history(
-        wear::implicit_history(joint, omega, implicit, nullptr, control, past ? &past->history : nullptr),
-        *loaded.joint.model);
-  } else {
-    result.history = wear::history(joint, omega, settings, {}, control, {}, past ? &past->history : nullptr);
-  }
+  result.history = wear::history(joint, {.omega = omega, .unworn = nullptr, .past = past ? &past->history : nullptr},
+                                 settings, control);
   result.history.solves += solves + (past ? past->history.solves : 0);
   return result;
 }

@@ -16,8 +16,8 @@ struct WearStart;
 
 /// How a history was computed, for its answer.
 struct HistoryChoice {
-  std::string integrator = "explicit";  ///< explicit | implicit
-  wear::HistoryOptions options;         ///< as used; of an implicit history only what it shares
+  wear::HistoryOptions options;         ///< as used
+  double start_cycles = 0;              ///< done by the history that it goes on with
   double depth_scale = 0;               ///< m, of which the increment is a hundredth by default; 0: not computed
   std::string resumed_from;             ///< the file, or empty
   std::vector<IdentityEntry> identity;  ///< what a history that goes on with this one must share with it

@@ -66,11 +66,11 @@ Json rows(const Eigen::MatrixXd& matrix) {
 
 Json choice_json(const HistoryChoice& choice) {
   const wear::HistoryOptions& options = choice.options;
-  Json json{{"integrator", choice.integrator}, {"tolerance", number(options.tolerance)}, {"steps", options.steps}};
-  if (choice.integrator == "explicit") json["increment_m"] = number(options.increment);
+  Json json{{"integrator", options.integrator}, {"tolerance", number(options.tolerance)}, {"steps", options.steps}};
+  if (options.integrator == "explicit") json["increment_m"] = number(options.increment);
   if (choice.depth_scale > 0) json["depth_scale_m"] = number(choice.depth_scale);
   json["cycles"] = options.cycles > 0 ? number(options.cycles) : Json(nullptr);
-  json["start_cycles"] = number(options.start_cycles);
+  json["start_cycles"] = number(choice.start_cycles);
   json["rate_threshold_m_per_cycle"] = options.rate_threshold < 0 ? Json(nullptr) : number(options.rate_threshold);
   if (!choice.resumed_from.empty()) json["resumed_from"] = choice.resumed_from;
   if (!choice.identity.empty()) json["identity"] = Json::object();
@@ -134,7 +134,7 @@ void add_history(const wear::History& history, Json& json) {
 Json other_states(const wear::Asymptote& asymptote) {
   Json list = Json::array();
   for (const wear::OtherState& other : asymptote.other_states)
-    list.push_back(Json{{"found_by", other.found_by},
+    list.push_back(Json{{"found_by", std::string(to_string(other.found_by))},
                         {"worn_volume_m3", number(other.worn_volume)},
                         {"largest_depth_m", number(other.largest_depth)},
                         {"depth_m", numbers(other.depth)}});
@@ -165,8 +165,9 @@ void add_asymptote(const wear::Asymptote& asymptote, Json& json) {
 }
 
 void add_verdict(const wear::Asymptote& asymptote, Json& json) {
-  if (asymptote.verdict != wear::Verdict::not_converged) json["decided_by"] = asymptote.decided_by;
-  json["doubt"] = asymptote.doubt;
+  if (asymptote.verdict != wear::Verdict::not_converged)
+    json["decided_by"] = std::string(to_string(asymptote.decided_by));
+  json["doubt"] = std::string(to_string(asymptote.doubt));
   json["confirmed_by_history"] = asymptote.confirmed_by_history;
   json["other_states"] = other_states(asymptote);
 }

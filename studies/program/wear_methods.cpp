@@ -94,7 +94,7 @@ WearAnswer unknown_answer(const WearOptions& options, Eigen::Index nodes, Status
     history.status = why;
     history.end = why == Status::interrupted ? wear::HistoryEnd::interrupted : wear::HistoryEnd::failed;
     history.final_depth = unknown;
-    answer.choice.integrator = options.integrator;
+    answer.choice.options.integrator = options.integrator;
   } else {
     wear::Asymptote& asymptote = answer.asymptote.emplace();
     asymptote.status = why;

@@ -217,7 +217,7 @@ void add_history(const Scene& scene, const CandidateResult& result, const Design
   // The fastest node is not always the one that ends deepest, so the steps add up to a little more than the depth.
   history_options.increment = 1.25 * result.asymptote->largest_depth / options.history_steps;
   const wear::History history = wear::history({result.model.condensed, {}, optimizer::steady_options(scene.solver)},
-                                              result.unworn->omega, history_options);
+                                              {.omega = result.unworn->omega}, history_options);
   HistoryRecord out{.status = std::string(to_string(history.status)),
                     .end = std::string(to_string(history.end)),
                     .cycles = list(history.cycles),

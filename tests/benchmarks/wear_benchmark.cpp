@@ -20,7 +20,6 @@
 #include "tests/verification/wear/verdict_scenes.hpp"
 #include "wear/asymptote.hpp"
 #include "wear/history.hpp"
-#include "wear/implicit_history.hpp"
 #include "wear/measures.hpp"
 
 namespace dovetail {
@@ -85,7 +84,7 @@ void compare(const std::string& name) {
     return;
   }
   const auto run = [&](double share) {
-    return wear::history(at.joint, at.omega,
+    return wear::history(at.joint, {.omega = at.omega},
                          {.increment = share * direct.largest_depth,
                           .steps = 20000,
                           .rate_fraction = 1e-6,
@@ -100,18 +99,20 @@ void compare(const std::string& name) {
   const double volume = wear::worn_volume(at.joint.model->contact(), reference);
 
   const double start = processor_seconds();
-  const wear::ImplicitHistory implicit =
-      wear::implicit_history(at.joint, at.omega, {.rate_fraction = 1e-4, .rate_threshold = 0.0});
+  wear::HistoryOptions large_steps = wear::HistoryOptions::implicit();
+  large_steps.rate_fraction = 1e-4;
+  large_steps.rate_threshold = 0.0;
+  const wear::History implicit = wear::history(at.joint, {.omega = at.omega}, large_steps);
   const double implicit_time = processor_seconds() - start;
-  const Eigen::VectorXd followed = implicit.depth.bottomRows(1).transpose();
   std::printf(
       "%-9s %5ld %-8s %-11s %9.1e %9.1e %9.1e | %5d %5d %6d %7.1f | %7.3f %7.3f %7.2f %7.1f | %9.1e %9.1e %5d %6.1f "
       "%7.3f\n",
-      name.c_str(), static_cast<long>(at.joint.model->nodes()), direct.decided_by.c_str(), direct.doubt.c_str(),
-      error(direct.depth, reference), std::abs(direct.worn_volume / volume - 1.0), error(finest.final_depth, reference),
-      released.jacobians, direct.jacobians, usual.jacobians, static_cast<double>(usual.jacobians) / direct.jacobians,
-      released_time, direct_time, history_time, history_time / direct_time, error(followed, reference),
-      std::abs(implicit.worn_volume.tail(1)[0] / volume - 1.0), implicit.jacobians,
+      name.c_str(), static_cast<long>(at.joint.model->nodes()), to_string(direct.decided_by).data(),
+      to_string(direct.doubt).data(), error(direct.depth, reference), std::abs(direct.worn_volume / volume - 1.0),
+      error(finest.final_depth, reference), released.jacobians, direct.jacobians, usual.jacobians,
+      static_cast<double>(usual.jacobians) / direct.jacobians, released_time, direct_time, history_time,
+      history_time / direct_time, error(implicit.final_depth, reference),
+      std::abs(implicit.final_volume / volume - 1.0), implicit.jacobians,
       static_cast<double>(usual.jacobians) / implicit.jacobians, implicit_time);
   std::fflush(stdout);
 }
@@ -132,7 +133,7 @@ void times() {
           "%3ld nodes, %ld directions, arbitration %-9s: asymptote %.3f s, %s, %d Jacobians, %d solves, doubt '%s' "
           "(aim %s)\n",
           static_cast<long>(nodes), static_cast<long>(tangential + 1), arbitration, seconds,
-          std::string(wear::to_string(worn.verdict)).c_str(), worn.jacobians, worn.solves, worn.doubt.c_str(),
+          std::string(wear::to_string(worn.verdict)).c_str(), worn.jacobians, worn.solves, to_string(worn.doubt).data(),
           tangential == 1 ? "0.2 s" : "1 s");
       std::fflush(stdout);
     }
@@ -143,7 +144,7 @@ void times() {
     int jacobians = 0;
     const auto history_with_curves = [&] {
       const wear::History run =
-          wear::history({model, {}, steady}, omega,
+          wear::history({model, {}, steady}, {.omega = omega},
                         {.increment = 0.02 * worn.largest_depth, .steps = 50, .rate_threshold = 0.0, .finish = false});
       jacobians = run.jacobians;
       std::vector<double> omegas;

@@ -6,6 +6,7 @@
 
 #include "wear/asymptote.hpp"
 #include "wear/history.hpp"
+#include "wear/integrator.hpp"
 
 namespace dovetail::wear {
 namespace {
@@ -31,6 +32,7 @@ TEST(WornVolume, WeighsDepthsByArea) {
 
 TEST(WearOptions, DefaultsAreAllowed) {
   EXPECT_TRUE(violations(HistoryOptions{}).empty());
+  EXPECT_TRUE(violations(HistoryOptions::implicit()).empty());
   EXPECT_TRUE(violations(AsymptoteOptions{}).empty());
 }
 
@@ -38,6 +40,37 @@ TEST(WearOptions, NameWhatIsWrong) {
   const auto found = violations(HistoryOptions{.increment = 0.0, .steps = 0, .follow = "mode"}, "wear");
   ASSERT_EQ(found.size(), 3u);
   EXPECT_EQ(found[0].key, "wear.increment_um");
+}
+
+// Steps that erred are cut, steps that did not may grow, and a leap is longer than the step that gave up.
+TEST(WearParams, KeepTheirOrder) {
+  constexpr ExplicitParams jumps;
+  EXPECT_LT(jumps.shortest_cut, jumps.longest_cut);
+  EXPECT_LT(jumps.longest_cut, 1.0);
+  EXPECT_LT(jumps.slowest, 1.0);
+  EXPECT_GT(jumps.fastest, 1.0);
+  constexpr ImplicitParams steps;
+  EXPECT_LT(steps.shortest_cut, steps.longest_cut);
+  EXPECT_LT(steps.longest_cut, 1.0);
+  EXPECT_LT(steps.unsolved_cut, 1.0);
+  EXPECT_LT(steps.shrinking, 1.0);
+  EXPECT_GT(steps.slow_growth, 1.0);
+  EXPECT_GE(steps.growth, steps.slow_growth);
+  EXPECT_GT(steps.leap, 1.0);
+  EXPECT_LT(steps.leap * steps.smallest, steps.first_increment);
+}
+
+TEST(Doubt, HasAnEntryForEachKind) {
+  for (int i = 0; i <= static_cast<int>(Doubt::unfinished); ++i) {
+    const DoubtEntry& found = entry(static_cast<Doubt>(i));
+    EXPECT_EQ(static_cast<int>(found.doubt), i);
+    EXPECT_FALSE(found.meaning.empty());
+    EXPECT_EQ(found.name.empty(), i == 0);
+  }
+  // Only the history can say where these end.
+  for (const Doubt doubt :
+       {Doubt::nothing_holds, Doubt::pass_failed, Doubt::certificate, Doubt::threshold, Doubt::gross_sliding})
+    EXPECT_FALSE(entry(doubt).direct_stands) << to_string(doubt);
 }
 
 }  // namespace

@@ -165,7 +165,7 @@ TEST(SectionEvaluation, DirectAsymptoteAgreesWithTheHistory) {
   wear::HistoryOptions options{.increment = 0.01 * direct.largest_depth, .steps = 2000};
   options.rate_fraction = 1e-6;
   const wear::History history = wear::history({result.model.condensed, {}, steady_options(coarse_scene().solver)},
-                                              result.unworn->omega, options, {});
+                                              {.omega = result.unworn->omega}, options);
   ASSERT_EQ(history.status, Status::converged);
   const Eigen::VectorXd last = history.depth.row(history.depth.rows() - 1);
   EXPECT_LT((last - direct.depth).cwiseAbs().maxCoeff(), 0.05 * direct.largest_depth);
@@ -249,7 +249,8 @@ TEST(SectionEvaluation, HistoryDecidesWhereTheDirectWornStateIsInDoubt) {
     options.steps = 4000;
     options.finish = false;
     const wear::History history =
-        wear::history({searched.model.condensed, {}, steady_options(scene.solver)}, searched.unworn->omega, options);
+        wear::history({searched.model.condensed, {}, steady_options(scene.solver)}, {.omega = searched.unworn->omega},
+                      options);
     EXPECT_EQ(history.end, wear::HistoryEnd::worn_out);
     return history.worn_volume(history.cycles.size() - 1);
   };
@@ -278,7 +279,7 @@ TEST(SectionEvaluation, NodesOfAConfirmingHistoryAreInTheBar) {
   ASSERT_TRUE(settled.evaluation.converged()) << settled.evaluation.status;
   ASSERT_EQ(settled.asymptote->doubt, "lift_off");
   ASSERT_TRUE(settled.asymptote->confirmed_by_history);
-  ASSERT_EQ(settled.asymptote->decided_by, "release");
+  ASSERT_EQ(settled.asymptote->decided_by, wear::FoundBy::release);
   const char* name = "asymptotic_wear_volume_m3";
   const double volume = settled.evaluation.responses.at(name), bar = settled.evaluation.error_estimates.at(name);
   EXPECT_GT(settled.evaluation.error_sources.at(name).at("history"), 0.05 * volume);

@@ -77,7 +77,7 @@ TEST(HardDesigns, AHistoryThatHangsOnTheHarmonicsDoesNotDecide) {
   const optimizer::CandidateResult result = evaluated_in_study(design);
   ASSERT_TRUE(result.evaluation.converged()) << result.evaluation.status;
   EXPECT_NEAR(result.asymptote->worn_volume, 4.1e-11, 0.1e-11);
-  EXPECT_EQ(result.asymptote->decided_by, "release");
+  EXPECT_EQ(result.asymptote->decided_by, wear::FoundBy::release);
   ASSERT_EQ(result.asymptote->other_states.size(), 2U);
   EXPECT_NEAR(result.asymptote->other_states[0].worn_volume, 8.45e-11, 0.1e-11);
   EXPECT_NEAR(result.asymptote->other_states[1].worn_volume, 4.1e-11, 0.1e-11);
@@ -108,7 +108,7 @@ TEST(HardDesigns, AHistoryThatEndsElsewhereWithMoreHarmonicsTooDecides) {
                                                                 {"loading.damping_ratio", 0.000521},
                                                                 {"scene.speed_rpm", 11413.680869}});
   ASSERT_TRUE(result.evaluation.converged()) << result.evaluation.status;
-  EXPECT_EQ(result.asymptote->decided_by, "history");
+  EXPECT_EQ(result.asymptote->decided_by, wear::FoundBy::history);
   EXPECT_NEAR(result.asymptote->worn_volume, 3.6e-11, 0.1e-11);
   ASSERT_EQ(result.asymptote->other_states.size(), 2U);
   EXPECT_NEAR(result.asymptote->other_states[0].worn_volume, 5.8e-11, 0.1e-11);  // direct

@@ -35,7 +35,7 @@ TEST_P(RandomBlock, HistoriesConvergeToTheAsymptote) {
   double error = 0.0;
   for (double fraction : {0.1, 0.02, 0.005}) {
     const History run = history(
-        {model, {}, kSteady}, 1.0,
+        {model, {}, kSteady}, {.omega = 1.0},
         {.increment = fraction * worn.largest_depth, .steps = 3000, .rate_fraction = 1e-4, .rate_threshold = 0.0});
     EXPECT_EQ(run.end, HistoryEnd::worn_out) << to_string(run.end) << " " << to_string(run.status);
     const Eigen::VectorXd depth = run.depth.bottomRows(1).transpose();
@@ -57,12 +57,12 @@ TEST(Block, HistoryCanEndDeeperThanTheAsymptote) {
   unasked.arbitration = "never";
   const Asymptote worn = asymptote({model, {}, kSteady}, 1.0, unasked);
   ASSERT_EQ(worn.verdict, Verdict::asymptote);
-  EXPECT_EQ(worn.doubt, "reload");
+  EXPECT_EQ(worn.doubt, Doubt::reload);
   EXPECT_LT(worn.certificate, 1e-6);
   std::vector<double> volumes;
   for (double fraction : {0.08, 0.04, 0.02}) {
     const History run = history(
-        {model, {}, kSteady}, 1.0,
+        {model, {}, kSteady}, {.omega = 1.0},
         {.increment = fraction * worn.largest_depth, .steps = 3000, .rate_fraction = 1e-4, .rate_threshold = 0.0});
     ASSERT_EQ(run.end, HistoryEnd::worn_out);
     volumes.push_back(run.worn_volume[run.worn_volume.size() - 1] / worn.worn_volume);
@@ -83,7 +83,7 @@ TEST(Block, WithoutSlipDoesNotWear) {
   EXPECT_EQ(worn.depth.maxCoeff(), 0.0);
   EXPECT_EQ(worn.unworn_rate.maxCoeff(), 0.0);
   EXPECT_EQ(worn.passes, 0);
-  const History run = history({condensed(stuck_block()), {}, kSteady}, 1.0, {.rate_threshold = 0.0});
+  const History run = history({condensed(stuck_block()), {}, kSteady}, {.omega = 1.0}, {.rate_threshold = 0.0});
   EXPECT_EQ(run.end, HistoryEnd::worn_out);
   EXPECT_EQ(run.worn_volume.size(), 1);
 }
@@ -127,7 +127,7 @@ TEST(Block, HalvesAndReportsStepsThatFail) {
   steady::Options hasty = kSteady;
   hasty.max_iterations = 1;
   hasty.penalty_cascade = false;
-  const History run = history({condensed(scenes::random_block(1)), {}, hasty}, 1.0, {.rate_threshold = 0.0});
+  const History run = history({condensed(scenes::random_block(1)), {}, hasty}, {.omega = 1.0}, {.rate_threshold = 0.0});
   EXPECT_EQ(run.end, HistoryEnd::failed);
   EXPECT_NE(run.status, Status::converged);
   EXPECT_EQ(run.cycles.size(), 0);
@@ -139,8 +139,8 @@ TEST(Block, HalvesAndReportsStepsThatFail) {
 TEST(Block, StopsWhenAsked) {
   int asked = 0;
   const Control control{.stop = [&asked] { return ++asked > 4; }};
-  const History run = history({condensed(scenes::random_block(1)), {}, kSteady}, 1.0,
-                              {.increment = 1e-6, .rate_threshold = 0.0}, {}, control);
+  const History run = history({condensed(scenes::random_block(1)), {}, kSteady}, {.omega = 1.0},
+                              {.increment = 1e-6, .rate_threshold = 0.0}, control);
   EXPECT_EQ(run.status, Status::interrupted);
   EXPECT_EQ(run.cycles.size(), 4);  // four states were allowed and are kept
 }

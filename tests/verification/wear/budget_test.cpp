@@ -8,7 +8,6 @@
 #include "scenes.hpp"
 #include "wear/asymptote.hpp"
 #include "wear/history.hpp"
-#include "wear/implicit_history.hpp"
 
 // Whatever part of the work a wear computation needs it is allowed, it says that its budget was spent or gives the
 // answer it gives without one.
@@ -59,10 +58,13 @@ TEST(WearBudget, OfAnAsymptote) {
 TEST(WearBudget, OfHistories) {
   const auto model = block();
   const auto explicit_one = [&](const SharedBudget& budget) {
-    return history({model, {}, within_budget(budget)}, 1.0, {.increment = 1e-5, .steps = 300, .rate_threshold = 0.0});
+    return history({model, {}, within_budget(budget)}, {.omega = 1.0},
+                   {.increment = 1e-5, .steps = 300, .rate_threshold = 0.0});
   };
   const auto implicit_one = [&](const SharedBudget& budget) {
-    return as_history(implicit_history({model, {}, within_budget(budget)}, 1.0, {.rate_threshold = 0.0}), *model);
+    HistoryOptions options = HistoryOptions::implicit();
+    options.rate_threshold = 0.0;
+    return history({model, {}, within_budget(budget)}, {.omega = 1.0}, options);
   };
   for (const auto& compute : {std::function<History(const SharedBudget&)>(explicit_one),
                               std::function<History(const SharedBudget&)>(implicit_one)}) {

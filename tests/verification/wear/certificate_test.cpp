@@ -44,7 +44,7 @@ TEST(Certificate, ThatFailsAtFinerSettingsIsADoubt) {
   EXPECT_LT(worn.certificate, 1e-3);
   EXPECT_GT(worn.finer.remaining, 1e-2);
   EXPECT_FALSE(worn.holds_finer);
-  EXPECT_EQ(worn.doubt, "finer_settings");
+  EXPECT_EQ(worn.doubt, Doubt::finer_settings);
   // The same from a steady state of its own.
   const steady::State separate =
       steady::steady_state({model, {.wear_depth = worn.depth}, finer_settings(scenes::kVerdictSettings)}, 1.0);
@@ -58,7 +58,7 @@ TEST(Certificate, IsNotCheckedWhenNotAsked) {
   coarse.certify_finer = false;
   const Asymptote worn = asymptote({condensed(Family::coupled, 1), {}, scenes::kVerdictSettings}, 1.0, coarse);
   EXPECT_EQ(worn.finer.harmonics, 0);
-  EXPECT_NE(worn.doubt, "finer_settings");
+  EXPECT_NE(worn.doubt, Doubt::finer_settings);
 }
 
 TEST(Certificate, SaysWhatCouldNotBeSolved) {

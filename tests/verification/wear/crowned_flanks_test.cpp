@@ -9,7 +9,7 @@
 #include "optimizer/evaluator.hpp"
 #include "paths/resonance.hpp"
 #include "wear/asymptote.hpp"
-#include "wear/implicit_history.hpp"
+#include "wear/history.hpp"
 
 // Dovetails whose crowned flanks lift off at both ends in every cycle.
 
@@ -53,18 +53,15 @@ TEST(CrownedFlanks, WearAsHistoriesDo) {
     const Worn worn = wear_off(builder, scene(), crown);
     ASSERT_EQ(worn.direct.verdict, Verdict::asymptote);
     // Down to what counts as no wear: where nodes touch at times, rates die out slowly, and below that they creep on.
-    const ImplicitHistory past =
-        implicit_history({worn.model.condensed, {}, worn.steady}, worn.omega, {}, &worn.direct.unworn);
+    const History past = history({worn.model.condensed, {}, worn.steady},
+                                 {.omega = worn.omega, .unworn = &worn.direct.unworn}, HistoryOptions::implicit());
     ASSERT_EQ(past.end, HistoryEnd::worn_out);
-    const Eigen::Index last = past.cycles.size() - 1;
-    const Eigen::VectorXd depth = past.depth.row(last).transpose();
-    const double error = (depth - worn.direct.depth).cwiseAbs().maxCoeff() / worn.direct.largest_depth;
-    RecordProperty("volume_" + std::to_string(crown),
-                   std::to_string(worn.direct.worn_volume / past.worn_volume[last] - 1));
+    const double error = (past.final_depth - worn.direct.depth).cwiseAbs().maxCoeff() / worn.direct.largest_depth;
+    RecordProperty("volume_" + std::to_string(crown), std::to_string(worn.direct.worn_volume / past.final_volume - 1));
     RecordProperty("depth_" + std::to_string(crown), std::to_string(error));
     // The history stops while nodes that touch at times still creep; releasing the far ends, too, would
     // change the volume by 6 and 30 per cent and the depth by a quarter.
-    EXPECT_NEAR(worn.direct.worn_volume, past.worn_volume[last], 0.01 * past.worn_volume[last]) << crown;
+    EXPECT_NEAR(worn.direct.worn_volume, past.final_volume, 0.01 * past.final_volume) << crown;
     EXPECT_LT(error, 0.02) << crown;
   }
 }

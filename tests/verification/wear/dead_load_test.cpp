@@ -117,13 +117,14 @@ TEST_P(Sliding, GivesHistoriesASteadyRate) {
   ASSERT_EQ(unworn.status, Status::converged);
   const double rate = unworn.wear_rate[0];
   const double increment = 0.01 * largest_penetration(*scene.model, unworn);
-  const History run = history({scene.model, {}, scene.steady}, kOmega, {.increment = increment});
+  const History run = history({scene.model, {}, scene.steady}, {.omega = kOmega}, {.increment = increment});
   EXPECT_EQ(run.end, HistoryEnd::steady_rate) << to_string(run.end);
   EXPECT_EQ(run.status, Status::converged);
   ASSERT_EQ(run.final_rate.size(), 1);
   EXPECT_NEAR(run.final_rate[0], rate, 1e-7 * rate);
   // Cycles that were asked for are done.
-  const History some = history({scene.model, {}, scene.steady}, kOmega, {.increment = increment, .cycles = 10.0});
+  const History some =
+      history({scene.model, {}, scene.steady}, {.omega = kOmega}, {.increment = increment, .cycles = 10.0});
   EXPECT_EQ(some.end, HistoryEnd::cycles);
   EXPECT_NEAR(some.final_depth[0], 10.0 * rate, 1e-7 * 10.0 * rate);
 }

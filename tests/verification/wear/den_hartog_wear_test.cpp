@@ -19,7 +19,7 @@ double depth_after_100_cycles(int harmonics, double increment) {
   const steady::Options steady{.harmonics = harmonics, .samples = 64 * harmonics, .slip_return = "second_order"};
   const HistoryOptions options{
       .increment = increment, .steps = 1000, .cycles = 100.0, .rate_fraction = 0.0, .rate_threshold = 0.0};
-  const History run = history({model, {}, steady}, 0.8, options);
+  const History run = history({model, {}, steady}, {.omega = 0.8}, options);
   EXPECT_EQ(run.status, Status::converged);
   EXPECT_EQ(run.end, HistoryEnd::cycles);
   const Eigen::Index last = run.cycles.size() - 1;

@@ -48,7 +48,7 @@ TEST(Drift, IsFollowedByTheHistory) {
   ASSERT_EQ(unworn.status, Status::converged);
   const HistoryOptions options{
       .increment = 0.01, .steps = 100, .rate_fraction = 1e-3, .rate_threshold = 0.0, .follow = "resonance"};
-  const History run = history(joint, unworn.omega, options, kResonance);
+  const History run = history(joint, {.omega = unworn.omega, .resonance = kResonance}, options);
   EXPECT_EQ(run.status, Status::converged);
   EXPECT_EQ(run.end, HistoryEnd::worn_out);
   const Eigen::Index last = run.cycles.size() - 1;

@@ -7,7 +7,6 @@
 #include "scenes.hpp"
 #include "wear/asymptote.hpp"
 #include "wear/history.hpp"
-#include "wear/implicit_history.hpp"
 
 namespace dovetail::wear {
 namespace {
@@ -43,7 +42,7 @@ TEST(EnergyWear, EndsWhereTheEnergyIsTheThreshold) {
   const auto found = [&](int harmonics) {
     const Asymptote end = asymptote(joint_of(model, harmonics, 64 * harmonics), b, {.rate_threshold = 0.0});
     EXPECT_EQ(end.verdict, Verdict::asymptote) << to_string(end.status);
-    EXPECT_EQ(end.decided_by, "history");
+    EXPECT_EQ(end.decided_by, FoundBy::history);
     return end.largest_depth;
   };
   const double coarse = found(7), fine = found(21);
@@ -65,7 +64,7 @@ TEST(EnergyWear, LeavesNodesAtRestInSlip) {
   const steady::Joint joint = joint_of(model, 3, 128);
   const Asymptote end = asymptote(joint, 1.0, {.rate_threshold = 0.0});
   ASSERT_EQ(end.verdict, Verdict::asymptote) << to_string(end.status);
-  EXPECT_EQ(end.doubt, "threshold");
+  EXPECT_EQ(end.doubt, Doubt::threshold);
   EXPECT_TRUE(end.confirmed_by_history);
   int slipping = 0;
   for (Eigen::Index i = 0; i < 41; ++i) {
@@ -82,7 +81,7 @@ TEST(EnergyWear, LeavesNodesAtRestInSlip) {
   // Cycle by cycle it ends there, too: steps overshoot the rest by an amount of first order in their increment, 5 % of
   // the volume at one of 1 %.
   const History run =
-      history(joint, 1.0, {.increment = 0.0025 * end.largest_depth, .steps = 2000, .rate_threshold = 0.0});
+      history(joint, {.omega = 1.0}, {.increment = 0.0025 * end.largest_depth, .steps = 2000, .rate_threshold = 0.0});
   ASSERT_EQ(run.end, HistoryEnd::worn_out);
   EXPECT_FALSE(run.finished);
   EXPECT_NEAR(run.final_volume, end.worn_volume, 0.015 * end.worn_volume);

@@ -37,7 +37,7 @@ TEST(GrossSliding, IsMeasuredByWhatBearsAndHowFarItCloses) {
   for (const double used : {0.2, 0.5, 0.8}) {
     const Asymptote worn = asymptote({punch(used), {}, kSteady}, 1.0, settings("unsettled"));
     ASSERT_EQ(worn.verdict, Verdict::asymptote) << used << ": " << dovetail::to_string(worn.status);
-    EXPECT_EQ(worn.decided_by, "release") << used;
+    EXPECT_EQ(worn.decided_by, FoundBy::release) << used;
     EXPECT_TRUE(worn.bearing.needed);
     EXPECT_FALSE(worn.bearing.doubtful()) << used;
     EXPECT_LT(worn.bearing.share, before.share) << used;
@@ -74,7 +74,7 @@ TEST(GrossSliding, NeedsTheHistorysWord) {
     EXPECT_EQ(alone.verdict, Verdict::not_converged);
     EXPECT_EQ(alone.status, Status::gross_sliding) << used << ": " << dovetail::to_string(alone.status);
     const Asymptote judged = asymptote({punch(used), {}, kSteady}, 1.0, settings("unsettled"));
-    EXPECT_EQ(judged.doubt, "gross_sliding");
+    EXPECT_EQ(judged.doubt, Doubt::gross_sliding);
     EXPECT_TRUE(judged.confirmed_by_history);
     EXPECT_EQ(judged.status, Status::converged);
     EXPECT_EQ(judged.verdict, used < 0.95 ? Verdict::asymptote : Verdict::no_asymptote) << used;

@@ -133,7 +133,7 @@ TEST(Punch, HistoryEndsWhereTheAsymptoteIs) {
   double error = 0.0;
   for (double fraction : {0.1, 0.02}) {
     const History run = history(
-        {model, {}, steady}, 1.0,
+        {model, {}, steady}, {.omega = 1.0},
         {.increment = fraction * worn.largest_depth, .steps = 2000, .rate_fraction = 1e-4, .rate_threshold = 0.0});
     ASSERT_EQ(run.end, HistoryEnd::worn_out) << to_string(run.end);
     const Eigen::VectorXd depth = run.depth.bottomRows(1).transpose();

@@ -46,7 +46,7 @@ Label explicit_label(const std::shared_ptr<const dynamics::CondensedModel>& mode
   // Where wear never ends, coarse steps show it first.
   options.increment = 0.1 * penetration;
   options.steps = 1500;
-  const History coarse = history({model, {}, steady}, omega, options);
+  const History coarse = history({model, {}, steady}, {.omega = omega}, options);
   if (coarse.end == HistoryEnd::steps) {
     const Eigen::Index last = coarse.rate.rows() - 1;
     const double level = coarse.rate.row(last).maxCoeff() / coarse.rate.row(last / 2).maxCoeff();
@@ -59,7 +59,7 @@ Label explicit_label(const std::shared_ptr<const dynamics::CondensedModel>& mode
   options.steps = 12000;
   const auto away = [&](double increment) {
     options.increment = increment * scale;
-    const History run = history({model, {}, steady}, omega, options);
+    const History run = history({model, {}, steady}, {.omega = omega}, options);
     if (run.end != HistoryEnd::worn_out) return std::nan("");
     return (run.final_depth - released.depth).cwiseAbs().maxCoeff() /
            std::max(released.largest_depth, run.final_depth.maxCoeff());

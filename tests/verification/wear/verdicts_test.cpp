@@ -46,20 +46,21 @@ class Verdicts : public testing::TestWithParam<Labelled> {};
 TEST_P(Verdicts, AreThoseOfTheHistory) {
   const auto [family, number, label] = GetParam();
   const Asymptote worn = asymptote({condensed(family, number), {}, kSteady}, 1.0, settings("auto"));
-  RecordProperty("doubt", worn.doubt);
+  RecordProperty("doubt", std::string(to_string(worn.doubt)));
   RecordProperty("jacobians", worn.jacobians);
   RecordProperty("arbitration_jacobians", worn.arbitration_jacobians);
   EXPECT_EQ(worn.status, Status::converged) << dovetail::to_string(worn.status);
   const bool elsewhere = std::any_of(worn.other_states.begin(), worn.other_states.end(),
                                      [](const OtherState& state) { return state.found_by == "release"; });
   if (label == Label::goes_on) {
-    EXPECT_EQ(worn.verdict, Verdict::no_asymptote) << worn.doubt;
+    EXPECT_EQ(worn.verdict, Verdict::no_asymptote) << to_string(worn.doubt);
     EXPECT_TRUE(worn.confirmed_by_history);
     EXPECT_GT(worn.rate.maxCoeff(), 0.0);
     return;
   }
-  EXPECT_EQ(worn.verdict, Verdict::asymptote) << worn.doubt;
-  EXPECT_EQ(elsewhere, label == Label::elsewhere) << worn.doubt << ", decided by " << worn.decided_by;
+  EXPECT_EQ(worn.verdict, Verdict::asymptote) << to_string(worn.doubt);
+  EXPECT_EQ(elsewhere, label == Label::elsewhere)
+      << to_string(worn.doubt) << ", decided by " << to_string(worn.decided_by);
   EXPECT_LT(worn.certificate, 1e-2);
 }
 INSTANTIATE_TEST_SUITE_P(Labelled, Verdicts, testing::ValuesIn(kScenes), [](const auto& scene) {
@@ -72,7 +73,7 @@ TEST(Verdict, IsTrivialWherePressedBlocksStick) {
     const Asymptote worn = asymptote({condensed(Family::pressed, number), {}, kSteady}, 1.0, settings("auto"));
     EXPECT_EQ(worn.verdict, Verdict::asymptote) << number;
     EXPECT_EQ(worn.worn_volume, 0.0) << number;
-    EXPECT_EQ(worn.doubt, "") << number;
+    EXPECT_EQ(worn.doubt, Doubt::none) << number;
   }
 }
 
@@ -86,7 +87,7 @@ TEST(Verdict, OfAnOscillatorFollowsFromItsNormalSpring) {
       ASSERT_EQ(unworn.status, Status::converged);
       if (unworn.wear_rate[0] == 0.0) continue;
       const Asymptote worn = asymptote({model, {}, kSteady}, omega, settings("always"));
-      EXPECT_EQ(worn.verdict, Verdict::asymptote) << load << " " << omega << " " << worn.doubt;
+      EXPECT_EQ(worn.verdict, Verdict::asymptote) << load << " " << omega << " " << to_string(worn.doubt);
       EXPECT_TRUE(worn.confirmed_by_history);
       // Worn until it sticks or carries nothing, whichever comes first; sliding gets easier as the load falls.
       EXPECT_NEAR(worn.depth[0], load / 2.0, 1e-2 * load / 2.0) << load << " " << omega;

@@ -1,4 +1,4 @@
-#include "wear/implicit_history.hpp"
+#include "wear/history.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,6 @@
 
 #include "scenes.hpp"
 #include "wear/asymptote.hpp"
-#include "wear/history.hpp"
 #include "wear/measures.hpp"
 
 namespace dovetail::wear {
@@ -20,8 +19,10 @@ Model block(unsigned number) {
   return std::make_shared<const dynamics::CondensedModel>(scenes::block(scenes::random_block(number)));
 }
 
-Eigen::VectorXd last_depth(const ImplicitHistory& run) {
-  return run.depth.bottomRows(1).transpose();
+HistoryOptions implicit_down_to_nothing() {
+  HistoryOptions options = HistoryOptions::implicit();
+  options.rate_threshold = 0.0;
+  return options;
 }
 
 AsymptoteOptions alone() {
@@ -37,10 +38,10 @@ TEST(ImplicitHistory, EndsInTheWornState) {
     const Model model = block(number);
     const Asymptote direct = asymptote({model, {}, kSteady}, 1.0, alone());
     ASSERT_EQ(direct.verdict, Verdict::asymptote);
-    const ImplicitHistory run = implicit_history({model, {}, kSteady}, 1.0, {.rate_threshold = 0.0});
+    const History run = history({model, {}, kSteady}, {.omega = 1.0}, implicit_down_to_nothing());
     ASSERT_EQ(run.end, HistoryEnd::worn_out) << to_string(run.end);
     EXPECT_TRUE(run.finished);
-    const double error = (last_depth(run) - direct.depth).cwiseAbs().maxCoeff() / direct.largest_depth;
+    const double error = (run.final_depth - direct.depth).cwiseAbs().maxCoeff() / direct.largest_depth;
     RecordProperty("jacobians_" + std::to_string(number), run.jacobians);
     // Both are W = max_t u_N - g of the same set of free nodes, solved to 1e-9 of the excitation.
     EXPECT_LT(error, 1e-6) << number;
@@ -53,22 +54,23 @@ TEST(ImplicitHistory, EndsInTheWornState) {
 TEST(ImplicitHistory, FollowsThePathOfExplicitOnes) {
   const Model model = block(0);
   const auto volume = [&](double tolerance) {
-    const ImplicitHistory run =
-        implicit_history({model, {}, kSteady}, 1.0, {.tolerance = tolerance, .rate_threshold = 0.0});
+    HistoryOptions options = implicit_down_to_nothing();
+    options.tolerance = tolerance;
+    const History run = history({model, {}, kSteady}, {.omega = 1.0}, options);
     EXPECT_EQ(run.end, HistoryEnd::worn_out);
-    return run.worn_volume[run.worn_volume.size() - 1];
+    return run.final_volume;
   };
   const double fine = volume(2e-5);
   EXPECT_NEAR(volume(2e-4), fine, 1e-3 * fine);
   const History run =
-      history({model, {}, kSteady}, 1.0,
+      history({model, {}, kSteady}, {.omega = 1.0},
               {.increment = 0.004 * 3.04e-4, .steps = 3000, .rate_fraction = 1e-5, .rate_threshold = 0.0});
   ASSERT_EQ(run.end, HistoryEnd::worn_out);
   EXPECT_NEAR(run.final_volume, fine, 4e-3 * fine);
 }
 
 TEST(ImplicitHistory, NeverGivesDepthBack) {
-  const ImplicitHistory run = implicit_history({block(6), {}, kSteady}, 1.0, {.rate_threshold = 0.0});
+  const History run = history({block(6), {}, kSteady}, {.omega = 1.0}, implicit_down_to_nothing());
   ASSERT_EQ(run.end, HistoryEnd::worn_out);
   for (Eigen::Index i = 1; i < run.depth.rows(); ++i) {
     EXPECT_GE((run.depth.row(i) - run.depth.row(i - 1)).minCoeff(), 0.0) << i;
@@ -81,11 +83,11 @@ TEST(ImplicitHistory, NeverGivesDepthBack) {
 // den_hartog_wear_test. A local error of 2e-4 over 20 to 40 steps leaves below one per cent.
 TEST(ImplicitHistory, UnloadsARubbingNode) {
   const Model model = std::make_shared<const dynamics::CondensedModel>(scenes::rubbing_oscillator(0.1, 2.0, 1.0, 0.05));
-  const ImplicitHistory run = implicit_history({model, {}, kSteady}, 1.0, {.rate_threshold = 0.0});
+  const History run = history({model, {}, kSteady}, {.omega = 1.0}, implicit_down_to_nothing());
   ASSERT_EQ(run.end, HistoryEnd::worn_out);
-  EXPECT_NEAR(last_depth(run)[0], 0.05, 1e-4 * 0.05);
+  EXPECT_NEAR(run.final_depth[0], 0.05, 1e-4 * 0.05);
   const Eigen::Index half = run.cycles.size() / 2;
-  const History fine = history({model, {}, kSteady}, 1.0,
+  const History fine = history({model, {}, kSteady}, {.omega = 1.0},
                                {.increment = 0.0005 * 0.05,
                                 .steps = 4000,
                                 .cycles = run.cycles[half],
@@ -98,59 +100,47 @@ TEST(ImplicitHistory, UnloadsARubbingNode) {
 TEST(ImplicitHistory, SaysThatItStoppedOrFailed) {
   int asked = 0;
   const Control control{.stop = [&asked] { return ++asked > 5; }};
-  const ImplicitHistory stopped =
-      implicit_history({block(1), {}, kSteady}, 1.0, {.rate_threshold = 0.0}, nullptr, control);
+  const History stopped = history({block(1), {}, kSteady}, {.omega = 1.0}, implicit_down_to_nothing(), control);
   EXPECT_EQ(stopped.end, HistoryEnd::interrupted);
   EXPECT_EQ(stopped.status, Status::interrupted);
   EXPECT_GT(stopped.cycles.size(), 1);
   steady::Options hasty = kSteady;
   hasty.max_iterations = 1;
   hasty.penalty_cascade = false;
-  const ImplicitHistory failed = implicit_history({block(1), {}, hasty}, 1.0, {.rate_threshold = 0.0});
+  const History failed = history({block(1), {}, hasty}, {.omega = 1.0}, implicit_down_to_nothing());
   EXPECT_EQ(failed.end, HistoryEnd::failed);
   EXPECT_NE(failed.status, Status::converged);
-  EXPECT_THROW((void)implicit_history({block(1), {}, kSteady}, 1.0, {.growth = 1.0}), InputError);
+  EXPECT_THROW((void)history({block(1), {}, kSteady}, {.omega = 1.0}, {.integrator = "implicit"}), InputError);
+  HistoryOptions following = HistoryOptions::implicit();
+  following.follow = "resonance";
+  EXPECT_THROW((void)history({block(1), {}, kSteady}, {.omega = 1.0}, following), InputError);
   steady::Condition start;
   start.released.assign(static_cast<std::size_t>(block(1)->nodes()), 1);
-  EXPECT_THROW((void)implicit_history({block(1), start, kSteady}, 1.0), InputError);
+  EXPECT_THROW((void)history({block(1), start, kSteady}, {.omega = 1.0}, HistoryOptions::implicit()), InputError);
 }
 
-// A history stopped after ten steps and resumed is the one that went on, to the accuracy of its states.
+// A history stopped on its way and resumed is the one that went on: of implicit ones the same factors, step and first
+// rate. What is solved again is the last state, to 1e-10.
 TEST(History, IsResumed) {
   const Model model = block(2);
-  const HistoryOptions options{.increment = 4e-6, .steps = 1000, .rate_fraction = 1e-3, .rate_threshold = 0.0};
-  const History whole = history({model, {}, kSteady}, 1.0, options);
-  ASSERT_EQ(whole.end, HistoryEnd::worn_out);
-  HistoryOptions some = options;
-  some.steps = 10;
-  const History first = history({model, {}, kSteady}, 1.0, some);
-  ASSERT_EQ(first.end, HistoryEnd::steps);
-  const Resumption next = resume(first, {model, {}, kSteady}, options);
-  EXPECT_EQ(next.options.start_cycles, first.cycles[10]);
-  const History second = history(next.joint, next.omega, next.options);
-  EXPECT_EQ(second.end, HistoryEnd::worn_out);
-  EXPECT_EQ(second.cycles.size() + 10, whole.cycles.size());
-  EXPECT_NEAR(second.cycles[second.cycles.size() - 1], whole.cycles[whole.cycles.size() - 1],
-              1e-4 * whole.cycles[whole.cycles.size() - 1]);
-  EXPECT_NEAR(second.final_volume, whole.final_volume, 1e-5 * whole.final_volume);
-}
-
-// With its past an implicit one, too, is the one that went on: the same factors, step and first rate. What is solved
-// again is the last state, to 1e-10.
-TEST(ImplicitHistory, IsResumed) {
-  const Model model = block(2);
-  const History whole = as_history(implicit_history({model, {}, kSteady}, 1.0), *model);
-  ASSERT_EQ(whole.end, HistoryEnd::worn_out);
-  const History first = as_history(implicit_history({model, {}, kSteady}, 1.0, {.steps = 6}), *model);
-  ASSERT_EQ(first.end, HistoryEnd::steps);
-  const Resumption next = resume(first, {model, {}, kSteady}, {});
-  const ImplicitHistoryOptions options{.start_cycles = next.options.start_cycles,
-                                       .reference_rate = next.options.reference_rate};
-  const History second = as_history(implicit_history(next.joint, next.omega, options, nullptr, {}, &first), *model);
-  EXPECT_EQ(second.end, HistoryEnd::worn_out);
-  ASSERT_EQ(second.cycles.size(), whole.cycles.size());
-  EXPECT_LT((second.cycles - whole.cycles).cwiseAbs().maxCoeff(), 1e-8 * whole.cycles.maxCoeff());
-  EXPECT_LT((second.depth - whole.depth).cwiseAbs().maxCoeff(), 1e-8 * whole.depth.maxCoeff());
+  for (const bool implicit : {false, true}) {
+    HistoryOptions options =
+        implicit ? HistoryOptions::implicit()
+                 : HistoryOptions{.increment = 4e-6, .steps = 1000, .rate_fraction = 1e-3, .rate_threshold = 0.0};
+    const History whole = history({model, {}, kSteady}, {.omega = 1.0}, options);
+    ASSERT_EQ(whole.end, HistoryEnd::worn_out);
+    HistoryOptions some = options;
+    some.steps = implicit ? 6 : 10;
+    const History first = history({model, {}, kSteady}, {.omega = 1.0}, some);
+    ASSERT_EQ(first.end, HistoryEnd::steps);
+    ASSERT_EQ(first.cycles.size(), some.steps + 1);
+    const History second = history({model, {}, kSteady}, {.omega = 1.0, .past = &first}, options);
+    EXPECT_EQ(second.end, HistoryEnd::worn_out);
+    ASSERT_EQ(second.cycles.size(), whole.cycles.size());
+    const double close = implicit ? 1e-8 : 1e-4;
+    EXPECT_LT((second.cycles - whole.cycles).cwiseAbs().maxCoeff(), close * whole.cycles.maxCoeff());
+    EXPECT_LT((second.depth - whole.depth).cwiseAbs().maxCoeff(), close * whole.depth.maxCoeff());
+  }
 }
 
 // With the error controlled, coarse increments lose their overshoot.
@@ -162,7 +152,7 @@ TEST(History, ControlsItsError) {
   HistoryOptions controlled = coarse;
   controlled.tolerance = 2e-3;
   const auto error = [&](const HistoryOptions& options) {
-    const History run = history({model, {}, kSteady}, 1.0, options);
+    const History run = history({model, {}, kSteady}, {.omega = 1.0}, options);
     EXPECT_EQ(run.end, HistoryEnd::worn_out) << to_string(run.end);
     return (run.final_depth - direct.depth).cwiseAbs().maxCoeff() / direct.largest_depth;
   };
@@ -175,21 +165,11 @@ TEST(History, ControlsItsError) {
   EXPECT_LT(held, 4.0 * controlled.tolerance);
 }
 
-TEST(History, ShowsItsStatesOnTheWay) {
-  int seen = 0;
-  double deepest = -1.0;
-  const StateObserver observer = [&](int step, double cycles, const steady::Condition& condition,
-                                     const steady::State& state) {
-    EXPECT_EQ(step, seen++);
-    EXPECT_GE(cycles, 0.0);
-    EXPECT_EQ(state.status, Status::converged);
-    EXPECT_GT(condition.wear_depth.maxCoeff(), deepest);
-    deepest = condition.wear_depth.maxCoeff();
-  };
+TEST(History, OfTooFewStepsSaysSo) {
   const History run =
-      history({block(2), {}, kSteady}, 1.0, {.increment = 4e-6, .steps = 8, .rate_threshold = 0.0}, {}, {}, observer);
-  EXPECT_EQ(run.cycles.size(), seen);
-  EXPECT_EQ(seen, 9);
+      history({block(2), {}, kSteady}, {.omega = 1.0}, {.increment = 4e-6, .steps = 8, .rate_threshold = 0.0});
+  EXPECT_EQ(run.end, HistoryEnd::steps);
+  ASSERT_EQ(run.cycles.size(), 9);
   EXPECT_FALSE(run.finished);
   EXPECT_EQ(run.final_volume, run.worn_volume[8]);
 }

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string_view>
+
+namespace dovetail::wear {
+
+/// Why the direct answer may not be where wear ends, in the order in which it is looked for.
+enum class Doubt {
+  none,
+  nothing_holds,
+  pass_failed,
+  certificate,
+  threshold,
+  gross_sliding,
+  reload,
+  lift_off,
+  worst_first,
+  near_slip,
+  always,
+  finer_settings,
+  unfinished,
+};
+
+/// What a doubt means, and who settles it.
+struct DoubtEntry {
+  Doubt doubt;
+  std::string_view name;
+  std::string_view meaning;  ///< after "in doubt: "
+  /// The direct answer stands, in doubt, until someone asks the history; otherwise the history alone can give one.
+  bool direct_stands;
+};
+[[nodiscard]] const DoubtEntry& entry(Doubt doubt);
+
+/// "" for none.
+[[nodiscard]] std::string_view to_string(Doubt doubt);
+
+/// Ways to a state at rest.
+enum class FoundBy {
+  release,        ///< all slipping nodes at once
+  worst_first,    ///< the fastest nodes first
+  history,        ///< step by step
+  finer_history,  ///< the same with more harmonics and samples
+};
+[[nodiscard]] std::string_view to_string(FoundBy way);
+
+}  // namespace dovetail::wear

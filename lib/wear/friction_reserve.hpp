@@ -1,0 +1,27 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "steady/steady_state.hpp"
+
+namespace dovetail::wear {
+
+/// Friction margin of a node over the period, min_{t,s} 1 - |lambda_T(t) - lambda_T(s)| / (mu (lambda_N(t) +
+/// lambda_N(s))) over its loaded samples: what is left before no constant residual traction keeps it from slipping in
+/// every cycle. (Its distance from mu lambda_N at one instant says nothing: a node that slid into place sits there.)
+/// Negative for a node held beyond its friction; infinite without load or friction. `friction` is the mu to measure by.
+/// O(samples^2).
+[[nodiscard]] double friction_margin(const steady::State& state, Eigen::Index node, double friction);
+
+/// Overload relieved by the slip of a node, in units of mu lambda_N: k_T (slip distance) / (4 mu max lambda_N) with the
+/// node's own stiffness k_T (two reversals per cycle, each sliding by twice the overload over k_T).
+[[nodiscard]] double slip_excess(const dynamics::CondensedModel& model, const steady::State& state, Eigen::Index node);
+
+/// What a node has left of its friction: the margin of one that sticks (friction_margin), minus the excess of one that
+/// slips (slip_excess), both in units of mu lambda_N and zero at the edge between the two; NaN of one without load.
+/// Only nodes next to one that is slipping are looked at: NaN elsewhere, too.
+[[nodiscard]] Eigen::VectorXd friction_reserve(const dynamics::CondensedModel& model, const steady::State& state,
+                                               const std::vector<bool>& slips);
+
+}  // namespace dovetail::wear

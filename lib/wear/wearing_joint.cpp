@@ -1,0 +1,70 @@
+#include "wear/wearing_joint.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace dovetail::wear {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+WearingJoint::WearingJoint(const steady::Joint& joint, double omega, const Control& control)
+    : joint_(joint), omega_(omega), control_(&control) {
+  if (start().size() == 0) joint_.condition.wear_depth = VectorXd::Zero(model().nodes());
+}
+
+void WearingJoint::follow(paths::ResonanceOptions resonance) {
+  resonance_ = std::move(resonance);
+  resonance_->sweep_range = 0;  // the peak is followed: one found elsewhere would not be the same
+}
+
+void WearingJoint::count(int solves, int jacobians) {
+  solves_ += solves;
+  jacobians_ += jacobians;
+}
+
+steady::State WearingJoint::solve(const steady::Joint& joint, const MatrixXd& guess) {
+  steady::State state;
+  if (control_->stopped()) {
+    state.status = Status::interrupted;
+    return state;
+  }
+  if (resonance_) {
+    paths::Resonance found = paths::resonance(joint, omega_, *resonance_, guess);
+    count(found.solves, found.jacobians);
+    state = std::move(found.state);
+    state.status = found.status;
+    if (found.status == Status::converged) omega_ = found.omega;
+  } else {
+    state = steady::steady_state(joint, omega_, guess, last_);
+    count(1, state.iterations);
+  }
+  if (state.tangent) last_ = state.tangent;
+  return state;
+}
+
+steady::State WearingJoint::released(const std::vector<bool>& nodes, const MatrixXd& guess, bool quick) {
+  steady::Joint joint = joint_;
+  joint.condition.released.assign(nodes.begin(), nodes.end());
+  if (quick) {
+    joint.options.penalty_cascade = false;
+    joint.options.max_iterations = std::min(joint.options.max_iterations, 30);
+  }
+  return solve(joint, guess);
+}
+
+steady::State WearingJoint::worn(const VectorXd& depth, const MatrixXd& guess) {
+  return solve(joint_.worn(depth), guess);
+}
+
+VectorXd WearingJoint::depth(const std::vector<bool>& released, const steady::State& state) const {
+  VectorXd depth = start();
+  for (Index i = 0; i < depth.size(); ++i)
+    if (released[static_cast<std::size_t>(i)])
+      depth[i] = std::max(depth[i],
+                          state.nodes[static_cast<std::size_t>(i)].max_normal_displacement - model().contact().gap[i]);
+  return depth;
+}
+
+}  // namespace dovetail::wear
