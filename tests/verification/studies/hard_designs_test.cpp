@@ -1,4 +1,5 @@
 // Single designs around the quickstart on which evaluations are easily wrong.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -19,12 +20,13 @@ optimizer::CandidateResult evaluated(const std::vector<std::pair<std::string, do
   return optimizer::SceneEvaluator(scene).evaluate(scene, {.bars = bars});
 }
 
-/// Without bars, on the mesh that `evaluate` takes for every design of the study.
-optimizer::CandidateResult evaluated_in_study(const std::vector<std::pair<std::string, double>>& changes) {
+/// On the mesh that `evaluate` takes for every design of the study.
+optimizer::CandidateResult evaluated_in_study(const std::vector<std::pair<std::string, double>>& changes,
+                                              bool bars = false) {
   const Study study = load_study(QUICKSTART, {});
   optimizer::Scene scene = study.scene;
   for (const auto& [key, value] : changes) optimizer::set_parameter(scene, key, value);
-  return scene_evaluator(study)->evaluate(scene, {.bars = false});
+  return scene_evaluator(study)->evaluate(scene, {.bars = bars});
 }
 
 // Without friction, or with hardly any, the joint slips all over whatever it has worn.
@@ -66,16 +68,20 @@ TEST(HardDesigns, AHistoryThatSpendsTheBudgetSaysSo) {
   EXPECT_FALSE(result.evaluation.responses.contains("asymptotic_wear_volume_m3"));
 }
 
-// With 5 or 7 harmonics, and on this mesh alone, the history ends with 8.45e-11 m^3: with 9 and with 11 on the same
-// nodes, and on others of which some are longer and some shorter, in the direct state, with 3.9e-11 to 4.3e-11.
-TEST(HardDesigns, AHistoryThatHangsOnTheHarmonicsDoesNotDecide) {
+// With 5 or 7 harmonics, and on this mesh alone, the history ends with 8.45e-11 m^3: with 9 on the same nodes, and on
+// others of which some are longer and some shorter, in the direct state, with 3.9e-11 to 4.3e-11. With 11 it hangs on
+// roundings, which differ between OpenBLAS's kernels for processors: 4.1e-11 lets the direct state stand, 8.45e-11 the
+// history decide, and either bar has to reach from one to the other.
+TEST(HardDesigns, AHistoryThatHangsOnTheHarmonicsDoesNotDecideUnseen) {
   const std::vector<std::pair<std::string, double>> design{{"geometry.flank_mismatch_um", 8},
                                                            {"geometry.flank_crown_um", -2},
                                                            {"geometry.flank_angle_deg", 53},
                                                            {"contact.friction", 0.6},
                                                            {"loading.tip_force_n", 3}};
-  const optimizer::CandidateResult result = evaluated_in_study(design);
+  constexpr double kDirect = 4.1e-11, kHistory = 8.45e-11, kClose = 0.1e-11;
+  const optimizer::CandidateResult result = evaluated_in_study(design, true);
   ASSERT_TRUE(result.evaluation.converged()) << result.evaluation.status;
+<<<<<<< HEAD
   EXPECT_NEAR(result.asymptote->worn_volume, 4.1e-11, 0.1e-11);
   EXPECT_EQ(result.asymptote->decided_by, wear::FoundBy::release);
   ASSERT_EQ(result.asymptote->other_states.size(), 2U);
@@ -84,6 +90,18 @@ TEST(HardDesigns, AHistoryThatHangsOnTheHarmonicsDoesNotDecide) {
   ASSERT_EQ(result.evaluation.messages.size(), 1U);
   EXPECT_NE(result.evaluation.messages.front().find("more harmonics and samples nearer to the direct answer"),
             std::string::npos);
+=======
+  const std::vector<wear::OtherState>& others = result.asymptote->other_states;
+  ASSERT_EQ(others.size(), 2U);
+  const bool stays = result.asymptote->decided_by == wear::FoundBy::release;
+  EXPECT_NEAR(result.asymptote->worn_volume, stays ? kDirect : kHistory, kClose);
+  EXPECT_NEAR(others[0].worn_volume, stays ? kHistory : kDirect, kClose);
+  EXPECT_NEAR(others[1].worn_volume, result.asymptote->worn_volume, kClose);
+  EXPECT_GE(result.evaluation.error_estimates.at("asymptotic_wear_volume_m3"), kHistory - kDirect - kClose);
+  EXPECT_THAT(result.evaluation.messages,
+              ::testing::Contains(::testing::HasSubstr(stays ? "more harmonics and samples nearer to the direct answer"
+                                                             : "more harmonics and samples, nearer to the first")));
+>>>>>>> main
 
   std::vector<std::pair<std::string, double>> hurried = design;
   hurried.emplace_back("solver.max_jacobians", 20);  // hardly more than the evaluation itself takes
@@ -115,8 +133,9 @@ TEST(HardDesigns, AHistoryThatEndsElsewhereWithMoreHarmonicsTooDecides) {
   EXPECT_NEAR(result.asymptote->other_states[1].worn_volume, 3.7e-11, 0.1e-11);  // with more harmonics and samples
 }
 
-// Every loaded node slips, and the history ends without an answer at ten thousand cubic millimetres.
-TEST(HardDesigns, AHistoryWithoutEndThatWearsTheJointAwayIsGrossSliding) {
+// Every loaded node slips, and the history wears ten thousand cubic millimetres without an answer, or until its rates
+// have levelled out: which of the two hangs on roundings.
+TEST(HardDesigns, AHistoryThatWearsTheJointAwayIsNoAnswer) {
   const optimizer::CandidateResult result = evaluated({{"geometry.flank_mismatch_um", 18.67589},
                                                        {"geometry.flank_crown_um", 8.607668},
                                                        {"geometry.flank_angle_deg", 48.048168},
@@ -128,7 +147,8 @@ TEST(HardDesigns, AHistoryWithoutEndThatWearsTheJointAwayIsGrossSliding) {
                                                        {"loading.damping_ratio", 0.001274},
                                                        {"scene.speed_rpm", 8031.07836}},
                                                       false);
-  EXPECT_EQ(result.evaluation.status, "asymptote: gross_sliding");
+  const std::string& status = result.evaluation.status;
+  EXPECT_TRUE(status == "asymptote: gross_sliding" || status == "asymptote: no_asymptote") << status;
   EXPECT_FALSE(result.evaluation.responses.contains("asymptotic_wear_volume_m3"));
 }
 
