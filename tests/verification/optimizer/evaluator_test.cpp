@@ -248,9 +248,8 @@ TEST(SectionEvaluation, HistoryDecidesWhereTheDirectWornStateIsInDoubt) {
     options.increment = part * increment;
     options.steps = 4000;
     options.finish = false;
-    const wear::History history =
-        wear::history({searched.model.condensed, {}, steady_options(scene.solver)}, {.omega = searched.unworn->omega},
-                      options);
+    const wear::History history = wear::history({searched.model.condensed, {}, steady_options(scene.solver)},
+                                                {.omega = searched.unworn->omega}, options);
     EXPECT_EQ(history.end, wear::HistoryEnd::worn_out);
     return history.worn_volume(history.cycles.size() - 1);
   };
