@@ -77,7 +77,8 @@ TEST(WearJson, AnAsymptoteHasOneStateAndNoNumberOfCycles) {
   asymptote.depth = Eigen::Vector2d(1e-6, 0);
   asymptote.rate = Eigen::Vector2d(0, 0);
   asymptote.worn_volume = 3e-10;
-  asymptote.other_states = {{.found_by = wear::FoundBy::release, .depth = Eigen::Vector2d(5e-7, 0), .worn_volume = 2e-10}};
+  asymptote.other_states = {
+      {.found_by = wear::FoundBy::release, .depth = Eigen::Vector2d(5e-7, 0), .worn_volume = 2e-10}};
   WearAnswer answer;
   answer.status = "asymptote";
   answer.asymptote = asymptote;
