@@ -16,6 +16,7 @@
 #include "optimizer/worn_zones.hpp"
 #include "paths/resonance.hpp"
 #include "quality/truncation.hpp"
+#include "wear/drift.hpp"
 #include "wear/measures.hpp"
 
 namespace dovetail::optimizer {
@@ -146,17 +147,25 @@ WornChange within_nodes(const fem::ContactCells& cells, const wear::Asymptote& a
   return ends_moved_by(part, cells, worn, asymptote.depth);
 }
 
+/// The other state at rest that a history which came to an end leaves possible: its own, or that of the direct method
+/// where the history decided. The direct method knows nothing of nodes that come to rest in slip.
+const wear::OtherState* rival(const wear::Asymptote& asymptote) {
+  if (!asymptote.confirmed_by_history || asymptote.doubt == wear::Doubt::threshold) return nullptr;
+  const wear::FoundBy other =
+      asymptote.decided_by == wear::FoundBy::history ? wear::FoundBy::release : wear::FoundBy::history;
+  const auto found = std::ranges::find(asymptote.other_states, other, &wear::OtherState::found_by);
+  return found == asymptote.other_states.end() ? nullptr : &*found;
+}
+
 /// What a doubt of the direct worn state leaves open: by how much a history that decided ends elsewhere; where it ends
 /// in the same state, or nothing else was there to compare with, what its nodes leave open; and without a history that
 /// ends it may be anything.
 WornChange left_in_doubt(const fem::ContactCells& cells, const wear::Asymptote& asymptote) {
   if (asymptote.doubt == wear::Doubt::none) return {};
   if (!asymptote.confirmed_by_history) return {.volume = asymptote.worn_volume, .depth = asymptote.largest_depth};
-  for (const wear::OtherState& other : asymptote.other_states)
-    if (other.found_by ==
-        (asymptote.decided_by == wear::FoundBy::history ? wear::FoundBy::release : wear::FoundBy::history))
-      return {.volume = std::abs(other.worn_volume - asymptote.worn_volume),
-              .depth = std::abs(other.largest_depth - asymptote.largest_depth)};
+  if (const wear::OtherState* other = rival(asymptote))
+    return {.volume = std::abs(other->worn_volume - asymptote.worn_volume),
+            .depth = std::abs(other->largest_depth - asymptote.largest_depth)};
   return within_nodes(cells, asymptote);
 }
 
@@ -463,6 +472,16 @@ void add_error_bars(const Scene& scene, const ModelBuilder& builder, const Other
                    result.evaluation.model.at("contact_edges_moved_share") < 1);
   if (const WornChange doubt = left_in_doubt(result.model.cells, *result.asymptote); doubt.volume > 0)
     worn_otherwise("history", doubt, result.asymptote->confirmed_by_history);
+  if (const wear::OtherState* other = rival(*result.asymptote)) {
+    // On what the ends of worn zones bear the amplitude hardly depends; on a whole other state it may.
+    steady::Joint joint{.model = result.model.condensed, .options = steady_options(scene.solver)};
+    joint.options.budget = new_budget(scene.solver, result.model);
+    const wear::Drift elsewhere = wear::resonance_drift(joint.worn(other->depth), *result.worn, {});
+    const double worn = responses.at("worn_peak_amplitude_m");
+    bars.add("history", "worn_peak_amplitude_m",
+             std::abs(worn - (elsewhere.worn.status == Status::converged ? elsewhere.worn.amplitude
+                                                                         : responses.at("peak_amplitude_m"))));
+  }
   const std::vector<std::string> endless = responses_without_limit(scene);
   for (const std::string& name : endless) bars.leave_open(name);
   if (endless.empty()) add_peak_pressure(scene, result, bars);

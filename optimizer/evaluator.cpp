@@ -119,10 +119,17 @@ std::string dynamics(const Scene& scene, const Computation& how, const ContactFi
   evaluation.model["wear_bearing_share"] = asymptote.bearing.share;
   evaluation.model["wear_depth_over_compression"] = asymptote.bearing.closing;
   note_doubt(asymptote, state.unfinished, evaluation);
+  if (const double limit = wear::AsymptoteOptions{}.certificate_limit; asymptote.certificate > limit)
+    evaluation.messages.push_back(
+        "wear_certificate is above " + shortest(limit) +
+        ": the unworn joint hardly wears itself, and the rate that is left counts as no wear.");
   responses["asymptotic_wear_volume_m3"] = asymptote.worn_volume;
   responses["asymptotic_wear_depth_max_m"] = asymptote.largest_depth;
 
-  const wear::Drift drift = wear::resonance_drift(joint.worn(asymptote.depth), *result.unworn, {});
+  // A joint that does not wear stays as it is.
+  const wear::Drift drift = asymptote.largest_depth == 0
+                                ? wear::Drift{.unworn = *result.unworn, .worn = *result.unworn}
+                                : wear::resonance_drift(joint.worn(asymptote.depth), *result.unworn, {});
   result.worn = drift.worn;
   evaluation.timings_s["worn_resonance"] = watch.lap();
   if (result.worn->status != Status::converged) return "worn_resonance: " + std::string(to_string(result.worn->status));

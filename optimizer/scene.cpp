@@ -163,6 +163,13 @@ std::vector<Violation> contradictions(const Scene& scene) {
   if (scene.loading.mode > scene.solver.modes)
     contradiction("scene.mode", scene.loading.mode,
                   "must be <= solver.modes = " + std::to_string(scene.solver.modes) + ", the modes kept");
+  const ContactProperties unset;
+  const auto of_energy = [&](const char* key, double value, double otherwise) {
+    if (scene.contact.wear_law != "energy" && value != otherwise)
+      contradiction(key, value, "has no meaning unless contact.wear_law = \"energy\"");
+  };
+  of_energy("contact.energy_threshold_j_per_m2", scene.contact.energy_threshold, unset.energy_threshold);
+  of_energy("contact.energy_wear_coefficient_m3_per_j", scene.contact.energy_coefficient, unset.energy_coefficient);
   if (scene.in_space())
     for (Violation& finer : geometry::contradictions(scene.solid_mesh, scene.mesh)) found.push_back(std::move(finer));
   return found;

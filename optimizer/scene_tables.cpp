@@ -23,6 +23,9 @@ std::span<const Field<fem::Material>> option_table<fem::Material>() {
   return table;
 }
 
+// Springs much stiffer than that are rigid, and lose the structure's own stiffness to rounding.
+constexpr Range kInterface{.lower = 0, .upper = 1e20};
+
 template <>
 std::span<const Field<optimizer::ContactProperties>> option_table<optimizer::ContactProperties>() {
   using C = optimizer::ContactProperties;
@@ -49,11 +52,11 @@ std::span<const Field<optimizer::ContactProperties>> option_table<optimizer::Con
                .help = "of the law energy: dissipated per cycle and area without wear"},
       Field<C>{.key = "normal_stiffness_n_per_m3",
                .member = &C::normal_stiffness,
-               .range = kNonNegative,
+               .range = kInterface,
                .help = "of rough flanks, in series with their contact; 0: rigid"},
       Field<C>{.key = "tangential_stiffness_n_per_m3",
                .member = &C::tangential_stiffness,
-               .range = kNonNegative,
+               .range = kInterface,
                .help = "the same along the flanks; 0: rigid"}};
   return table;
 }

@@ -18,6 +18,7 @@ constexpr std::array kDoubts{
     DoubtEntry{Doubt::reload, "reload", "a node worn off on the way did not need to be", true},
     DoubtEntry{Doubt::lift_off, "lift_off", "a worn node touched at times only", true},
     DoubtEntry{Doubt::worst_first, "worst_first", "releasing the fastest nodes first ends elsewhere", true},
+    DoubtEntry{Doubt::on_the_way, "on_the_way", "a node that does not wear slips on the way there", true},
     DoubtEntry{Doubt::near_slip, "near_slip", "a node that sticks has hardly any friction to spare", true},
     DoubtEntry{Doubt::always, "always", "asked for", true},
     DoubtEntry{Doubt::finer_settings, "finer_settings", "with more harmonics and samples it goes on wearing", true},

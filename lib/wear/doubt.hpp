@@ -15,6 +15,7 @@ enum class Doubt {
   reload,
   lift_off,
   worst_first,
+  on_the_way,
   near_slip,
   always,
   finer_settings,

@@ -88,7 +88,6 @@ class Loop {
       result_.steady.displacement = start_.past->steady.displacement;
       course_.memory = start_.past->memory;
     }
-    if (control_.stopped()) return ended(HistoryEnd::interrupted, Status::interrupted);
     if (const Status status = begin(); status != Status::converged) return ended(end_of(status), status);
     // A resumed one may be following its tail.
     if (largest(course_.point.rate) <= (resumed() ? 0.0 : worn_out_)) return ended(HistoryEnd::worn_out);

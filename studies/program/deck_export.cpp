@@ -14,13 +14,17 @@ void export_deck(const optimizer::Scene& scene, const DeckOptions& options, cons
                        : geometry::mesh_sector(scene.geometry, scene.mesh);
   if (mesh.quality.inverted_elements > 0)
     throw InputError({.file = {}, .key = "geometry", .value = {}, .allowed = "cannot be meshed: " + mesh.note});
-  geometry::write_inp(file, mesh.sector, optimizer::materials(scene),
-                      {.joint = options.contact ? geometry::FlankJoint::contact : geometry::FlankJoint::glued,
-                       .friction = scene.contact.friction,
-                       .speed = scene.loading.speed,
-                       .nodal_diameters = options.nodal_diameters.empty() ? std::vector{scene.loading.nodal_diameter}
-                                                                          : options.nodal_diameters,
-                       .modes = options.modes});
+  geometry::InpOptions deck{.joint = options.contact ? geometry::FlankJoint::contact : geometry::FlankJoint::glued,
+                            .friction = scene.contact.friction,
+                            .speed = scene.loading.speed,
+                            .nodal_diameters = options.nodal_diameters.empty()
+                                                   ? std::vector{scene.loading.nodal_diameter}
+                                                   : options.nodal_diameters,
+                            .modes = options.modes};
+  // Rough flanks give way as the pairs of a deck do; rigid ones take the deck's own, stiff enough.
+  if (scene.contact.normal_stiffness > 0) deck.contact_stiffness = scene.contact.normal_stiffness;
+  if (scene.contact.tangential_stiffness > 0) deck.stick_stiffness = scene.contact.tangential_stiffness;
+  geometry::write_inp(file, mesh.sector, optimizer::materials(scene), deck);
 }
 
 }  // namespace dovetail::studies

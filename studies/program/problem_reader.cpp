@@ -102,6 +102,11 @@ void start_from_value(DesignVariable& variable, bool overridden, const Node& nod
                          " and upper = " + shortest(variable.upper) + ", or give the variable a start");
 }
 
+/// Whether a key belongs to the wear law that the study does not use.
+bool of_another_law(const std::string& key, const std::string& law) {
+  return law == "energy" ? key == "contact.wear_coefficient_per_pa" : key.starts_with("contact.energy_");
+}
+
 std::vector<DesignVariable> read_variables(SectionReader& root, const optimizer::Scene& scene, Problems& problems) {
   std::vector<DesignVariable> variables;
   for (const auto& [node, path] : entries(root, "variable", problems)) {
@@ -115,6 +120,9 @@ std::vector<DesignVariable> read_variables(SectionReader& root, const optimizer:
     const std::optional<double> start = section.number("start", range);
     section.finish();
     if (!parameter) continue;
+    if (of_another_law(*key, scene.contact.wear_law))
+      problems.add(*node->find("key"), section.path("key"),
+                   "changes nothing with contact.wear_law = \"" + scene.contact.wear_law + "\"");
     for (const DesignVariable& other : variables)
       if (overlap(other.key, *key))
         problems.add(*node->find("key"), section.path("key"),

@@ -76,6 +76,10 @@ TEST(InputDeck, SetsTheBladeBackByTheGapWhenItsFlanksAreInContact) {
   const std::map<int, Eigen::Vector3d> glued = nodes_of(inp(sector, kMaterials));
   const std::string deck = inp(sector, kMaterials, {.joint = FlankJoint::contact, .friction = 0.4});
   EXPECT_THAT(deck, HasSubstr("*FRICTION\n0.4,"));
+  const std::string rough =
+      inp(sector, kMaterials, {.joint = FlankJoint::contact, .contact_stiffness = 2e13, .stick_stiffness = 1e13});
+  EXPECT_THAT(rough, HasSubstr("PRESSURE-OVERCLOSURE=LINEAR\n20000\n"));
+  EXPECT_THAT(rough, HasSubstr(",10000\n"));
   EXPECT_THAT(deck, Not(HasSubstr("*STATIC")));
   const std::map<int, Eigen::Vector3d> open = nodes_of(deck);
   const fem::Flank& flank = sector.flanks.front();

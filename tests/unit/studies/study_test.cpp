@@ -110,13 +110,21 @@ TEST(Study, EveryNumberKeepsItsRange) {
     if (place.parameter.kind == optimizer::Parameter::Kind::text) continue;
     for (const double bound : {range.lower, range.upper}) {
       if (!std::isfinite(bound)) continue;
-      const double step = bound == range.lower ? -1 : 1;
+      const double step = (bound == range.lower ? -1 : 1) * std::max(1.0, 1e-6 * std::abs(bound));
       std::string value = shortest(bound + step);
       if (!whole && value.find_first_of(".e") == std::string::npos) value += ".0";
       EXPECT_THAT(complaints(with_line(place, place.leaf + " = " + value)), HasSubstr(": " + range.phrase()))
           << place.parameter.key << " = " << value;
     }
   }
+}
+
+TEST(Study, AThresholdNeedsTheLawThatHasOne) {
+  const std::string threshold = replaced(sample(), "energy_threshold_j_per_m2 = 0", "energy_threshold_j_per_m2 = 3");
+  EXPECT_THAT(complaints(threshold),
+              HasSubstr("contact.energy_threshold_j_per_m2 = 3: has no meaning unless contact.wear_law = \"energy\""));
+  EXPECT_EQ(read(replaced(threshold, "wear_law = \"archard\"", "wear_law = \"energy\"")).scene.contact.energy_threshold,
+            3);
 }
 
 TEST(Study, WholeNumbersRefuseFractions) {
@@ -221,6 +229,8 @@ TEST(Study, VariablesAreChecked) {
   EXPECT_THAT(variable("key = \"geometry.sectors\"\nlower = 40\nupper = 50\n"), HasSubstr("it is not a real number"));
   EXPECT_THAT(variable("key = \"material.blade.density_kg_m3\"\nlower = 4000\nupper = 5000\n"),
               HasSubstr("unless material.disk.density_kg_m3 is given"));
+  EXPECT_THAT(variable("key = \"contact.energy_threshold_j_per_m2\"\nlower = 0\nupper = 5\n"),
+              HasSubstr("changes nothing with contact.wear_law = \"archard\""));
   EXPECT_THAT(variable("lower = nan\n"), HasSubstr("variable[3].key: is missing"));
   EXPECT_THAT(variable("key = 3\nlower = 4\nupper = 5\nunit = \"mm\"\n"), HasSubstr("variable[3].unit"));
 }

@@ -276,7 +276,7 @@ TEST(SectionEvaluation, NodesOfAConfirmingHistoryAreInTheBar) {
   scene.loading.speed = 11668.783379 * std::numbers::pi / 30;
   const CandidateResult settled = evaluator().evaluate(scene);
   ASSERT_TRUE(settled.evaluation.converged()) << settled.evaluation.status;
-  ASSERT_EQ(settled.asymptote->doubt, "lift_off");
+  ASSERT_EQ(settled.asymptote->doubt, wear::Doubt::lift_off);
   ASSERT_TRUE(settled.asymptote->confirmed_by_history);
   ASSERT_EQ(settled.asymptote->decided_by, wear::FoundBy::release);
   const char* name = "asymptotic_wear_volume_m3";

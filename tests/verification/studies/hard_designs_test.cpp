@@ -122,6 +122,77 @@ TEST(HardDesigns, AHistoryThatEndsElsewhereWithMoreHarmonicsTooDecides) {
   EXPECT_NEAR(result.asymptote->other_states[1].worn_volume, 3.7e-11, 0.1e-11);  // with more harmonics and samples
 }
 
+// With flanks this rough worn nodes unload their neighbours little by little, and the one next to the zone slips on the
+// way, though neither before nor after: histories, explicit and implicit ones, end with 1.148e-9 m^3.
+TEST(HardDesigns, ANodeThatSlipsOnTheWayAsksTheHistory) {
+  const optimizer::CandidateResult result = evaluated({{"contact.normal_stiffness_n_per_m3", 3e13}}, false);
+  ASSERT_TRUE(result.evaluation.converged()) << result.evaluation.status;
+  EXPECT_EQ(result.asymptote->doubt, wear::Doubt::on_the_way);
+  EXPECT_EQ(result.asymptote->decided_by, wear::FoundBy::history);
+  EXPECT_NEAR(result.asymptote->worn_volume, 1.148e-9, 0.03e-9);
+  ASSERT_FALSE(result.asymptote->other_states.empty());
+  EXPECT_NEAR(result.asymptote->other_states[0].worn_volume, 0.753e-9, 0.01e-9);  // direct
+}
+
+// The history ends with a fifth of the direct volume; on 64 edges with 11 harmonics and 256 samples the worn amplitude
+// is 7.5533 mm, nearer to that of the direct state.
+TEST(HardDesigns, TheBarOfTheWornAmplitudeReachesToTheOtherState) {
+  const optimizer::Evaluation evaluation =
+      evaluated({{"contact.tangential_stiffness_n_per_m3", 3e13}}, true).evaluation;
+  ASSERT_TRUE(evaluation.converged()) << evaluation.status;
+  EXPECT_EQ(evaluation.model.at("wear_decided_by_history"), 1);
+  EXPECT_NEAR(evaluation.responses.at("worn_peak_amplitude_m"), 7.5533e-3,
+              evaluation.error_estimates.at("worn_peak_amplitude_m"));
+  EXPECT_GT(evaluation.error_sources.at("worn_peak_amplitude_m").at("history"), 5e-6);
+}
+
+// On 64 edges with 11 harmonics and 256 samples 3.07e-12 m^3. The direct method, which knows of no rest in slip, says
+// 7.1e-11: that is no bar.
+TEST(HardDesigns, TheDirectStateIsNoBarUnderAnEnergyThreshold) {
+  optimizer::Scene scene = load_study(QUICKSTART, {}).scene;
+  scene.contact.wear_law = "energy";
+  scene.contact.energy_threshold = 100;
+  const optimizer::Evaluation evaluation = optimizer::SceneEvaluator(scene).evaluate(scene, {.bars = true}).evaluation;
+  ASSERT_TRUE(evaluation.converged()) << evaluation.status;
+  const double volume = evaluation.responses.at("asymptotic_wear_volume_m3");
+  const double bar = evaluation.error_estimates.at("asymptotic_wear_volume_m3");
+  EXPECT_NEAR(volume, 3.068e-12, bar);
+  EXPECT_LT(bar, volume);
+}
+
+// Without friction nothing dissipates, and a joint that does not wear keeps its resonance.
+TEST(HardDesigns, AJointThatDoesNotWearStaysAsItIs) {
+  optimizer::Scene scene = load_study(QUICKSTART, {}).scene;
+  scene.contact.wear_law = "energy";
+  scene.contact.friction = 0;
+  const optimizer::Evaluation evaluation = optimizer::SceneEvaluator(scene).evaluate(scene, {.bars = false}).evaluation;
+  ASSERT_TRUE(evaluation.converged()) << evaluation.status;
+  EXPECT_EQ(evaluation.responses.at("asymptotic_wear_volume_m3"), 0);
+  EXPECT_EQ(evaluation.responses.at("worn_peak_amplitude_m"), evaluation.responses.at("peak_amplitude_m"));
+  EXPECT_EQ(evaluation.responses.at("resonance_drift"), 0);
+}
+
+// Hardly worn at all: what is left is more than 1 % of the unworn rate, and less than what counts as wear.
+TEST(HardDesigns, ACertificateAboveItsLimitSaysWhy) {
+  const optimizer::Evaluation evaluation = evaluated({{"geometry.flank_mismatch_um", 11.711049},
+                                                      {"geometry.flank_crown_um", 4.723039},
+                                                      {"geometry.flank_angle_deg", 53.377011},
+                                                      {"geometry.flank_length_mm", 5.355192},
+                                                      {"geometry.neck_width_mm", 8.986796},
+                                                      {"geometry.neck_fillet_radius_mm", 2.268876},
+                                                      {"contact.friction", 0.635521},
+                                                      {"loading.tip_force_n", 1.27516},
+                                                      {"loading.damping_ratio", 0.002916},
+                                                      {"scene.speed_rpm", 8504.025471}},
+                                                     false)
+                                               .evaluation;
+  ASSERT_TRUE(evaluation.converged()) << evaluation.status;
+  const auto says_so = ::testing::Contains(::testing::HasSubstr("counts as no wear"));
+  if (evaluation.model.at("wear_certificate") > 0.01) {
+    EXPECT_THAT(evaluation.messages, says_so);
+  }
+}
+
 // Every loaded node slips, and the history wears ten thousand cubic millimetres without an answer, or until its rates
 // have levelled out: which of the two hangs on roundings.
 TEST(HardDesigns, AHistoryThatWearsTheJointAwayIsNoAnswer) {
@@ -164,8 +235,8 @@ TEST(HardDesigns, ADoubtIsKeptWhereTheResonanceIsFollowed) {
   scene.loading.follow = "resonance";
   const optimizer::CandidateResult followed = evaluator.evaluate(scene, {.bars = false});
   ASSERT_TRUE(held.evaluation.converged() && followed.evaluation.converged()) << followed.evaluation.status;
-  ASSERT_FALSE(held.asymptote->doubt.empty());
-  EXPECT_FALSE(followed.asymptote->doubt.empty());
+  ASSERT_NE(held.asymptote->doubt, wear::Doubt::none);
+  EXPECT_NE(followed.asymptote->doubt, wear::Doubt::none);
   EXPECT_TRUE(followed.asymptote->confirmed_by_history);
   EXPECT_LE(followed.asymptote->bearing.share, held.asymptote->bearing.share);
 }

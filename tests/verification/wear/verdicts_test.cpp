@@ -51,7 +51,7 @@ TEST_P(Verdicts, AreThoseOfTheHistory) {
   RecordProperty("arbitration_jacobians", worn.arbitration_jacobians);
   EXPECT_EQ(worn.status, Status::converged) << dovetail::to_string(worn.status);
   const bool elsewhere = std::any_of(worn.other_states.begin(), worn.other_states.end(),
-                                     [](const OtherState& state) { return state.found_by == "release"; });
+                                     [](const OtherState& state) { return state.found_by == FoundBy::release; });
   if (label == Label::goes_on) {
     EXPECT_EQ(worn.verdict, Verdict::no_asymptote) << to_string(worn.doubt);
     EXPECT_TRUE(worn.confirmed_by_history);
