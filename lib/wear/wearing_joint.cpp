@@ -14,8 +14,8 @@ WearingJoint::WearingJoint(const steady::Joint& joint, double omega, const Contr
   if (start().size() == 0) joint_.condition.wear_depth = VectorXd::Zero(model().nodes());
 }
 
-void WearingJoint::follow(paths::ResonanceOptions resonance) {
-  resonance_ = std::move(resonance);
+void WearingJoint::follow(const paths::ResonanceOptions& resonance) {
+  resonance_ = resonance;
   resonance_->sweep_range = 0;  // the peak is followed: one found elsewhere would not be the same
 }
 

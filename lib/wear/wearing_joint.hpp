@@ -18,7 +18,7 @@ class WearingJoint {
   WearingJoint(const steady::Joint& joint, double omega, const Control& control);
 
   /// Excites at the resonance of the joint as worn from now on instead of holding omega.
-  void follow(paths::ResonanceOptions resonance);
+  void follow(const paths::ResonanceOptions& resonance);
 
   /// State worn to W [Nc], contact everywhere.
   [[nodiscard]] steady::State worn(const Eigen::VectorXd& depth, const Eigen::MatrixXd& guess);
