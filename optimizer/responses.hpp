@@ -22,7 +22,8 @@ struct ResponseName {
 /// The entry of that name, or nullptr.
 [[nodiscard]] const ResponseName* find_response(std::string_view name);
 
-/// Responses that grow without limit as the scene's mesh becomes finer: the peak of pressure at sharp ends of flanks.
+/// Responses that grow without limit as the scene's mesh becomes finer: the peak of pressure at sharp ends of flanks
+/// that are not rough. In space, where no bar is known for rough ones, theirs as well.
 [[nodiscard]] std::vector<std::string> responses_without_limit(const Scene& scene);
 
 }  // namespace dovetail::optimizer

@@ -171,7 +171,7 @@ std::vector<std::string> warnings(const Study& study) {
   const auto leans_on = [&](const std::string& name, const char* what) {
     if (name == "contact_pressure_max_pa" && optimizer::responses_without_limit(study.scene).empty())
       result.push_back(what + (" of " + name) +
-                       ": the pressure at rounded ends of the flanks changes by a fifth from mesh to mesh until "
+                       ": the pressure at the ends of the flanks changes by a fifth from mesh to mesh until "
                        "mesh.flank_elements resolves it: look at its error bar, or take contact_pressure_mean_pa.");
     for (const std::string& without : optimizer::responses_without_limit(study.scene))
       if (name == without)

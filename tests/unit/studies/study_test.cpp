@@ -69,6 +69,12 @@ TEST(Study, WarnsOfAResponseWithoutLimit) {
   // A limit that only a fine mesh sees.
   ASSERT_EQ(warnings(rounded).size(), 1U);
   EXPECT_THAT(warnings(rounded).front(), testing::HasSubstr("look at its error bar"));
+  Study rough = read(sample() + limit);
+  rough.scene.contact.normal_stiffness = 1e14;
+  ASSERT_EQ(warnings(rough).size(), 1U);
+  EXPECT_THAT(warnings(rough).front(), testing::HasSubstr("look at its error bar"));
+  rough.scene.type = "sector";
+  EXPECT_THAT(warnings(rough).front(), testing::HasSubstr("without limit"));
 }
 
 TEST(Study, EveryRequiredKeyIsMissedByName) {

@@ -252,13 +252,19 @@ TEST(HardDesigns, APeakThatTheMeshDoesNotResolveHasNoBar) {
   }
 }
 
-// 160 edges say 157.7 and 473.9 MPa. In the second, on hollow flanks, a mesh 1.5 times as fine and nodes 1.5 times as
-// long agree to half the error: what the node is long beside the rounding tells.
+// 160 edges say 157.7, 473.9 and 243.6 MPa. In the second, on hollow flanks, a mesh 1.5 times as fine and nodes 1.5
+// times as long agree to half the error: what the node is long beside the rounding tells. In the third the flanks are
+// rough.
 TEST(HardDesigns, APeakThatTheMeshResolvesHasABarThatHolds) {
   using Changes = std::vector<std::pair<std::string, double>>;
   for (const auto& [peak, changes] : {std::pair{157.7e6, Changes{{"geometry.flank_edge_radius_mm", 100}}},
                                       {473.9e6,
                                        {{"geometry.flank_edge_radius_mm", 8},
+                                        {"geometry.flank_mismatch_um", 20},
+                                        {"geometry.flank_crown_um", -2.5},
+                                        {"geometry.flank_angle_deg", 47}}},
+                                      {243.6e6,
+                                       {{"contact.normal_stiffness_n_per_m3", 5e13},
                                         {"geometry.flank_mismatch_um", 20},
                                         {"geometry.flank_crown_um", -2.5},
                                         {"geometry.flank_angle_deg", 47}}}}) {
