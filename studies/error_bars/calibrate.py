@@ -54,6 +54,11 @@ SECTION = {
         "solver.max_jacobians": 5000,  # ten times the usual budget
     },
 }
+# Rough flanks: how stiff their asperities are spreads evenly over powers of ten; along the flank they yield more.
+ROUGH = {
+    "contact.normal_stiffness_n_per_m3": (13, 15.3),  # powers of ten
+    "contact.tangential_stiffness_n_per_m3": (0.4, 1),  # of the normal one
+}
 SPACE = {
     "study": STUDIES / "bladed_disk_2009/study.toml",
     "box": {
@@ -86,6 +91,20 @@ def ranges(scene):
     return {v["key"]: (v["lower"], v["upper"]) for v in variables} | scene["box"]
 
 
+def columns(scene):
+    return [*ranges(scene), *scene.get("rough", ())]
+
+
+def asperities(rough, index):
+    """The stiffness of rough flanks, drawn apart from the rest: the designs are the same as without it."""
+    if not rough:
+        return {}
+    generator = random.Random(f"rough {index}")
+    (normal_key, (low, high)), (tangential_key, shares) = rough.items()
+    normal = float(f"{10 ** generator.uniform(low, high):.4g}")
+    return {normal_key: normal, tangential_key: float(f"{normal * generator.uniform(*shares):.4g}")}
+
+
 def evaluate(program, study, settings, extra=(), limit_s=None):
     command = [program, "evaluate", str(study), "--json", "-", *extra]
     for key, value in settings.items():
@@ -102,6 +121,7 @@ def draw(program, scene, seed, index):
     generator = random.Random(f"{seed} {index}")
     while True:
         settings = {key: round(generator.uniform(*bounds), 6) for key, bounds in ranges(scene).items()}
+        settings |= asperities(scene.get("rough"), index)
         usual = evaluate(program, scene["study"], settings, ["--no-bars"])
         if usual["status"] != "infeasible":
             return settings, usual
@@ -124,7 +144,7 @@ class Truths:
 
     def __init__(self, path, scene):
         self.path, self.lock, self.rows = path, threading.Lock(), {}
-        self.columns = ["seed", "design", "status", "seconds", *ranges(scene), *RESPONSES]
+        self.columns = ["seed", "design", "status", "seconds", *columns(scene), *RESPONSES]
         if path.exists():
             with path.open(encoding="utf-8", newline="") as file:
                 for row in csv.DictReader(file):
@@ -152,7 +172,7 @@ def design(program, scene, truths, seed, index, judge):
         if usual["status"] == "converged":
             found = true_values(program, scene, settings)
         truth = truths.add(seed, index, found)
-    settings = {key: float(truth[key]) for key in ranges(scene)}
+    settings = {key: float(truth[key]) for key in columns(scene)}
     if not judge:
         return {"design": index, "status": "not asked", "fine_status": truth["status"], "seconds": 0}
     usual = evaluate(program, scene["study"], settings | scene.get("judged", {}))
@@ -224,6 +244,7 @@ def main():
     parser.add_argument("--seed", type=int, default=3, help="which have been looked at while the bars were built: see README.md")
     parser.add_argument("--space", action="store_true")
     parser.add_argument("--unworn", action="store_true", help="only responses of the unworn joint")
+    parser.add_argument("--rough", action="store_true", help="the same designs with rough flanks")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE",
                         help="judge the bars at other settings than the study's, e.g. mesh.flank_elements=48")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
@@ -237,6 +258,8 @@ def main():
             sys.exit("calibrate.py: the program is missing: build/dovetail")
         scene, done = SPACE if given.space else SECTION, {row["design"] for row in rows}
         file = "space.csv" if given.space else "section.csv"
+        if given.rough:
+            scene, file = scene | {"rough": ROUGH}, "rough_" + file
         if given.unworn:
             scene, file = scene | {"extra": ["--unworn"]}, "unworn_" + file
         scene = scene | {"judged": dict(pair.split("=", 1) for pair in given.set)}
