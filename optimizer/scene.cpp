@@ -170,6 +170,13 @@ std::vector<Violation> contradictions(const Scene& scene) {
   };
   of_energy("contact.energy_threshold_j_per_m2", scene.contact.energy_threshold, unset.energy_threshold);
   of_energy("contact.energy_wear_coefficient_m3_per_j", scene.contact.energy_coefficient, unset.energy_coefficient);
+  // Their asperities would give way by a tenth of a metre under 100 MPa.
+  constexpr double kSoftest = 1e9;
+  for (const auto& [key, stiffness] :
+       {std::pair{"contact.normal_stiffness_n_per_m3", scene.contact.normal_stiffness},
+        std::pair{"contact.tangential_stiffness_n_per_m3", scene.contact.tangential_stiffness}})
+    if (stiffness > 0 && stiffness < kSoftest)
+      contradiction(key, stiffness, "must be 0 (rigid) or >= " + shortest(kSoftest));
   if (scene.in_space())
     for (Violation& finer : geometry::contradictions(scene.solid_mesh, scene.mesh)) found.push_back(std::move(finer));
   return found;

@@ -60,6 +60,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 std::string nearest(std::string_view word, std::span<const std::string> candidates) {
   std::string best;
   std::size_t smallest = std::max<std::size_t>(2, word.size() / 2);
+  for (const std::string& candidate : candidates)
+    if (!word.empty() && candidate.starts_with(std::string(word) + "_")) return candidate;  // its unit is missing
   for (const std::string& candidate : candidates) {
     const std::size_t distance = edit_distance(word, candidate);
     if (distance <= smallest && (best.empty() || distance < smallest)) {

@@ -198,6 +198,7 @@ class WornStateSearch {
   }
 
   /// Worn nodes unload the others little by little: one that sticks before and after may slip, and wear, in between.
+  /// Where that cannot be seen the doubt stays.
   [[nodiscard]] bool slips_on_the_way() {
     // Of the fastest rate there. Dovetails and labelled scenes whose histories end in the direct state have less than
     // 7e-4 of it, those whose histories took a node more (rough flanks, 1e13 to 1e14 N/m^3) 0.06 to 0.66.
@@ -206,7 +207,7 @@ class WornStateSearch {
     steady::State state = result_.unworn;
     for (const double share : {0.5, 0.75}) {
       state = wearing_.worn(start + share * (result_.depth - start), state.displacement);
-      if (state.status != Status::converged) return false;
+      if (state.status != Status::converged) return true;
       for (std::size_t i = 0; i < passes_.released.size(); ++i)
         if (!passes_.released[i] && state.nodes[i].wear_rate > kSlips * state.wear_rate.maxCoeff()) return true;
     }

@@ -20,7 +20,6 @@ namespace dovetail::wear {
 
 /// What a node has left of its friction: the margin of one that sticks (friction_margin), minus the excess of one that
 /// slips (slip_excess), both in units of mu lambda_N and zero at the edge between the two; NaN of one without load.
-/// Only nodes next to one that is slipping are looked at: NaN elsewhere, too.
 [[nodiscard]] Eigen::VectorXd friction_reserve(const dynamics::CondensedModel& model, const steady::State& state,
                                                const std::vector<bool>& slips);
 

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <span>
 #include <vector>
+
 namespace dovetail::wear {
 
 /// What the passes of release saw on their way, for finding where between two nodes a worn zone ends.

@@ -47,10 +47,11 @@ void validate(const WearOptions& options) {
   if (options.method != "history") {
     if (options.cycles || options.steps || options.increment_m || options.history_tolerance)
       bad("--cycles, --steps, --increment, --history-tolerance", "", "only have a meaning with --method history");
-    if (options.integrator != "explicit" || !options.resume.empty() || options.curves > 0)
+    if (options.integrator == "implicit" || !options.resume.empty() || options.curves > 0)
       bad("--integrator, --resume, --curves", "", "only have a meaning with --method history");
   }
   if (options.integrator == "implicit") {
+    if (options.history_tolerance == 0.0) bad("--history-tolerance", "0", "must be > 0 with --integrator implicit");
     if (options.follow == "resonance") bad("--follow", options.follow, "needs --integrator explicit");
     if (options.increment_m)
       bad("--increment", "", "has no meaning with --integrator implicit: see --history-tolerance");
@@ -209,9 +210,14 @@ int verdict(const std::string& input, const WearAnswer& answer, bool interrupted
   return kNotConverged;
 }
 
-/// The choice of the command line, or else of the study.
-WearOptions with_follow(WearOptions options, const LoadedModel& loaded) {
+/// The choices of the command line, or else of the study and what its law asks for: under a threshold nodes come to
+/// rest in slip, and increments of depth end well beyond that.
+WearOptions with_choices(WearOptions options, const LoadedModel& loaded) {
   if (options.follow.empty()) options.follow = loaded.follow;
+  if (!options.integrator.empty()) return options;
+  const Eigen::VectorXd& threshold = loaded.model.contact.wear_threshold;
+  const bool rests_in_slip = threshold.size() > 0 && threshold.maxCoeff() > 0;
+  options.integrator = rests_in_slip && options.follow != "resonance" && !options.increment_m ? "implicit" : "explicit";
   return options;
 }
 
@@ -231,7 +237,7 @@ int run_wear(const WearOptions& given, const Streams& streams) {
   validate(given);
   check_accuracy(given.solver);
   LoadedModel loaded = load_model(given.input, given.overrides, given.solver);
-  const WearOptions options = with_follow(given, loaded);
+  const WearOptions options = with_choices(given, loaded);
   const auto failed = [&](const std::string& why) {
     streams.err << "dovetail: " << options.input << ": " << why << "\n";
     return static_cast<int>(kNotConverged);

@@ -114,9 +114,9 @@ struct WearOptions {
   std::optional<int> steps;           ///< history
   std::optional<double> increment_m;  ///< history; absent: a hundredth of the depth that release comes to
   std::optional<double> history_tolerance;
-  std::string integrator = "explicit";  ///< of a history: explicit | implicit
-  std::string resume;                   ///< JSON of the history to go on with, or empty
-  int curves = 0, curve_points = 60;    ///< response curves along a history
+  std::string integrator;             ///< of a history: explicit | implicit; empty: as the wear law asks for
+  std::string resume;                 ///< JSON of the history to go on with, or empty
+  int curves = 0, curve_points = 60;  ///< response curves along a history
   std::optional<double> curve_from_hz, curve_to_hz;
   bool error_bars = false;
   bool spread = false;

@@ -126,7 +126,7 @@ void define_model_commands(CLI::App& app, Arguments& a) {
       ->type_name("M");
   wear->add_option("--integrator", a.wear.integrator,
                    "history: explicit, by increments of depth; or implicit, in large steps of controlled error "
-                   "(default: explicit)")
+                   "(default: explicit; under an energy threshold implicit)")
       ->type_name("WHICH")
       ->check(CLI::IsMember({"explicit", "implicit"}));
   wear->add_option("--history-tolerance", a.wear.history_tolerance,

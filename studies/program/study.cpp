@@ -123,6 +123,11 @@ void report_contradictions(const Document& document, const optimizer::Scene& sce
     else
       problems.missing(section, found.key, "= " + found.value + " by default " + found.allowed);
   }
+  // A file may keep the coefficient of the law it does not use; who gives one on the command line expects it to count.
+  constexpr const char* kOfArchard = "contact.wear_coefficient_per_pa";
+  const Node* coefficient = document.root.at(kOfArchard);
+  if (scene.contact.wear_law == "energy" && coefficient && !coefficient->origin.empty())
+    problems.add(*coefficient, kOfArchard, "changes nothing with contact.wear_law = \"energy\"");
 }
 
 }  // namespace
@@ -175,9 +180,12 @@ std::vector<std::string> warnings(const Study& study) {
                        "mesh.flank_elements resolves it: look at its error bar, or take contact_pressure_mean_pa.");
     for (const std::string& without : optimizer::responses_without_limit(study.scene))
       if (name == without)
-        result.push_back(what + (" of " + name) +
-                         ": at sharp ends of the flanks it grows without limit as the mesh becomes finer; give "
-                         "geometry.flank_edge_radius_mm or take contact_pressure_mean_pa.");
+        result.push_back(
+            what + (" of " + name) +
+            (study.scene.contact.normal_stiffness > 0
+                 ? ": at sharp ends of rough flanks in space it has no error bar; give "
+                 : ": at sharp ends of the flanks it grows without limit as the mesh becomes finer; give ") +
+            "geometry.flank_edge_radius_mm or take contact_pressure_mean_pa.");
   };
   for (const optimizer::ObjectiveTerm& term : study.problem.objective) leans_on(term.response, "an objective");
   for (const optimizer::ResponseConstraint& limit : study.problem.constraints) leans_on(limit.response, "a limit");

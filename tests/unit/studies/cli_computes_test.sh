@@ -91,6 +91,15 @@ for other, tolerance in (rest, 1e-6), (implicit, 1e-3):  # residuals of steady s
 END
 fi
 expect 2 wear m.h5 --method history --resume s.toml --json -
+expect 2 wear m.h5 --method history --integrator implicit --history-tolerance 0 --json -
+# Under a threshold nodes come to rest in slip: the history takes implicit steps unless it is told otherwise.
+energy="--set contact.wear_law=energy --set contact.energy_threshold_j_per_m2=1"
+# shellcheck disable=SC2086
+{
+  expect 0 wear s.toml $energy --method history --json -; is_json
+  grep -q '"integrator": "implicit"' out || fail "a history under a threshold takes increments of depth"
+  expect 2 check s.toml $energy --set contact.wear_coefficient_per_pa=5e-13
+}
 expect 2 wear m.h5 --method asymptote --integrator implicit --json -
 expect 0 wear m.h5 --method asymptote --json -
 grep -q '"holds": true' out || fail "the certificate is not checked at finer settings"

@@ -159,6 +159,18 @@ TEST(Study, UnknownSectionsAndKeysElsewhereAreNamed) {
               HasSubstr("contacts = {...}: unknown section; did you mean contact?"));
   EXPECT_THAT(complaints(replaced(sample(), "\n[contact]\n", "\n[contact]\ntip_force_n = 3\n")),
               HasSubstr("contact.tip_force_n = 3: unknown key; did you mean loading.tip_force_n?"));
+  EXPECT_THAT(complaints(replaced(sample(), "\n[contact]\n", "\n[contact]\nnormal_stiffness = 1e13\n")),
+              HasSubstr("unknown key; did you mean contact.normal_stiffness_n_per_m3?"));
+}
+
+TEST(Study, AsperitiesAreStiffOrRigid) {
+  const auto told = [](const char* stiffness) {
+    return complaints(
+        replaced(sample(), "normal_stiffness_n_per_m3 = 0", std::string("normal_stiffness_n_per_m3 = ") + stiffness));
+  };
+  EXPECT_EQ(told("1e9"), "");
+  EXPECT_EQ(told("0"), "");
+  EXPECT_THAT(told("1e8"), HasSubstr("contact.normal_stiffness_n_per_m3 = 1e+08: must be 0 (rigid) or >= 1e+09"));
 }
 
 TEST(Study, SectionsThatAreNoneAreRefused) {

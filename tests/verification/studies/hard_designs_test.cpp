@@ -174,23 +174,20 @@ TEST(HardDesigns, AJointThatDoesNotWearStaysAsItIs) {
 
 // Hardly worn at all: what is left is more than 1 % of the unworn rate, and less than what counts as wear.
 TEST(HardDesigns, ACertificateAboveItsLimitSaysWhy) {
-  const optimizer::Evaluation evaluation = evaluated({{"geometry.flank_mismatch_um", 11.711049},
-                                                      {"geometry.flank_crown_um", 4.723039},
-                                                      {"geometry.flank_angle_deg", 53.377011},
-                                                      {"geometry.flank_length_mm", 5.355192},
-                                                      {"geometry.neck_width_mm", 8.986796},
-                                                      {"geometry.neck_fillet_radius_mm", 2.268876},
-                                                      {"contact.friction", 0.635521},
-                                                      {"loading.tip_force_n", 1.27516},
-                                                      {"loading.damping_ratio", 0.002916},
-                                                      {"scene.speed_rpm", 8504.025471}},
-                                                     false)
+  const optimizer::Evaluation evaluation = evaluated_in_study({{"geometry.flank_mismatch_um", 11.711049},
+                                                               {"geometry.flank_crown_um", 4.723039},
+                                                               {"geometry.flank_angle_deg", 53.377011},
+                                                               {"geometry.flank_length_mm", 5.355192},
+                                                               {"geometry.neck_width_mm", 8.986796},
+                                                               {"geometry.neck_fillet_radius_mm", 2.268876},
+                                                               {"contact.friction", 0.635521},
+                                                               {"loading.tip_force_n", 1.27516},
+                                                               {"loading.damping_ratio", 0.002916},
+                                                               {"scene.speed_rpm", 8504.025471}})
                                                .evaluation;
   ASSERT_TRUE(evaluation.converged()) << evaluation.status;
-  const auto says_so = ::testing::Contains(::testing::HasSubstr("counts as no wear"));
-  if (evaluation.model.at("wear_certificate") > 0.01) {
-    EXPECT_THAT(evaluation.messages, says_so);
-  }
+  ASSERT_GT(evaluation.model.at("wear_certificate"), 0.01);
+  EXPECT_THAT(evaluation.messages, ::testing::Contains(::testing::HasSubstr("counts as no wear")));
 }
 
 // Every loaded node slips, and the history wears ten thousand cubic millimetres without an answer, or until its rates
@@ -249,6 +246,48 @@ TEST(HardDesigns, APeakThatTheMeshDoesNotResolveHasNoBar) {
     ASSERT_TRUE(evaluation.converged()) << evaluation.status;
     EXPECT_EQ(evaluation.unbounded, std::vector<std::string>{"contact_pressure_max_pa"}) << radius;
     EXPECT_FALSE(evaluation.error_estimates.contains("contact_pressure_max_pa")) << radius;
+  }
+}
+
+// Rough flanks with a relief: 24 edges say 169.6 MPa with a bar of 79.2 MPa if what meshes and nodes say of it were
+// enough, 96 edges 262 and 160 edges 258.
+TEST(HardDesigns, APeakAtAReliefOfRoughFlanksHasNoBar) {
+  const optimizer::Evaluation evaluation = evaluated({{"contact.normal_stiffness_n_per_m3", 1e15},
+                                                      {"geometry.relief_length_mm", 1},
+                                                      {"geometry.relief_depth_um", 30},
+                                                      {"loading.tip_force_n", 0.2},
+                                                      {"loading.damping_ratio", 0.003}},
+                                                     true)
+                                               .evaluation;
+  ASSERT_TRUE(evaluation.converged()) << evaluation.status;
+  EXPECT_EQ(evaluation.unbounded, std::vector<std::string>{"contact_pressure_max_pa"});
+}
+
+// Joints without wear, whose ends begin to slip in zones of which only 96 edges see something: how much wears there is
+// known by its bar, how deep, and what it does to the resonance. On rough flanks it wears as deep as the pressure has
+// compressed their asperities.
+TEST(HardDesigns, WhatIsTooNarrowToBeSeenIsInTheBarsOfAJointWithoutWear) {
+  struct Case {
+    std::vector<std::pair<std::string, double>> changes;
+    double volume, depth, drift;  // on 96 edges
+  };
+  for (const auto& [changes, volume, depth, drift] :
+       {Case{{{"loading.tip_force_n", 0.37}}, 3.2118e-14, 7.694e-8, -1.0133e-5},
+        Case{{{"loading.tip_force_n", 1.285},
+              {"contact.normal_stiffness_n_per_m3", 5e13},
+              {"contact.tangential_stiffness_n_per_m3", 4e13}},
+             3.0509e-12,
+             2.7965e-6,
+             -1.7808e-5}}) {
+    const optimizer::Evaluation evaluation = evaluated(changes, true).evaluation;
+    ASSERT_TRUE(evaluation.converged()) << evaluation.status;
+    const std::map<std::string, double>& bars = evaluation.error_estimates;
+    ASSERT_EQ(evaluation.responses.at("asymptotic_wear_volume_m3"), 0);
+    EXPECT_GT(bars.at("asymptotic_wear_volume_m3"), volume);
+    EXPECT_GT(bars.at("asymptotic_wear_depth_max_m"), depth);
+    EXPECT_GT(bars.at("resonance_drift"), -drift);
+    EXPECT_GE(bars.at("worn_peak_amplitude_m"), bars.at("peak_amplitude_m"));
+    EXPECT_GE(bars.at("worn_resonance_hz"), bars.at("resonance_hz"));
   }
 }
 

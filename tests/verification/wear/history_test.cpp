@@ -77,6 +77,7 @@ TEST(ImplicitHistory, NeverGivesDepthBack) {
     EXPECT_GE(run.rate.row(i).minCoeff(), 0.0) << i;
     EXPECT_GT(run.cycles[i], run.cycles[i - 1]) << i;
   }
+  EXPECT_GE((run.final_depth.transpose() - run.depth.bottomRows(1)).minCoeff(), 0.0);
 }
 
 // Closed form: p_N = N_0 - k_n W of a sliding node, W = N_0 / k_n at the end, and on the way p(n) as in
