@@ -74,7 +74,7 @@ TEST(Study, WarnsOfAResponseWithoutLimit) {
   ASSERT_EQ(warnings(rough).size(), 1U);
   EXPECT_THAT(warnings(rough).front(), testing::HasSubstr("look at its error bar"));
   rough.scene.type = "sector";
-  EXPECT_THAT(warnings(rough).front(), testing::HasSubstr("without limit"));
+  EXPECT_THAT(warnings(rough).front(), testing::HasSubstr("in space it has no error bar"));
 }
 
 TEST(Study, EveryRequiredKeyIsMissedByName) {
