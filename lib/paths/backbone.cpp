@@ -6,6 +6,7 @@
 
 #include "paths/peak.hpp"
 #include "paths/peak_sweep.hpp"
+#include "paths/reach.hpp"
 
 namespace dovetail::paths {
 namespace {
@@ -45,37 +46,25 @@ class Tracker {
  private:
   // Newton from the predictor, over intermediate parameters when the way is too far, then resonance() as a last resort.
   BackbonePoint followed(double parameter) {
-    BackbonePoint result{.parameter = parameter, .state = {}};
-    double target = parameter;
-    int halvings = 0, jacobians = 0;
-    while (true) {
-      BackbonePoint found = newton(target);
+    BackbonePoint found;
+    int jacobians = 0;
+    const Reach reached = reach(supports_.back().parameter, parameter, backbone_.halvings, [&](double target) {
+      found = newton(target);
       jacobians += found.jacobians;
-      if (found.status == Status::converged && target == parameter) {
-        found.intermediate = result.intermediate;
-        found.jacobians = jacobians;
-        return found;
-      }
-      if (found.status == Status::converged) {
-        ++result.intermediate;
-        target = parameter;
-        continue;
-      }
-      if (halvings++ >= backbone_.halvings) {
-        result.status = found.status;
-        break;
-      }
-      target = (target + supports_.back().parameter) / 2;
+      return found.status == Status::converged;
+    });
+    if (!reached.there && backbone_.search) {
+      // Followed, not searched anew: elsewhere there may be the peak of another mode.
+      ResonanceOptions near = backbone_.resonance;
+      near.sweep_range = 0;
+      const Support& last = supports_.back();
+      found = searched(parameter, last.point.omega, last.point.displacement, near);
+      jacobians += found.jacobians;
+    } else if (!reached.there) {
+      found = {.parameter = parameter, .status = found.status, .state = {}};
     }
-    result.jacobians = jacobians;
-    if (!backbone_.search) return result;
-    // Followed, not searched anew: elsewhere there may be the peak of another mode.
-    ResonanceOptions near = backbone_.resonance;
-    near.sweep_range = 0;
-    const Support& last = supports_.back();
-    BackbonePoint found = searched(parameter, last.point.omega, last.point.displacement, near);
-    found.intermediate = result.intermediate;
-    found.jacobians += jacobians;
+    found.intermediate = reached.intermediate;
+    found.jacobians = jacobians;
     return found;
   }
 
@@ -137,7 +126,7 @@ class Tracker {
     last_state_ = point.state;
     last_state_.tangent.reset();
     curvature_ = kLinear;
-    width_ = peak_width(point.state, backbone_.resonance.output);
+    width_ = amplitude_slope(point.state, backbone_.resonance.output).width;
     if (!keeps_tangents_) point.state.tangent.reset();
   }
 

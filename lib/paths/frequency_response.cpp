@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "paths/reach.hpp"
+
 namespace dovetail::paths {
 namespace {
 
@@ -67,26 +69,14 @@ class Sweep {
   // Halves the way to omega while that fails, and carries on from where it got.
   steady::State approached(double omega) {
     constexpr int kHalvings = 6;
-    int iterations = 0, evaluations = 0, intermediate = 0, halvings = 0;
-    double target = omega;
-    while (true) {
-      steady::State state = from_last(target, plain());
-      iterations += state.iterations;
-      evaluations += state.evaluations;
-      state.iterations = iterations;
-      state.evaluations = evaluations;
-      state.intermediate = intermediate;
+    steady::State state;
+    const Reach reached = reach(last_.omega, omega, kHalvings, [&](double target) {
+      state = added(from_last(target, plain()), state);
       if (state.status == Status::converged) last_ = state;
-      if (target == omega && state.status == Status::converged) return state;
-      if (state.status == Status::converged) {
-        ++intermediate;
-        target = omega;
-      } else if (halvings++ < kHalvings) {
-        target = (target + last_.omega) / 2;
-      } else {
-        return state;
-      }
-    }
+      return state.status == Status::converged;
+    });
+    state.intermediate = reached.intermediate;
+    return state;
   }
 
   steady::Joint joint_;

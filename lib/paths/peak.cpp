@@ -4,8 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include "dynamics/extremes.hpp"
-#include "dynamics/real_block.hpp"
 #include "paths/bordered.hpp"
 #include "paths/stationarity.hpp"
 #include "steady/problem.hpp"
@@ -58,39 +56,6 @@ Local linearised(const BranchEquations& branch, const BranchVector& at, const Br
 
 }  // namespace
 
-AmplitudeAt amplitude_at(const steady::Point& point, const BranchVector& direction, Eigen::Index output) {
-  const steady::Problem& problem = *point.problem;
-  const dynamics::CondensedModel& model = problem.model();
-  const Eigen::Index k = point.displacement.cols();
-  Eigen::MatrixXd value(1, k), change(1, k);
-  for (std::size_t h = 0; h < problem.system().harmonics.size(); ++h) {
-    const dynamics::HarmonicStiffness& at = problem.system().harmonics[h];
-    const auto j = static_cast<Eigen::Index>(h);
-    const Eigen::VectorXcd contact = dynamics::harmonic_of(point.displacement, j);
-    const Eigen::VectorXcd moved =
-        model.output_gradient(at) * dynamics::harmonic_of(direction.displacement, j) +
-        direction.omega * model.output_slope(static_cast<int>(h), problem.system().omega, at, contact);
-    dynamics::put_harmonic(model.outputs(at, contact).segment(output, 1), j, value);
-    dynamics::put_harmonic(moved.segment(output, 1), j, change);
-  }
-  const dynamics::Extremes ends = dynamics::extremes(value.row(0).transpose());
-  // The extremes are stationary in time: only the coefficients move them, to first order.
-  const Eigen::VectorXd difference =
-      dynamics::fourier_row(ends.tau_maximum, k) - dynamics::fourier_row(ends.tau_minimum, k);
-  const double size = vibration(value);
-  return {.value = ends.amplitude(),
-          .change = change.row(0).dot(difference) / 2,
-          .speed = size > 0 ? vibration(change) / size : 0};
-}
-
-double peak_width(const steady::State& state, Eigen::Index output) {
-  const BranchVector along{.displacement = state.tangent->response_to_frequency(), .omega = 1};
-  const double speed = amplitude_at(state.tangent->point(), along, output).speed;
-  // A resonance sharper than this is not resolved by the frequency tolerance either.
-  constexpr double kSharpest = 1e-6, kWidest = 0.5;
-  return state.omega * std::clamp(speed > 0 ? 1 / (speed * state.omega) : kWidest, kSharpest, kWidest);
-}
-
 ArcMetric peak_metric(const steady::State& state, double width) {
   return arc_metric(state, vibrating_force(state), width);
 }
@@ -100,7 +65,7 @@ namespace {
 class PeakNewton {
  public:
   PeakNewton(const BranchEquations& branch, const ArcMetric& metric, const PeakOptions& options, double curvature)
-      : branch_(branch), metric_(metric), options_(options), stationarity_(curvature) {}
+      : branch_(branch), metric_(metric), options_(options), stationarity_(curvature, kTrust) {}
 
   Peak run(const BranchVector& start) {
     peak_.at = start_ = start;
@@ -122,6 +87,7 @@ class PeakNewton {
   // Within this distance of the branch Newton acts on the point and on its place at once; from further away, and over
   // longer steps, the point is first brought back by the corrector with its line search.
   static constexpr double kNear = 0.2, kShort = 0.1;
+  static constexpr double kTrust = 0.25;  // the longest step, a change of the vibration by this part of its size
 
   struct Visited {
     Local local;

@@ -1,16 +1,9 @@
 #pragma once
 
+#include "paths/amplitude.hpp"
 #include "paths/branch.hpp"
 
 namespace dovetail::paths {
-
-/// Half the peak-to-peak of one output at a point, and what a direction does to it.
-struct AmplitudeAt {
-  double value = 0;
-  double change = 0;  ///< derivative of the value along the direction
-  double speed = 0;   ///< of all coefficients of the output along the direction, relative to its vibration
-};
-[[nodiscard]] AmplitudeAt amplitude_at(const steady::Point& point, const BranchVector& direction, Eigen::Index output);
 
 struct PeakOptions {
   int output = 0;
@@ -24,16 +17,13 @@ struct Peak {
   double amplitude = 0;
   double slope = 0;      ///< change of the amplitude with the arc length, relative to the amplitude
   double curvature = 0;  ///< second derivative with the arc length, relative; < 0 at a maximum
-  double width = 0;      ///< peak_width there
+  double width = 0;      ///< the frequency range in which the output changes by its own size there, rad/s
   double error = 0;      ///< of omega: the correction that was left or the bracket it is in, relative
   int iterations = 0;    ///< Jacobians
   int evaluations = 0;   ///< residuals
   std::shared_ptr<const steady::Point> point = {};
 };
 
-/// The frequency range in which the output changes by its own size at a converged point: the half width of a linear
-/// peak, rad/s. By its linearisation, which must be there.
-[[nodiscard]] double peak_width(const steady::State& state, Eigen::Index output);
 /// Arc length near a peak: one unit is a change of the contact's vibration by its own size, or of the frequency by
 /// `width`.
 [[nodiscard]] ArcMetric peak_metric(const steady::State& state, double width);

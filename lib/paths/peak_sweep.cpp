@@ -18,16 +18,6 @@ std::vector<std::size_t> summits(const Branch& branch, Eigen::Index output) {
   return found;
 }
 
-// The frequency range in which the output changes by its own size, from the neighbours of a summit.
-double width_at(const Branch& branch, std::size_t i, Eigen::Index output) {
-  const steady::State &before = branch.points[i - 1].state, &after = branch.points[i + 1].state;
-  const double change = (after.outputs.row(output) - before.outputs.row(output)).norm();
-  const double range = std::abs(after.omega - before.omega);
-  const double omega = branch.points[i].state.omega, size = branch.points[i].state.amplitudes(output);
-  constexpr double kSharpest = 1e-6, kWidest = 0.5;
-  return omega * std::clamp(change > 0 ? range * size / (change * omega) : kWidest, kSharpest, kWidest);
-}
-
 constexpr double kHeight = 0.99;  // of the summit: a search may have run off to a lower maximum
 
 }  // namespace
@@ -82,18 +72,13 @@ Resonance peak_sweep(const steady::Joint& joint, double omega_from, double omega
   for (std::size_t c = 0; c < std::min(candidates.size(), kTried); ++c) {
     const steady::State& summit = branch.points[candidates[c]].state;
     if (summit.amplitudes(resonance_options.output) < kHopeless * result.amplitude) break;
-    const double width = width_at(branch, candidates[c], resonance_options.output);
-    std::optional<steady::State> state = climb(equations, summit, width, resonance_options, result);
-    if (!state) {
-      ResonanceOptions near = resonance_options;
-      near.sweep_range = 0;
-      Resonance stepped = resonance(with, summit.omega, near, summit.displacement);
-      result.solves += stepped.solves;
-      result.jacobians += stepped.jacobians;
-      if (stepped.status == Status::converged &&
-          stepped.amplitude >= kHeight * summit.amplitudes(resonance_options.output))
-        state = std::move(stepped.state);
-    }
+    // The points of the sweep have no tangents, which the width of the peak needs.
+    const steady::State from = steady::refined_state(with, summit);
+    ++result.solves;
+    result.jacobians += from.iterations;
+    if (from.status != Status::converged) continue;
+    std::optional<steady::State> state =
+        climb(equations, from, amplitude_slope(from, resonance_options.output).width, resonance_options, result);
     if (!state) continue;
     const AmplitudeSlope at = amplitude_slope(*state, resonance_options.output);
     if (at.amplitude <= result.amplitude) continue;

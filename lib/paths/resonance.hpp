@@ -41,12 +41,6 @@ struct Resonance {
 [[nodiscard]] Resonance resonance(const steady::Joint& joint, double omega_start,
                                   const ResonanceOptions& resonance_options = {}, const Eigen::MatrixXd& guess = {});
 
-/// Amplitude of one output and its total derivative with respect to omega at a converged state.
-struct AmplitudeSlope {
-  double amplitude = 0, slope = 0;
-};
-[[nodiscard]] AmplitudeSlope amplitude_slope(const steady::State& state, Eigen::Index output);
-
 }  // namespace dovetail::paths
 
 namespace dovetail {

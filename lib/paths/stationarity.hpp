@@ -9,15 +9,17 @@
 
 namespace dovetail::paths {
 
-/// The slopes of the amplitude met on the way to its maximum, by their place on the branch (the distance from the start
-/// along one direction), and where to look next: a secant for the slope, kept inside the bracket of the maximum.
+/// The slopes of the amplitude met on the way to its maximum, relative to it, by their place on the branch (omega, or
+/// the distance from the start along one direction), and where to look next: a secant for the slope, kept inside the
+/// bracket of the maximum.
 class Stationarity {
  public:
   struct Mark {
     double place = 0, omega = 0, amplitude = 0, slope = 0;
   };
 
-  explicit Stationarity(double curvature) : curvature_(curvature) {}
+  /// `curvature` < 0: the first guess of the slope's derivative; `trust`: the longest step without a bracket.
+  Stationarity(double curvature, double trust) : curvature_(curvature), trust_(trust) {}
 
   void add(const Mark& now) {
     if (now_ && now.place != now_->place) {
@@ -29,7 +31,7 @@ class Stationarity {
     if (now.slope <= 0 && (!falling_ || now.place < falling_->place)) falling_ = now;
     // Another peak, or a fold, can cross the marks: keep the newest one.
     if (rising_ && falling_ && rising_->place >= falling_->place) (now.slope > 0 ? falling_ : rising_).reset();
-    widths_.push_back(bracketed() ? falling_->place - rising_->place : kInfinity);
+    widths_.push_back(width());
   }
 
   [[nodiscard]] double curvature() const { return curvature_; }
@@ -37,6 +39,8 @@ class Stationarity {
   [[nodiscard]] bool is_end(double place) const {
     return (rising_ && rising_->place == place) || (falling_ && falling_->place == place);
   }
+  /// Between the ends of the bracket, in units of place; infinite without one.
+  [[nodiscard]] double width() const { return bracketed() ? falling_->place - rising_->place : kInfinity; }
   /// Width of the bracket in omega; infinite without one, or when the curve jumps to another branch within it.
   [[nodiscard]] double bracket() const {
     constexpr double kContinuous = 1e-4;
@@ -47,8 +51,7 @@ class Stationarity {
 
   /// Where to go next, as a step from the last place.
   [[nodiscard]] double step() const {
-    constexpr double kTrust = 0.25;
-    const double wanted = std::clamp(-now_->slope / curvature_, -kTrust, kTrust);
+    const double wanted = std::clamp(-now_->slope / curvature_, -trust_, trust_);
     if (!bracketed()) return wanted;
     const auto inside = [&](double place) { return place > rising_->place && place < falling_->place; };
     // Points that do not halve the bracket: the slope jumps there, or one end stays. A step somewhat too long brings
@@ -64,6 +67,7 @@ class Stationarity {
 
  private:
   double curvature_;  // < 0
+  double trust_;
   std::optional<Mark> now_, rising_, falling_;
   std::vector<double> widths_;
 };

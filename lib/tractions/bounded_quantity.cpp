@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "paths/amplitude.hpp"
 #include "tractions/slip_origin_sensitivity.hpp"
 
 namespace dovetail::tractions {

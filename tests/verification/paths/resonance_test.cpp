@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "paths/amplitude.hpp"
 #include "paths/continuation.hpp"
 #include "paths/frequency_response.hpp"
 #include "tests/verification/steady/gap_oscillator.hpp"
