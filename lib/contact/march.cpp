@@ -36,7 +36,8 @@ void march_node(const double* prediction, const NodeLaw& law, int samples, const
   Memory memory;
   double limit = 0;
   for (int r = 0; r < Directions; ++r) memory.slip_force[r] = law.tangential_penalty * law.slip_origin(r);
-  for (int n = 0; n < samples; ++n) limit = std::max(limit, law.friction * prediction[(1 + Directions) * n]);
+  for (int n = 0; n < samples; ++n)
+    limit = std::max(limit, law.limit(std::max(prediction[(1 + Directions) * n], 0.0)).force);
   if (limit <= 0)
     for (int n = 0; n < samples; ++n)
       for (int r = 0; r < Directions; ++r) limit = std::max(limit, std::abs(prediction[(1 + Directions) * n + 1 + r]));
@@ -57,9 +58,8 @@ void march_node(const double* prediction, const NodeLaw& law, int samples, const
     before = memory;
     result.start = {.sample = reset, .memory = reset_memory};
     for (int n = 0; n < samples; ++n) {
-      const Step step =
-          sample_step<Directions>(prediction + (1 + Directions) * ((n + samples - 1) % samples),
-                                  prediction + (1 + Directions) * n, law.friction, options.slip_return, memory);
+      const Step step = sample_step<Directions>(prediction + (1 + Directions) * ((n + samples - 1) % samples),
+                                                prediction + (1 + Directions) * n, law, options.slip_return, memory);
       for (int r = 0; r <= Directions; ++r) result.force(n, r) = step.force[r];
       for (int r = 0; r < Directions; ++r) {
         result.slip_force(n, 1 + r) = memory.slip_force[r];
@@ -115,7 +115,7 @@ void march_node(const double* prediction, const NodeLaw& law, int samples, const
   result.always_stuck = !moved;
 
   // Increments of X_T under load with trapezoidal normal forces; the sample before the first is the last one.
-  result.slip_distance = result.slip_load = 0;
+  result.slip_distance = result.slip_load = result.dissipation = 0;
   result.always_closed = result.always_separated = true;
   for (int n = 0; n < samples; ++n) {
     const bool separated = result.state[static_cast<std::size_t>(n)] == SampleState::separated;
@@ -123,11 +123,13 @@ void march_node(const double* prediction, const NodeLaw& law, int samples, const
     result.always_separated = result.always_separated && separated;
     double square = 0;
     for (int r = 0; r < Directions; ++r) square += std::pow(result.slip_step(n, r), 2);
-    const double load = (result.force(n, 0) + result.force((n + samples - 1) % samples, 0)) / 2;
+    const double now = result.force(n, 0), earlier = result.force((n + samples - 1) % samples, 0);
+    const double load = (now + earlier) / 2;
     if (load <= 0 || square <= 0) continue;
     const double distance = std::sqrt(square) / law.tangential_penalty;
     result.slip_distance += distance;
     result.slip_load += load * distance;
+    result.dissipation += (law.limit(now).force + law.limit(earlier).force) / 2 * distance;
   }
   result.slip_end.setZero();
   for (int r = 0; r < Directions; ++r) result.slip_end(r) = memory.slip_force[r] / law.tangential_penalty;
@@ -170,6 +172,7 @@ void carry_nothing(const Eigen::Ref<const Eigen::MatrixXd>& prediction, double t
   for (Eigen::Index r = 0; r + 1 < d; ++r) result.slip_end(r) = prediction(last, 1 + r) / tangential_penalty;
   result.force_derivative.setZero(m, m);
   result.slip_load_derivative.setZero(m);
+  result.dissipation_derivative.setZero(m);
 }
 
 }  // namespace dovetail::contact

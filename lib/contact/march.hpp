@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "contact/contact_law.hpp"
 #include "core/status.hpp"
 #include "numerics/fourier.hpp"
 
@@ -23,13 +24,6 @@ struct MarchOptions {
   /// as far as rounding permits.
   double tolerance = 1e-10;
   double resolution = 1e300;  ///< N
-};
-
-/// What one node is, besides its prediction forces.
-struct NodeLaw {
-  double friction = 0;                   ///< mu >= 0
-  double tangential_penalty = 1;         ///< eps_T > 0, N/m, one for both tangential directions
-  Eigen::Vector2d slip_origin = {0, 0};  ///< X_T at which the march starts, m
 };
 
 /// State of a node between two samples: lambda_x,T and the direction of the last slip.
@@ -64,19 +58,21 @@ struct MarchResult {
   bool always_separated = false;      ///< no force at any sample
   double slip_distance = 0;           ///< path length of X_T under load over the last period, m
   double slip_load = 0;               ///< sum of mean lambda_N |dX_T| over the last period, N m
+  double dissipation = 0;             ///< the same of the limit force: energy of the period, J
   Eigen::Vector2d slip_end = {0, 0};  ///< X_T after the last sample, m
   DerivativeStart start = {};
 
   // Filled by differentiate().
-  Eigen::MatrixXd force_derivative;         ///< D = d lambda_h / d lambda_u,h [m, m]
-  Eigen::RowVectorXd slip_load_derivative;  ///< d slip_load / d lambda_u,h [m], m
+  Eigen::MatrixXd force_derivative;           ///< D = d lambda_h / d lambda_u,h [m, m]
+  Eigen::RowVectorXd slip_load_derivative;    ///< d slip_load / d lambda_u,h [m], m
+  Eigen::RowVectorXd dissipation_derivative;  ///< d dissipation / d lambda_u,h [m], m
 };
 
 /// Marches the contact law of one node over the samples until lambda_x repeats [Salles 2009, eq. 15-19]:
 ///   pre_N = lambda_u,N^n, pre_T = lambda_u,T^n - lambda_x,T^(n-1)
 ///   separation pre_N <= 0: lambda = 0, lambda_x = lambda_u
-///   stick |pre_T| <= mu pre_N: lambda = pre, lambda_x,T unchanged
-///   slip: lambda_N = pre_N, lambda_T = kappa pre_T, kappa = mu pre_N / |pre_T|, lambda_x,T += (1 - kappa) pre_T.
+///   stick |pre_T| <= limit(pre_N): lambda = pre, lambda_x,T unchanged
+///   slip: lambda_N = pre_N, lambda_T = kappa pre_T, kappa = limit / |pre_T|, lambda_x,T += (1 - kappa) pre_T.
 /// In space a slip state that still changes after 16 periods is extrapolated every 8 as a geometric sequence.
 /// `prediction` is lambda_u [N, d], d = 2 or 3. Cost: O(N d) per period.
 void march(const Eigen::Ref<const Eigen::MatrixXd>& prediction, const NodeLaw& law, const MarchOptions& options,

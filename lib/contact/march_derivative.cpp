@@ -16,11 +16,12 @@ struct Tangent {
   Eigen::VectorXd angle;       // d angle [m]
 };
 
-// d lambda_x,T after a slip: d lambda_u,T - limit n d(angle) - mu t d lambda_u,N.
+// d lambda_x,T after a slip: d lambda_u,T - limit n d(angle) - limit' t d lambda_u,N.
 template <int Directions>
-void slip_tangent(const Step& step, const Memory& before, const Memory& after, double friction, const double* row,
+void slip_tangent(const Step& step, const Memory& before, const Memory& after, const double* row,
                   Eigen::Index coefficients, Tangent<Directions>& tangent) {
   const Eigen::Index k = coefficients;
+  const double limit = step.limit.force, friction = step.limit.by_normal;
   if constexpr (Directions == 1) {
     const double sign = std::copysign(1.0, step.trial[0]);
     for (Eigen::Index j = 0; j < k; ++j) {
@@ -37,7 +38,7 @@ void slip_tangent(const Step& step, const Memory& before, const Memory& after, d
     if (step.rotated) {
       const double c = before.direction[0], s = before.direction[1];
       const double along = c * step.trial[0] + s * step.trial[1], across = c * step.trial[1] - s * step.trial[0];
-      const double sum = step.limit + along, scale = 2 / (sum * sum + across * across);
+      const double sum = limit + along, scale = 2 / (sum * sum + across * across);
       w0 = scale * (-sum * s - across * c);
       w1 = scale * (sum * c - across * s);
       wn = -scale * across * friction;
@@ -56,7 +57,7 @@ void slip_tangent(const Step& step, const Memory& before, const Memory& after, d
       angle[2 * k + j] += w1 * row[j];
     }
     const double t0 = after.direction[0], t1 = after.direction[1];
-    const double a0 = step.limit * t1, a1 = -step.limit * t0;
+    const double a0 = limit * t1, a1 = -limit * t0;
     for (Eigen::Index j = 0; j < m; ++j) {
       s0[j] = a0 * angle[j];
       s1[j] = a1 * angle[j];
@@ -104,7 +105,7 @@ bool orbit_tangent(const double* prediction, const NodeLaw& law, const Eigen::Ma
   for (Eigen::Index n = 0; n < rows.cols(); ++n) {
     const Memory before = memory;
     const Eigen::Index earlier = (n + rows.cols() - 1) % rows.cols();
-    const Step step = sample_step<2>(prediction + 3 * earlier, prediction + 3 * n, law.friction, rule, memory);
+    const Step step = sample_step<2>(prediction + 3 * earlier, prediction + 3 * n, law, rule, memory);
     const double* row = rows.col(n).data();
     if (step.touched)
       crossing_tangent<2>(prediction + 3 * earlier, prediction + 3 * n, step, rows.col(earlier).data(), row, k,
@@ -112,7 +113,7 @@ bool orbit_tangent(const double* prediction, const NodeLaw& law, const Eigen::Ma
     if (step.state == SampleState::separated)
       separation_tangent<2>(row, k, wide);
     else if (step.state == SampleState::slipping)
-      slip_tangent<2>(step, before, memory, law.friction, row, k, wide);
+      slip_tangent<2>(step, before, memory, row, k, wide);
   }
   // The angle only matters when the first sample goes on rotating from the last.
   if (!memory.slipped) wide.angle.setZero();
@@ -147,6 +148,7 @@ void differentiate_node(const double* prediction, const NodeLaw& law, const nume
   const Eigen::Index k = basis.coefficients(), m = d * k;
   const int samples = basis.samples();
   result.slip_load_derivative.setZero(m);
+  result.dissipation_derivative.setZero(m);
   if (result.always_stuck) {
     result.force_derivative.setIdentity(m, m);
     return;
@@ -179,9 +181,10 @@ void differentiate_node(const double* prediction, const NodeLaw& law, const nume
       if constexpr (Directions == 1) {
         Step step;
         step.state = SampleState::slipping;
+        step.limit = law.limit(prediction[d * n]);
         // lambda_T = lambda_u,T - lambda_x,T points along the slip.
         step.trial[0] = prediction[d * n + 1] - memory.slip_force[0];
-        slip_tangent<Directions>(step, memory, memory, law.friction, row, k, tangent);
+        slip_tangent<Directions>(step, memory, memory, row, k, tangent);
       }
     } else {
       separation_tangent<Directions>(row, k, tangent);
@@ -200,14 +203,14 @@ void differentiate_node(const double* prediction, const NodeLaw& law, const nume
     weight.setZero();
   };
   Eigen::MatrixXd derivative = Eigen::MatrixXd::Identity(m, m);
-  Eigen::VectorXd load_slope = Eigen::VectorXd::Zero(m);
+  Eigen::VectorXd load_slope = Eigen::VectorXd::Zero(m), energy_slope = load_slope, path(m);
   for (long i = first; i < last; ++i) {
     const auto n = static_cast<int>(i % samples);
     const bool counts = i >= last_period;
     const double* row = rows.col(n).data();
     const Memory before = memory;
     const int earlier = (n + samples - 1) % samples;
-    const Step step = sample_step<Directions>(prediction + d * earlier, prediction + d * n, law.friction, rule, memory);
+    const Step step = sample_step<Directions>(prediction + d * earlier, prediction + d * n, law, rule, memory);
     const bool changes = step.state != SampleState::stuck || step.touched;
     if (changes) {
       if (counts) close_run();
@@ -218,7 +221,7 @@ void differentiate_node(const double* prediction, const NodeLaw& law, const nume
       if (step.state == SampleState::separated)
         separation_tangent<Directions>(row, k, tangent);
       else if (step.state == SampleState::slipping)
-        slip_tangent<Directions>(step, before, memory, law.friction, row, k, tangent);
+        slip_tangent<Directions>(step, before, memory, row, k, tangent);
     }
     if (!counts) continue;
     weight += analysis.col(n);
@@ -238,11 +241,18 @@ void differentiate_node(const double* prediction, const NodeLaw& law, const nume
     if (step.opened)
       crossing_tangent<Directions>(prediction + d * earlier, prediction + d * n, step, rows.col(earlier).data(), row, k,
                                    end);
+    const FrictionLimit limit = law.limit(result.force(n, 0)), limit_before = law.limit(result.force(earlier, 0));
+    path.setZero();
     for (int r = 0; r < Directions; ++r)
-      load_slope +=
-          (load * delta[r] / length) * ((step.opened ? end : tangent.slip_force).col(r) - tangent.previous.col(r));
-    if (loaded) load_slope.head(k) += (length / 2) * rows.col(n);
-    if (loaded_before) load_slope.head(k) += (length / 2) * rows.col(earlier);
+      path += (delta[r] / length) * ((step.opened ? end : tangent.slip_force).col(r) - tangent.previous.col(r));
+    load_slope += load * path;
+    energy_slope += (limit.force + limit_before.force) / 2 * path;
+    const auto by_normal = [&](int sample, double by_force) {
+      load_slope.head(k) += (length / 2) * rows.col(sample);
+      energy_slope.head(k) += (by_force * length / 2) * rows.col(sample);
+    };
+    if (loaded) by_normal(n, limit.by_normal);
+    if (loaded_before) by_normal(earlier, limit_before.by_normal);
   }
   close_run();
 
@@ -252,8 +262,10 @@ void differentiate_node(const double* prediction, const NodeLaw& law, const nume
   if (result.always_separated) derivative.setZero();
   reorder(derivative, k, d, result.force_derivative);
   for (Eigen::Index r = 0; r < d; ++r)
-    for (Eigen::Index j = 0; j < k; ++j)
+    for (Eigen::Index j = 0; j < k; ++j) {
       result.slip_load_derivative(j * d + r) = load_slope(r * k + j) / law.tangential_penalty;
+      result.dissipation_derivative(j * d + r) = energy_slope(r * k + j) / law.tangential_penalty;
+    }
 }
 
 template <int Directions>

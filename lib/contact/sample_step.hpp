@@ -12,7 +12,7 @@ struct Step {
   double force[3] = {0, 0, 0};  ///< lambda
   bool rotated = false;         ///< the second-order return was used
   double trial[2] = {0, 0};     ///< pre_T
-  double limit = 0;             ///< mu lambda_N
+  FrictionLimit limit = {};     ///< at lambda_N
   double origin[2] = {0, 0};    ///< lambda_x,T where the loaded part of the interval before this sample begins, N
   double end[2] = {0, 0};       ///< lambda_x,T where it ends
   bool touched = false;         ///< it begins, or
@@ -25,7 +25,7 @@ struct Step {
 /// where lambda_u,N, linear between the samples, passes zero, with lambda_x,T = lambda_u,T there; the first-order rule
 /// does so at the sample without force.
 template <int Directions>
-inline Step sample_step(const double* previous, const double* prediction, double friction, SlipReturn rule,
+inline Step sample_step(const double* previous, const double* prediction, const NodeLaw& law, SlipReturn rule,
                         Memory& memory) {
   Step step;
   const double normal = prediction[0];
@@ -53,13 +53,14 @@ inline Step sample_step(const double* previous, const double* prediction, double
     step.origin[r] = step.end[r] = memory.slip_force[r];
   }
   step.force[0] = normal;
-  step.limit = friction * normal;
+  step.limit = law.limit(normal);
+  const double limit = step.limit.force;
   double square = 0;
   for (int r = 0; r < Directions; ++r) {
     step.trial[r] = prediction[1 + r] - memory.slip_force[r];
     square += step.trial[r] * step.trial[r];
   }
-  if (friction > 0 && square <= step.limit * step.limit) {
+  if (limit > 0 && square <= limit * limit) {
     for (int r = 0; r < Directions; ++r) step.force[1 + r] = step.trial[r];
     step.state = SampleState::stuck;
     memory.slipped = false;
@@ -67,7 +68,7 @@ inline Step sample_step(const double* previous, const double* prediction, double
   }
   step.state = SampleState::slipping;
   if constexpr (Directions == 1) {
-    step.force[1] = std::copysign(step.limit, step.trial[0]);
+    step.force[1] = std::copysign(limit, step.trial[0]);
   } else {
     double* const direction = memory.direction;
     const double along = direction[0] * step.trial[0] + direction[1] * step.trial[1];
@@ -75,7 +76,7 @@ inline Step sample_step(const double* previous, const double* prediction, double
     if (rule == SlipReturn::second_order && memory.slipped && along > 0) {
       step.rotated = true;
       // tan(phi / 2) = across / sum
-      const double across = direction[0] * step.trial[1] - direction[1] * step.trial[0], sum = step.limit + along;
+      const double across = direction[0] * step.trial[1] - direction[1] * step.trial[0], sum = limit + along;
       const double scale = 1 / (sum * sum + across * across);
       const double cosine = scale * (sum * sum - across * across), sine = 2 * scale * sum * across;
       const double first = cosine * direction[0] - sine * direction[1];
@@ -86,8 +87,8 @@ inline Step sample_step(const double* previous, const double* prediction, double
       direction[0] = step.trial[0] * inverse;
       direction[1] = step.trial[1] * inverse;
     }
-    step.force[1] = step.limit * direction[0];
-    step.force[2] = step.limit * direction[1];
+    step.force[1] = limit * direction[0];
+    step.force[2] = limit * direction[1];
   }
   for (int r = 0; r < Directions; ++r) step.end[r] = memory.slip_force[r] = prediction[1 + r] - step.force[1 + r];
   memory.slipped = true;

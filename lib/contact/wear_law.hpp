@@ -13,18 +13,23 @@ struct WearNode {
   double threshold = 0;    ///< of the law
 };
 
-/// Depth per cycle, m, and its derivative with respect to the slip load, 1/N.
-struct WearRate {
-  double depth = 0, by_slip_load = 0;
+/// What a march delivers of a cycle: the slip load, int lambda_N |dX_T|, N m, and the energy dissipated, J.
+struct Slip {
+  double load = 0, energy = 0;
 };
 
-/// How a node wears by what a march delivers of a cycle: its slip load, int lambda_N |dX_T|, N m.
+/// Depth per cycle, m, and its derivatives with respect to slip load and energy, 1/N.
+struct WearRate {
+  double depth = 0, by_load = 0, by_energy = 0;
+};
+
+/// How a node wears by its slip in a cycle.
 struct WearLaw {
   std::string_view name;
-  /// Zero without slip and never falling with the slip load.
-  WearRate (*rate)(const WearNode& node, double slip_load);
-  /// Slip load at which the node does not wear yet, N m.
-  double (*resting_slip_load)(const WearNode& node);
+  /// Zero without slip and never falling with load or energy.
+  WearRate (*rate)(const WearNode& node, const Slip& slip);
+  /// Energy at which the node does not wear yet, J.
+  double (*resting_energy)(const WearNode& node);
   /// Volume that wears for a little more dissipated energy once the node wears, m^3/J; 0 without friction.
   double (*volume_per_energy)(const WearNode& node);
 };

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "contact/contact_law.hpp"
 #include "contact/wear_law.hpp"
 #include "core/status.hpp"
 #include "reduction/reduced_model.hpp"
@@ -42,12 +43,14 @@ class CondensedModel {
   [[nodiscard]] bool modal() const { return modal_; }
   [[nodiscard]] int force_harmonics() const { return static_cast<int>(force_contact_.cols()) - 1; }
   /// What a node wears per cycle for a slip load, N m.
-  [[nodiscard]] contact::WearRate wear_rate(Eigen::Index node, double slip_load) const {
-    return wear_law_->rate(wear_node(node), slip_load);
+  [[nodiscard]] contact::WearRate wear_rate(Eigen::Index node, const contact::Slip& slip) const {
+    return wear_law_->rate(wear_node(node), slip);
   }
   /// The law behind it, and what it knows of a node.
   [[nodiscard]] const contact::WearLaw& wear_law() const { return *wear_law_; }
   [[nodiscard]] contact::WearNode wear_node(Eigen::Index node) const;
+  /// The contact law of a node, without pseudo-penalty and slip origin.
+  [[nodiscard]] contact::NodeLaw contact_law(Eigen::Index node) const { return {.friction = contact_.friction(node)}; }
   /// Replaces the friction coefficients mu [Nc], >= 0 (large: a node that is held stuck).
   void set_friction(const Eigen::VectorXd& friction) { contact_.friction = friction; }
   /// Replaces the wear coefficients [Nc], >= 0.

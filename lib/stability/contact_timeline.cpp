@@ -42,9 +42,8 @@ ContactTimeline::ContactTimeline(Eigen::MatrixXd prediction, const contact::Node
   if (!march_.always_closed && !march_.always_separated) locate_touches();
   // Shaken down to the limit: what still slips is what the march leaves of an adaptation that has ended.
   constexpr double kSettled = 1e-6;
-  const double largest_limit = law.friction * march_.force.col(0).maxCoeff();
-  if (march_.always_closed && law.friction > 0 &&
-      march_.slip_distance * law.tangential_penalty <= kSettled * largest_limit) {
+  const double largest_limit = law.limit(march_.force.col(0).maxCoeff()).force;
+  if (march_.always_closed && law.rubs() && march_.slip_distance * law.tangential_penalty <= kSettled * largest_limit) {
     start_ = ContactMode::stuck;
     return;
   }
@@ -110,9 +109,10 @@ Eigen::Vector2d ContactTimeline::direction_at(int sample) const {
 
 SlipFrame ContactTimeline::frame_along(const Eigen::Vector2d& along, double tau) const {
   const Eigen::Vector3d rate = slope(tau);
-  SlipFrame frame{.along = along, .limit = law_.friction * value(tau)(0), .speed = 0, .turning = 0};
+  const contact::FrictionLimit limit = limit_at(tau);
+  SlipFrame frame{.along = along, .limit = limit.force, .speed = 0, .turning = 0};
   // lambda_u,T' = lambda_T' + eps X_T' with lambda_T = limit v and X_T' along v.
-  frame.speed = (along.dot(rate.tail<2>()) - law_.friction * rate(0)) / law_.tangential_penalty;
+  frame.speed = (along.dot(rate.tail<2>()) - limit.by_normal * rate(0)) / law_.tangential_penalty;
   frame.turning = normal_to(along).dot(rate.tail<2>()) / frame.limit;
   return frame;
 }
@@ -166,8 +166,8 @@ void ContactTimeline::locate_touches() {
     }
     const double *before = table.col(wrapped(n - 1)).data(), *here = table.col(n).data();
     const contact::Step step =
-        d == 2 ? contact::sample_step<1>(before, here, law_.friction, contact::SlipReturn::second_order, memory)
-               : contact::sample_step<2>(before, here, law_.friction, contact::SlipReturn::second_order, memory);
+        d == 2 ? contact::sample_step<1>(before, here, law_, contact::SlipReturn::second_order, memory)
+               : contact::sample_step<2>(before, here, law_, contact::SlipReturn::second_order, memory);
     march_.state[static_cast<std::size_t>(n)] = step.state;
     for (Eigen::Index r = 0; r < d; ++r) march_.force(n, r) = step.force[r];
     for (Eigen::Index r = 1; r < d; ++r) march_.slip_force(n, r) = memory.slip_force[r - 1];
@@ -183,7 +183,7 @@ double ContactTimeline::touch(int sample) const {
 double ContactTimeline::slip_start(double from, double to, const Eigen::Vector2d& slip_force) const {
   const auto excess = [&](double tau) {
     const Eigen::Vector3d at = value(tau);
-    return (at.tail<2>() - slip_force).norm() - law_.friction * at(0);
+    return (at.tail<2>() - slip_force).norm() - law_.limit(at(0)).force;
   };
   return zero(excess, from, to);
 }
@@ -210,11 +210,11 @@ void ContactTimeline::walk(int sample) {
   if (from == to) {
     // Slip that reverses within one sample rests at an instant.
     if (from != ContactMode::slipping || direction_at(sample).dot(direction_at(sample + 1)) > 0) return;
-    if (!(law_.friction > 0)) return;
+    if (!law_.rubs()) return;
     const double end = slip_end(sample);
     add({.tau = end, .mode = ContactMode::stuck});
     const Eigen::Vector3d at = value(end);
-    add({.tau = slip_start(end, b, at.tail<2>() - law_.friction * at(0) * turned_from(sample, end)),
+    add({.tau = slip_start(end, b, at.tail<2>() - law_.limit(at(0)).force * turned_from(sample, end)),
          .mode = ContactMode::slipping,
          .sign = sign});
   } else if (to == ContactMode::open) {
@@ -224,7 +224,8 @@ void ContactTimeline::walk(int sample) {
     const Eigen::Vector3d rate = slope(event.tau);
     event.ratio = rate.tail<2>() / std::max(rate(0), 1e-300);
     const double length = event.ratio.norm();
-    if (to == ContactMode::slipping || length > law_.friction) event.ratio *= law_.friction / std::max(length, 1e-300);
+    const double steepest = law_.limit(0).by_normal;
+    if (to == ContactMode::slipping || length > steepest) event.ratio *= steepest / std::max(length, 1e-300);
     add(event);
   } else if (to == ContactMode::slipping) {
     Eigen::Vector2d slip_force(0, 0);

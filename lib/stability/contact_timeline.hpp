@@ -23,14 +23,14 @@ struct ContactEvent {
 /// What the slip of one node is like at an instant. Rates are per tau.
 struct SlipFrame {
   Eigen::Vector2d along = {1, 0};  ///< v = lambda_T / |lambda_T|
-  double limit = 0;                ///< mu lambda_N, N
+  double limit = 0;                ///< of the tangential force, N
   double speed = 0;                ///< |X_T'|, m
   double turning = 0;              ///< rate of the angle of v
 };
 
 /// The contact states of one node over the period, with instants located between samples: lambda_u is a trigonometric
-/// polynomial, so closing and opening are zeros of lambda_u,N, the start of slip one of |pre_T| - mu pre_N with the
-/// slip frozen, and its end one of the slip speed v.lambda_u,T' - mu lambda_u,N'.
+/// polynomial, so closing and opening are zeros of lambda_u,N, the start of slip one of |pre_T| - limit with the
+/// slip frozen, and its end one of the slip speed v.lambda_u,T' - limit'.
 class ContactTimeline {
  public:
   /// `prediction` holds lambda_u of the node [d, 2H+1]; samples are those of `basis`. A `released` node is open.
@@ -39,7 +39,8 @@ class ContactTimeline {
                   const numerics::FourierBasis& basis, bool released);
 
   [[nodiscard]] Status status() const { return march_.status; }  ///< not_periodic when the march did not repeat
-  [[nodiscard]] double friction() const { return law_.friction; }
+  [[nodiscard]] bool rubs() const { return law_.rubs(); }
+  [[nodiscard]] contact::FrictionLimit limit_at(double tau) const { return law_.limit(value(tau)(0)); }
   [[nodiscard]] const std::vector<ContactEvent>& events() const { return events_; }  ///< ascending in tau
   [[nodiscard]] ContactMode start_mode() const { return start_; }                    ///< at tau = 0
   [[nodiscard]] double start_sign() const { return start_sign_; }                    ///< of slip at tau = 0

@@ -146,7 +146,7 @@ class Propagator {
     for (std::size_t i = 0; i < states_.size(); ++i) {
       const SwitchingNode& node = s_.nodes[i];
       const NodeState& state = states_[i];
-      const double friction = node.timeline->friction();
+      const double friction = node.timeline->limit_at(tau).by_normal;
       if (state.now == Now::open) add(unit(node.normal), unit(node.normal));
       for (std::size_t r = 0; r < node.tangential.size(); ++r) {
         const Eigen::Index dof = node.tangential[r];

@@ -27,7 +27,7 @@ Split split(const reduction::ReducedModel& model, const std::vector<ContactTimel
   };
   for (Eigen::Index i = 0; i < model.contact.count(); ++i) {
     const ContactTimeline& timeline = timelines[static_cast<std::size_t>(i)];
-    const bool opens = timeline.ever(ContactMode::open), friction = timeline.friction() > 0;
+    const bool opens = timeline.ever(ContactMode::open), friction = timeline.rubs();
     if (timeline.always(ContactMode::open)) continue;
     const Eigen::Index normal = take(model.contact.normal(i));
     SwitchingNode node;

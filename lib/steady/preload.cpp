@@ -101,7 +101,7 @@ Preload quasi_static(const std::shared_ptr<const dynamics::CondensedModel>& mode
   preload.pressure.resize(nodes);
   preload.friction_use = Eigen::VectorXd::Zero(nodes);
   for (Eigen::Index i = 0; i < nodes; ++i) {
-    const double normal = preload.force(i * d), limit = contact.friction(i) * normal;
+    const double normal = preload.force(i * d), limit = model->contact_law(i).limit(normal).force;
     preload.pressure(i) = normal / contact.area(i);
     if (limit > 0) preload.friction_use(i) = preload.force.segment(i * d + 1, d - 1).norm() / limit;
   }

@@ -85,7 +85,8 @@ contact::MarchOptions Problem::march_options() const {
 }
 
 contact::NodeLaw Problem::law(Eigen::Index node) const {
-  contact::NodeLaw law{.friction = model().contact().friction(node), .tangential_penalty = penalty_.tangential(node)};
+  contact::NodeLaw law = model().contact_law(node);
+  law.tangential_penalty = penalty_.tangential(node);
   for (Eigen::Index r = 0; r + 1 < model().directions(); ++r) law.slip_origin(r) = condition().slip_origin(node, r);
   return law;
 }

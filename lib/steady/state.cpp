@@ -27,8 +27,8 @@ NodeSummary summarise_node(const Point& point, Eigen::Index i) {
       dynamics::extremes(point.displacement.row(i * point.problem->model().directions()).transpose()).maximum;
   node.slip_distance = march.slip_distance;
   node.slip_load = march.slip_load;
-  node.wear_rate = point.problem->model().wear_rate(i, march.slip_load).depth;
-  node.dissipated_energy = contact.friction(i) * march.slip_load;
+  node.wear_rate = point.problem->model().wear_rate(i, {.load = march.slip_load, .energy = march.dissipation}).depth;
+  node.dissipated_energy = march.dissipation;
   node.periods = march.periods;
   return node;
 }

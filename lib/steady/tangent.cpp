@@ -195,7 +195,9 @@ Eigen::VectorXd Tangent::wear_rate_change(const Eigen::MatrixXd& response_change
     if (wear_change.size() > 0) change(i * d, 0) -= problem().penalty().normal(i) * wear_change(i);
     const Eigen::MatrixXd block = change.middleRows(i * d, d);
     const contact::MarchResult& node = point_->nodes[static_cast<std::size_t>(i)];
-    rate(i) = model.wear_rate(i, node.slip_load).by_slip_load * node.slip_load_derivative.dot(block.reshaped());
+    const contact::WearRate by = model.wear_rate(i, {.load = node.slip_load, .energy = node.dissipation});
+    rate(i) = by.by_load * node.slip_load_derivative.dot(block.reshaped()) +
+              by.by_energy * node.dissipation_derivative.dot(block.reshaped());
   }
   return rate;
 }

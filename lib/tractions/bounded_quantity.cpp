@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "paths/amplitude.hpp"
-#include "tractions/slip_origin_sensitivity.hpp"
 
 namespace dovetail::tractions {
 
@@ -28,14 +27,17 @@ steady::State FamilyQuantity::solve(const Eigen::MatrixXd& origin, const Eigen::
   return std::move(found.state);
 }
 
-// Of slip loads in the quantity.
-Eigen::VectorXd FamilyQuantity::weights(const steady::State& member) const {
+// Of slip loads and energies in the quantity.
+SlipWeights FamilyQuantity::weights(const steady::State& member) const {
   const dynamics::CondensedModel& model = *joint_.model;
-  if (quantity_ != BoundedQuantity::wear_rate) return model.contact().friction;
-  Eigen::VectorXd weights(model.nodes());
-  for (Eigen::Index i = 0; i < weights.size(); ++i)
-    weights(i) =
-        model.contact().area(i) * model.wear_rate(i, member.nodes[static_cast<std::size_t>(i)].slip_load).by_slip_load;
+  SlipWeights weights{.load = Eigen::VectorXd::Zero(model.nodes()), .energy = Eigen::VectorXd::Ones(model.nodes())};
+  if (quantity_ != BoundedQuantity::wear_rate) return weights;
+  for (Eigen::Index i = 0; i < model.nodes(); ++i) {
+    const steady::NodeSummary& node = member.nodes[static_cast<std::size_t>(i)];
+    const contact::WearRate rate = model.wear_rate(i, {.load = node.slip_load, .energy = node.dissipated_energy});
+    weights.load(i) = model.contact().area(i) * rate.by_load;
+    weights.energy(i) = model.contact().area(i) * rate.by_energy;
+  }
   return weights;
 }
 
@@ -70,7 +72,7 @@ Eigen::MatrixXd FamilyQuantity::gradient(const steady::State& member) {
   switch (quantity_) {
     case BoundedQuantity::friction_energy:
     case BoundedQuantity::wear_rate:
-      return slip_load_to_slip_origin(member, weights(member));
+      return slip_to_slip_origin(member, weights(member));
     case BoundedQuantity::resonance_frequency:
       return frequency_gradient(member);
     case BoundedQuantity::amplitude:

@@ -6,6 +6,7 @@
 
 #include "paths/resonance.hpp"
 #include "steady/steady_state.hpp"
+#include "tractions/slip_origin_sensitivity.hpp"
 
 namespace dovetail::tractions {
 
@@ -41,7 +42,7 @@ class FamilyQuantity {
   void follow(double omega) { omega_ = omega; }
 
  private:
-  [[nodiscard]] Eigen::VectorXd weights(const steady::State& member) const;
+  [[nodiscard]] SlipWeights weights(const steady::State& member) const;
   [[nodiscard]] Eigen::MatrixXd frequency_gradient(const steady::State& member);
 
   steady::Joint joint_;

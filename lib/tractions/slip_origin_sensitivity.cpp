@@ -41,15 +41,17 @@ Eigen::MatrixXd amplitude_to_slip_origin(const steady::State& state, Eigen::Inde
   return by_adjoint(tangent, gradient);
 }
 
-Eigen::MatrixXd slip_load_to_slip_origin(const steady::State& state, const Eigen::VectorXd& weights) {
+Eigen::MatrixXd slip_to_slip_origin(const steady::State& state, const SlipWeights& weights) {
   assert(state.tangent);
   const steady::Tangent& tangent = *state.tangent;
   const steady::Problem& problem = tangent.problem();
   const Eigen::Index d = problem.model().directions(), k = problem.basis().coefficients();
   Eigen::MatrixXd by_prediction(problem.model().contact_size(), k);
-  for (Eigen::Index i = 0; i < problem.model().nodes(); ++i)
+  for (Eigen::Index i = 0; i < problem.model().nodes(); ++i) {
+    const contact::MarchResult& node = tangent.point().nodes[static_cast<std::size_t>(i)];
     by_prediction.middleRows(i * d, d) =
-        weights(i) * tangent.point().nodes[static_cast<std::size_t>(i)].slip_load_derivative.reshaped(d, k);
+        (weights.load(i) * node.slip_load_derivative + weights.energy(i) * node.dissipation_derivative).reshaped(d, k);
+  }
   // d lambda_u = (eps I - Z) dU; the transpose of the real form of a complex symmetric Z is that of its conjugate.
   Eigen::MatrixXd gradient(by_prediction.rows(), k);
   for (std::size_t h = 0; h < problem.system().harmonics.size(); ++h) {

@@ -15,9 +15,12 @@ namespace dovetail::tractions {
 /// d amplitude / d X_T of one output (half peak-to-peak), at constant frequency.
 [[nodiscard]] Eigen::MatrixXd amplitude_to_slip_origin(const steady::State& state, Eigen::Index output);
 
-/// d (sum_i weight_i int lambda_N |dX_T| of node i) / d X_T, weights [Nc]: mu for the friction energy (J per cycle and
-/// m), k_w / area for depths.
-[[nodiscard]] Eigen::MatrixXd slip_load_to_slip_origin(const steady::State& state, const Eigen::VectorXd& weights);
+/// How slip loads and dissipated energies of the nodes are summed up, [Nc] each.
+struct SlipWeights {
+  Eigen::VectorXd load, energy;
+};
+/// d (sum of the weighted slip loads and energies of the nodes) / d X_T.
+[[nodiscard]] Eigen::MatrixXd slip_to_slip_origin(const steady::State& state, const SlipWeights& weights);
 
 /// Predicted change of U [nc, 2H+1] for a change dX_T [Nc, d-1]; the same nodes count.
 [[nodiscard]] Eigen::MatrixXd response_to_slip_origin(const steady::State& state, const Eigen::MatrixXd& change);

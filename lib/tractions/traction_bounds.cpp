@@ -253,7 +253,7 @@ class BoundSearch {
     return {.value = member.value,
             .omega = member.state.omega,
             .slip_origin = member.state.tangent->problem().condition().slip_origin,
-            .traction = mean_tractions(member.state, quantity_.model().contact().friction)};
+            .traction = mean_tractions(member.state, quantity_.model())};
   }
 
   FamilyQuantity quantity_;

@@ -20,11 +20,11 @@ Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& matrix) {
 
 }  // namespace
 
-Eigen::MatrixXd mean_tractions(const steady::State& state, const Eigen::VectorXd& friction) {
-  const Eigen::Index nodes = friction.size(), d = state.force.rows() / std::max<Eigen::Index>(nodes, 1);
+Eigen::MatrixXd mean_tractions(const steady::State& state, const dynamics::CondensedModel& model) {
+  const Eigen::Index nodes = model.nodes(), d = model.directions();
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(nodes, std::max<Eigen::Index>(d - 1, 0));
   for (Eigen::Index i = 0; i < nodes; ++i) {
-    const double limit = friction(i) * state.force(i * d, 0);
+    const double limit = model.contact_law(i).limit(state.force(i * d, 0)).force;
     if (limit > 0) result.row(i) = state.force.col(0).segment(i * d + 1, d - 1).transpose() / limit;
   }
   return result;
@@ -34,15 +34,15 @@ TractionFamily::TractionFamily(const steady::State& nominal) {
   assert(nominal.tangent);
   const steady::Problem& problem = nominal.tangent->problem();
   const Eigen::Index count = problem.model().nodes(), d = problem.model().directions();
-  friction_ = problem.model().contact().friction;
+  model_ = problem.shared_model();
   origin_ = problem.condition().slip_origin;
   std::vector<Eigen::Index> stuck, free;
   std::vector<double> limit;
   for (Eigen::Index i = 0; i < count; ++i) {
     const steady::NodeSummary& node = nominal.nodes[static_cast<std::size_t>(i)];
-    if (node.stuck && friction_(i) > 0) {
+    if (node.stuck && model_->contact_law(i).rubs()) {
       nodes_.push_back(i);
-      limit.push_back(friction_(i) * nominal.force(i * d, 0));
+      limit.push_back(model_->contact_law(i).limit(nominal.force(i * d, 0)).force);
       // Where it ended if it slipped before it stayed stuck.
       origin_.row(i) = nominal.slip_end.row(i);
       for (Eigen::Index r = 1; r < d; ++r) stuck.push_back(i * d + r);
@@ -69,7 +69,7 @@ TractionFamily::TractionFamily(const steady::State& nominal) {
 }
 
 Eigen::MatrixXd TractionFamily::traction(const steady::State& state) const {
-  return mean_tractions(state, friction_)(nodes_, Eigen::all);
+  return mean_tractions(state, *model_)(nodes_, Eigen::all);
 }
 
 Eigen::MatrixXd TractionFamily::slip_origin(const Eigen::MatrixXd& traction) const {

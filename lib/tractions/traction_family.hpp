@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "steady/steady_state.hpp"
@@ -8,7 +9,7 @@
 namespace dovetail::tractions {
 
 /// Residual tractions of the nodes that stay stuck as coordinates of the family of solutions: m [stuck nodes, d-1] is
-/// the mean lambda_T over mu mean lambda_N, |m| <= 1 for each node since |lambda_T| <= mu lambda_N at all times. Slip
+/// the mean lambda_T over the limit force under the mean lambda_N, |m| <= 1 for each node under Coulomb's law. Slip
 /// origins follow from m by the static stiffness seen by the stuck tangential displacements while loaded normal
 /// directions stay closed and everything else keeps its mean force: exact as long as mean normal forces do not change,
 /// and in any case a way to reach the whole family.
@@ -31,15 +32,15 @@ class TractionFamily {
   [[nodiscard]] static Eigen::MatrixXd admissible(Eigen::MatrixXd traction);
 
  private:
+  std::shared_ptr<const dynamics::CondensedModel> model_;
   std::vector<Eigen::Index> nodes_;
-  Eigen::VectorXd friction_;  // mu of all nodes
   Eigen::VectorXd reach_;
-  Eigen::VectorXd limit_;             // mu mean lambda_N of the stuck ones
+  Eigen::VectorXd limit_;             // of the stuck ones, under the mean lambda_N
   Eigen::MatrixXd origin_, nominal_;  // X_T and m of the nominal state
   Eigen::MatrixXd compliance_;        // -dX_T / d lambda_T, node by node
 };
 
 /// m of all nodes [Nc, d-1]; 0 where nothing is carried or there is no friction.
-[[nodiscard]] Eigen::MatrixXd mean_tractions(const steady::State& state, const Eigen::VectorXd& friction);
+[[nodiscard]] Eigen::MatrixXd mean_tractions(const steady::State& state, const dynamics::CondensedModel& model);
 
 }  // namespace dovetail::tractions

@@ -58,8 +58,7 @@ bool near_slip(const dynamics::CondensedModel& model, const steady::State& state
   constexpr double kMargin = 0.05;
   for (std::size_t i = 0; i < released.size(); ++i) {
     const auto node = static_cast<Index>(i);
-    if (!released[i] && state.nodes[i].carries_load &&
-        friction_margin(state, node, model.contact().friction[node]) < kMargin)
+    if (!released[i] && state.nodes[i].carries_load && friction_margin(state, node, model.contact_law(node)) < kMargin)
       return true;
   }
   return false;

@@ -7,12 +7,11 @@
 
 namespace dovetail::wear {
 
-/// Friction margin of a node over the period, min_{t,s} 1 - |lambda_T(t) - lambda_T(s)| / (mu (lambda_N(t) +
-/// lambda_N(s))) over its loaded samples: what is left before no constant residual traction keeps it from slipping in
-/// every cycle. (Its distance from mu lambda_N at one instant says nothing: a node that slid into place sits there.)
-/// Negative for a node held beyond its friction; infinite without load or friction. `friction` is the mu to measure by.
-/// O(samples^2).
-[[nodiscard]] double friction_margin(const steady::State& state, Eigen::Index node, double friction);
+/// Friction margin of a node over the period, min_{t,s} 1 - |lambda_T(t) - lambda_T(s)| / (limit(t) + limit(s))
+/// of the tangential force, over its loaded samples: what is left before no constant residual traction keeps it from
+/// slipping in every cycle. (Its distance from the limit at one instant says nothing: a node that slid into place sits
+/// there.) Negative for a node held beyond its friction; infinite without load or friction. O(samples^2).
+[[nodiscard]] double friction_margin(const steady::State& state, Eigen::Index node, const contact::NodeLaw& law);
 
 /// Overload relieved by the slip of a node, in units of mu lambda_N: k_T (slip distance) / (4 mu max lambda_N) with the
 /// node's own stiffness k_T (two reversals per cycle, each sliding by twice the overload over k_T).

@@ -25,8 +25,10 @@ std::shared_ptr<const steady::Problem> ImplicitStage::problem(const VectorXd& de
 
 VectorXd ImplicitStage::rate(const steady::Point& point) const {
   VectorXd rate(problem_.model().nodes());
-  for (Index i = 0; i < rate.size(); ++i)
-    rate[i] = problem_.model().wear_rate(i, point.nodes[static_cast<std::size_t>(i)].slip_load).depth;
+  for (Index i = 0; i < rate.size(); ++i) {
+    const contact::MarchResult& march = point.nodes[static_cast<std::size_t>(i)];
+    rate[i] = problem_.model().wear_rate(i, {.load = march.slip_load, .energy = march.dissipation}).depth;
+  }
   return rate;
 }
 

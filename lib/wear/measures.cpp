@@ -18,7 +18,7 @@ std::vector<bool> worn_nodes(const Eigen::VectorXd& depth) {
 
 bool rests_in_slip(const dynamics::CondensedModel& model) {
   for (Eigen::Index i = 0; i < model.nodes(); ++i)
-    if (model.wear_law().resting_slip_load(model.wear_node(i)) > 0.0) return true;
+    if (model.wear_law().resting_energy(model.wear_node(i)) > 0.0) return true;
   return false;
 }
 

@@ -13,8 +13,8 @@ double no_wear_rate(double given, const dynamics::CondensedModel& model, const s
   double largest = 0.0;
   for (Eigen::Index i = 0; i < contact.count(); ++i) {
     const double force = unworn.nodes[static_cast<std::size_t>(i)].max_normal_force;
-    const double sliding = 4.0 * contact.friction[i] * force / own_stiffness(model, i, 1);
-    const double energy = contact.friction[i] * force * sliding;
+    const double limit = model.contact_law(i).limit(force).force;
+    const double energy = limit * 4.0 * limit / own_stiffness(model, i, 1);
     largest = std::max(largest, model.wear_law().volume_per_energy(model.wear_node(i)) * energy / contact.area[i]);
   }
   return kShare * largest;

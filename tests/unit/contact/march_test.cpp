@@ -63,6 +63,8 @@ TEST_P(MarchDerivative, MatchesFiniteDifferences) {
     EXPECT_LT((exact - difference).norm(), 1e-7 * (1 + exact.norm()));
     EXPECT_NEAR(base.slip_load_derivative.dot(direction.reshaped()), (plus.slip_load - minus.slip_load) / (2 * h),
                 1e-7 * (1 + base.slip_load_derivative.norm()));
+    EXPECT_NEAR(base.dissipation_derivative.dot(direction.reshaped()), (plus.dissipation - minus.dissipation) / (2 * h),
+                1e-7 * (1 + base.dissipation_derivative.norm()));
   }
   EXPECT_GE(compared, 4);
 }

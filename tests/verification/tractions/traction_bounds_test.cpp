@@ -68,7 +68,8 @@ TEST(SlipOrigin, DerivativesMatchDifferences) {
   ASSERT_TRUE(state.nodes[0].stuck && state.nodes[1].stuck);
   ASSERT_GT(state.friction_energy, 0);
   const Eigen::MatrixXd amplitude = tractions::amplitude_to_slip_origin(state, 0);
-  const Eigen::MatrixXd energy = tractions::slip_load_to_slip_origin(state, model.contact.friction);
+  const Eigen::MatrixXd energy =
+      tractions::slip_to_slip_origin(state, {.load = Eigen::VectorXd::Zero(4), .energy = Eigen::VectorXd::Ones(4)});
   for (Eigen::Index i = 0; i < 4; ++i) {
     Eigen::MatrixXd step = Eigen::MatrixXd::Zero(4, 1);
     step(i, 0) = 1e-6;
