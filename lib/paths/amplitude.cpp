@@ -8,7 +8,7 @@
 
 namespace dovetail::paths {
 
-AmplitudeAt amplitude_at(const steady::Point& point, const BranchVector& direction, Eigen::Index output) {
+AmplitudeAt amplitude_at(const steady::Point& point, const branches::Vector& direction, Eigen::Index output) {
   const steady::Problem& problem = *point.problem;
   const dynamics::CondensedModel& model = problem.model();
   const Eigen::Index k = point.displacement.cols();
@@ -19,7 +19,7 @@ AmplitudeAt amplitude_at(const steady::Point& point, const BranchVector& directi
     const Eigen::VectorXcd contact = dynamics::harmonic_of(point.displacement, j);
     const Eigen::VectorXcd moved =
         model.output_gradient(at) * dynamics::harmonic_of(direction.displacement, j) +
-        direction.omega * model.output_slope(static_cast<int>(h), problem.system().omega, at, contact);
+        direction.parameter * model.output_slope(static_cast<int>(h), problem.system().omega, at, contact);
     dynamics::put_harmonic(model.outputs(at, contact).segment(output, 1), j, value);
     dynamics::put_harmonic(moved.segment(output, 1), j, change);
   }
@@ -27,14 +27,14 @@ AmplitudeAt amplitude_at(const steady::Point& point, const BranchVector& directi
   // The extremes are stationary in time: only the coefficients move them, to first order.
   const Eigen::VectorXd difference =
       dynamics::fourier_row(ends.tau_maximum, k) - dynamics::fourier_row(ends.tau_minimum, k);
-  const double size = vibration(value);
+  const double size = branches::vibration(value);
   return {.value = ends.amplitude(),
           .change = change.row(0).dot(difference) / 2,
-          .speed = size > 0 ? vibration(change) / size : 0};
+          .speed = size > 0 ? branches::vibration(change) / size : 0};
 }
 
 AmplitudeSlope amplitude_slope(const steady::State& state, Eigen::Index output) {
-  const BranchVector along{.displacement = state.tangent->response_to_frequency(), .omega = 1};
+  const branches::Vector along{.displacement = state.tangent->response_to_frequency(), .parameter = 1};
   const AmplitudeAt at = amplitude_at(state.tangent->point(), along, output);
   // A resonance sharper than this is not resolved by the frequency tolerance either.
   constexpr double kSharpest = 1e-6, kWidest = 0.5;

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "paths/branch.hpp"
+#include "branches/arc.hpp"
+#include "steady/state.hpp"
 
 namespace dovetail::paths {
 
@@ -10,7 +11,8 @@ struct AmplitudeAt {
   double change = 0;  ///< derivative of the value along the direction
   double speed = 0;   ///< of all coefficients of the output along the direction, relative to its vibration
 };
-[[nodiscard]] AmplitudeAt amplitude_at(const steady::Point& point, const BranchVector& direction, Eigen::Index output);
+[[nodiscard]] AmplitudeAt amplitude_at(const steady::Point& point, const branches::Vector& direction,
+                                       Eigen::Index output);
 
 /// Amplitude of one output over the frequency at a converged state, by its tangent, which must be there.
 struct AmplitudeSlope {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "paths/bordered.hpp"
+#include "branches/bordered.hpp"
 #include "paths/stationarity.hpp"
 #include "steady/problem.hpp"
 
@@ -15,21 +15,21 @@ namespace {
 struct Local {
   Status status = Status::singular;
   std::shared_ptr<steady::Point> point = {};
-  BranchVector at, direction, correction;
+  branches::Vector at, direction, correction;
   double distance = 0;  // |c|
   AmplitudeAt amplitude;
   bool on_branch = false;
 };
 
-Local linearised(const BranchEquations& branch, const BranchVector& at, const BranchVector& along,
-                 const ArcMetric& metric, Eigen::Index output) {
+Local linearised(const branches::Equations& branch, const branches::Vector& at, const branches::Vector& along,
+                 const branches::ArcMetric& metric, Eigen::Index output) {
   Local local;
   local.at = at;
   if (spent(branch.options().budget)) {
     local.status = Status::budget_spent;
     return local;
   }
-  const std::shared_ptr<const steady::Problem> problem = branch.at(at.omega);
+  const std::shared_ptr<const steady::Problem> problem = branch.at(at.parameter);
   if (!problem) return local;
   local.point = std::make_shared<steady::Point>();
   steady::evaluate(problem, at.displacement, *local.point);
@@ -41,10 +41,10 @@ Local linearised(const BranchEquations& branch, const BranchVector& at, const Br
   if (local.on_branch && !steady::is_held(*local.point)) return local;
   steady::differentiate(*local.point);
   const steady::Tangent tangent(local.point);
-  const ArcMetric::Row row = metric.row(along);
-  const BorderedSystem bordered(tangent, row.displacement, row.omega);
-  const BorderedSystem::Solution ahead = bordered.solve(Eigen::VectorXd::Zero(row.displacement.size()), 1);
-  const BorderedSystem::Solution back = bordered.solve(-local.point->residual.reshaped(), 0);
+  const branches::ArcMetric::Row row = metric.row(along);
+  const branches::BorderedSystem bordered(tangent, branch.slope(*local.point), row.displacement, row.parameter);
+  const branches::BorderedSystem::Solution ahead = bordered.solve(Eigen::VectorXd::Zero(row.displacement.size()), 1);
+  const branches::BorderedSystem::Solution back = bordered.solve(-local.point->residual.reshaped(), 0);
   if (ahead.status != Status::converged || back.status != Status::converged) return local;
   local.direction = metric.unit(bordered.vector(ahead));
   local.correction = bordered.vector(back);
@@ -56,20 +56,21 @@ Local linearised(const BranchEquations& branch, const BranchVector& at, const Br
 
 }  // namespace
 
-ArcMetric peak_metric(const steady::State& state, double width) {
-  return arc_metric(state, vibrating_force(state), width);
+branches::ArcMetric peak_metric(const steady::State& state, double width) {
+  return branches::arc_metric(state, branches::vibrating_force(state), width);
 }
 
 namespace {
 
 class PeakNewton {
  public:
-  PeakNewton(const BranchEquations& branch, const ArcMetric& metric, const PeakOptions& options, double curvature)
+  PeakNewton(const branches::Equations& branch, const branches::ArcMetric& metric, const PeakOptions& options,
+             double curvature)
       : branch_(branch), metric_(metric), options_(options), stationarity_(curvature, kTrust) {}
 
-  Peak run(const BranchVector& start) {
+  Peak run(const branches::Vector& start) {
     peak_.at = start_ = start;
-    const BranchVector forward = reference_ = metric_.forwards(start.displacement);
+    const branches::Vector forward = reference_ = metric_.forwards(start.displacement);
     if (!look(start, forward, kNear) && !correct(start, forward)) return peak_;
     while (peak_.iterations < options_.max_iterations) {
       if (!clean()) {
@@ -95,7 +96,7 @@ class PeakNewton {
   };
 
   // Linearises at a point; false when that fails or the branch is further away than `nearest`.
-  bool look(const BranchVector& point, const BranchVector& along, double nearest) {
+  bool look(const branches::Vector& point, const branches::Vector& along, double nearest) {
     Local found = linearised(branch_, point, along, metric_, options_.output);
     ++peak_.iterations;
     ++peak_.evaluations;
@@ -106,9 +107,9 @@ class PeakNewton {
   }
 
   // The point of the branch in the plane through `from` across `row`; false when the corrector fails.
-  bool correct(const BranchVector& from, const BranchVector& row) {
+  bool correct(const branches::Vector& from, const branches::Vector& row) {
     constexpr int kCorrections = 8;
-    const BranchEquations::Correction found = branch_.correct(from, row, metric_, kCorrections);
+    const branches::Equations::Correction found = branch_.correct(from, row, metric_, kCorrections);
     peak_.iterations += found.iterations;
     peak_.evaluations += found.evaluations;
     peak_.status = found.status;
@@ -140,18 +141,18 @@ class PeakNewton {
     if (!referred_) reference_ = here_.direction;
     referred_ = true;
     stationarity_.add(
-        {.place = place(), .omega = here_.at.omega, .amplitude = here_.amplitude.value, .slope = slope()});
+        {.place = place(), .omega = here_.at.parameter, .amplitude = here_.amplitude.value, .slope = slope()});
     step_ = stationarity_.step();
     peak_.at = here_.at;
     peak_.point = here_.point;
     peak_.amplitude = here_.amplitude.value;
     peak_.slope = slope();
     peak_.curvature = stationarity_.curvature();
-    peak_.width =
-        here_.amplitude.speed > 0 ? std::abs(here_.direction.omega) / here_.amplitude.speed : 1 / metric_.omega_weight;
-    const double way = std::abs(step_ * here_.direction.omega);
-    const double tolerated = options_.frequency_tolerance * here_.at.omega;
-    peak_.error = std::min(way, stationarity_.bracket()) / here_.at.omega;
+    peak_.width = here_.amplitude.speed > 0 ? std::abs(here_.direction.parameter) / here_.amplitude.speed
+                                            : 1 / metric_.parameter_weight;
+    const double way = std::abs(step_ * here_.direction.parameter);
+    const double tolerated = options_.frequency_tolerance * here_.at.parameter;
+    peak_.error = std::min(way, stationarity_.bracket()) / here_.at.parameter;
     // Along a steep branch the frequency hardly moves: the place on the branch must be known as well.
     constexpr double kFlat = 1e-4, kPart = 0.2;
     const bool stands = way <= kPart * tolerated || stationarity_.bracket() <= tolerated;
@@ -189,11 +190,11 @@ class PeakNewton {
     return std::log(from.local.amplitude.value) - 2 * std::abs(target - from.place);
   }
 
-  const BranchEquations& branch_;
-  const ArcMetric& metric_;
+  const branches::Equations& branch_;
+  const branches::ArcMetric& metric_;
   const PeakOptions& options_;
   Stationarity stationarity_;
-  BranchVector start_, reference_;
+  branches::Vector start_, reference_;
   bool referred_ = false;
   Local here_;
   std::vector<Visited> ends_;
@@ -203,17 +204,17 @@ class PeakNewton {
 
 }  // namespace
 
-Peak find_peak(const BranchEquations& branch, const BranchVector& start, const ArcMetric& metric,
+Peak find_peak(const branches::Equations& branch, const branches::Vector& start, const branches::ArcMetric& metric,
                const PeakOptions& options, double curvature) {
   return PeakNewton(branch, metric, options, curvature).run(start);
 }
 
-steady::State described(const BranchEquations& branch, const Peak& peak, const ArcMetric& metric) {
-  const BranchEquations::Correction found{.status = Status::converged,
-                                          .at = peak.at,
-                                          .point = *peak.point,
-                                          .iterations = peak.iterations,
-                                          .evaluations = peak.evaluations};
+steady::State described(const branches::Equations& branch, const Peak& peak, const branches::ArcMetric& metric) {
+  const branches::Equations::Correction found{.status = Status::converged,
+                                              .at = peak.at,
+                                              .point = *peak.point,
+                                              .iterations = peak.iterations,
+                                              .evaluations = peak.evaluations};
   return branch.describe(found, metric.forwards(peak.at.displacement), metric).state;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "branches/branch.hpp"
 #include "paths/amplitude.hpp"
-#include "paths/branch.hpp"
 
 namespace dovetail::paths {
 
@@ -13,7 +13,7 @@ struct PeakOptions {
 
 struct Peak {
   Status status = Status::iteration_limit;
-  BranchVector at;
+  branches::Vector at;
   double amplitude = 0;
   double slope = 0;      ///< change of the amplitude with the arc length, relative to the amplitude
   double curvature = 0;  ///< second derivative with the arc length, relative; < 0 at a maximum
@@ -26,7 +26,7 @@ struct Peak {
 
 /// Arc length near a peak: one unit is a change of the contact's vibration by its own size, or of the frequency by
 /// `width`.
-[[nodiscard]] ArcMetric peak_metric(const steady::State& state, double width);
+[[nodiscard]] branches::ArcMetric peak_metric(const steady::State& state, double width);
 
 /// Newton on (U, omega) for f = 0 and dA/ds = 0, A the amplitude of one output and s the arc length, from `start` near
 /// the maximum of a branch. Each iteration takes one factorisation of J: the bordered system gives the tangent, the
@@ -34,10 +34,11 @@ struct Peak {
 /// smooth and a local one says nothing of the way the contact changes (`curvature` < 0 is the first guess of it, 0:
 /// none). It works through turning points. dA/ds jumps where samples change their contact state, and a maximum at such
 /// a jump is accepted when its bracket is as narrow as the tolerance.
-[[nodiscard]] Peak find_peak(const BranchEquations& branch, const BranchVector& start, const ArcMetric& metric,
-                             const PeakOptions& options, double curvature = -0.5);
+[[nodiscard]] Peak find_peak(const branches::Equations& branch, const branches::Vector& start,
+                             const branches::ArcMetric& metric, const PeakOptions& options, double curvature = -0.5);
 
 /// The steady state at a converged peak, with its tangent unless that is singular.
-[[nodiscard]] steady::State described(const BranchEquations& branch, const Peak& peak, const ArcMetric& metric);
+[[nodiscard]] steady::State described(const branches::Equations& branch, const Peak& peak,
+                                      const branches::ArcMetric& metric);
 
 }  // namespace dovetail::paths

@@ -79,7 +79,7 @@ class PeakSearch {
 
   // From the highest point so far by Newton on (U, omega), which turning points do not stop.
   bool climbed() {
-    const BranchEquations equations(joint_, top_.state.penalty_ratio);
+    const branches::Equations equations(joint_, top_.state.penalty_ratio);
     std::optional<steady::State> top = climb(equations, top_.state, top_.at.width, peak_, result_);
     if (!top || top->omega < lowest_ || top->omega > highest_) return false;
     accept(std::move(*top));
@@ -110,7 +110,7 @@ class PeakSearch {
     Eigen::MatrixXd guess = guess_;
     if (now_.state.tangent)
       guess = now_.state.displacement + (omega - now_.omega) * now_.state.tangent->response_to_frequency();
-    steady::State state = steady::steady_state(joint, omega, guess, now_.state.tangent);
+    steady::State state = steady_state(joint, omega, guess, now_.state.tangent);
     ++result_.solves;
     result_.jacobians += state.iterations;
     last_status_ = state.status;

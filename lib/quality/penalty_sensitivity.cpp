@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "paths/steady_state.hpp"
+
 namespace dovetail::quality {
 namespace {
 
@@ -62,7 +64,7 @@ PenaltySensitivity penalty_sensitivity(const steady::Joint& joint, const steady:
   const auto at_ratio = [&](double ratio, const steady::State& from) {
     steady::Joint scaled = base;
     scaled.options.penalty_scale *= ratio;
-    steady::State found = steady::refined_state(scaled, from);
+    steady::State found = paths::refined_state(scaled, from);
     result.jacobians += found.iterations;
     return found;
   };

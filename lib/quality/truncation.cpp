@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "paths/steady_state.hpp"
+
 namespace dovetail::quality {
 namespace {
 
@@ -46,10 +48,10 @@ Refinements refine(const steady::Joint& joint, const steady::State& state) {
   steady::Options softer = other.options, stiffer = other.options;
   softer.penalty_scale *= 0.5;
   stiffer.penalty_scale *= 2;
-  Refinements result{.harmonics = steady::refined_state(other.with(more_harmonics(other.options)), state),
-                     .samples = steady::refined_state(other.with(more_samples(other.options)), state),
-                     .softer = steady::refined_state(other.with(softer), state),
-                     .stiffer = steady::refined_state(other.with(stiffer), state)};
+  Refinements result{.harmonics = paths::refined_state(other.with(more_harmonics(other.options)), state),
+                     .samples = paths::refined_state(other.with(more_samples(other.options)), state),
+                     .softer = paths::refined_state(other.with(softer), state),
+                     .stiffer = paths::refined_state(other.with(stiffer), state)};
   for (const steady::State* one : {&result.harmonics, &result.samples, &result.softer, &result.stiffer})
     result.jacobians += one->iterations;
   return result;

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "paths/resonance.hpp"
-#include "steady/steady_state.hpp"
+#include "steady/state.hpp"
 #include "tractions/slip_origin_sensitivity.hpp"
 
 namespace dovetail::tractions {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "steady/steady_state.hpp"
+#include "steady/state.hpp"
 
 namespace dovetail::tractions {
 

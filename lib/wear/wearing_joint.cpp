@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "paths/steady_state.hpp"
+
 namespace dovetail::wear {
 
 using Eigen::Index;
@@ -37,7 +39,7 @@ steady::State WearingJoint::solve(const steady::Joint& joint, const MatrixXd& gu
     state.status = found.status;
     if (found.status == Status::converged) omega_ = found.omega;
   } else {
-    state = steady::steady_state(joint, omega_, guess, last_);
+    state = paths::steady_state(joint, omega_, guess, last_);
     count(1, state.iterations);
   }
   if (state.tangent) last_ = state.tangent;

@@ -6,6 +6,8 @@
 #include <map>
 #include <utility>
 
+#include "paths/steady_state.hpp"
+
 namespace dovetail::studies {
 namespace {
 
@@ -15,7 +17,7 @@ steady::State linearised(const LoadedModel& loaded, const steady::State& state) 
   steady::Options options = loaded.joint.options;
   options.linearise = true;
   options.penalty_scale *= state.penalty_ratio;
-  return steady::steady_state({loaded.joint.model, {}, options}, state.omega, state.displacement);
+  return paths::steady_state({loaded.joint.model, {}, options}, state.omega, state.displacement);
 }
 
 TractionRanges traction_ranges(const LoadedModel& loaded, const steady::State& state) {

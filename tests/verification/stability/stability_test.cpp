@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 
+#include "paths/steady_state.hpp"
 #include "tests/verification/steady/rod.hpp"
 
 namespace dovetail::verification {
@@ -49,7 +50,7 @@ TEST(Stability, OfAGluedRodIsThatOfTheLinearSystem) {
   reduction::ReducedModel model = rod(5);
   model.contact.friction.setConstant(50);
   const double omega = 2.2;
-  const steady::State state = steady::steady_state({condensed(model), {}, {}}, omega);
+  const steady::State state = paths::steady_state({condensed(model), {}, {}}, omega);
   const stability::Stability found = stability::local_stability(model, state);
   ASSERT_EQ(found.verdict, stability::StabilityVerdict::stable) << found.reason;
   EXPECT_EQ(found.neutral, 5);
@@ -68,7 +69,7 @@ TEST(Stability, OfASeparatedRodIsThatOfTheFreeSystem) {
   const double omega = 2.2;
   const steady::Condition far{.wear_depth = Eigen::VectorXd::Constant(5, 100.0)};
   const stability::Stability found =
-      stability::local_stability(model, steady::steady_state({condensed(model), far, {}}, omega));
+      stability::local_stability(model, paths::steady_state({condensed(model), far, {}}, omega));
   ASSERT_EQ(found.verdict, stability::StabilityVerdict::stable) << found.reason;
   EXPECT_EQ(found.neutral, 0);
   const Eigen::MatrixXd free = model.stiffness.topLeftCorner<5, 5>() - 2 * Eigen::MatrixXd::Identity(5, 5);
@@ -82,7 +83,7 @@ TEST(Stability, WithoutDampingIsMarginal) {
   model.contact.friction.setConstant(50);
   model.damping.setZero();
   const stability::Stability found =
-      stability::local_stability(model, steady::steady_state({condensed(model), {}, {}}, 2.2));
+      stability::local_stability(model, paths::steady_state({condensed(model), {}, {}}, 2.2));
   EXPECT_EQ(found.verdict, stability::StabilityVerdict::marginal) << found.reason;
   EXPECT_NEAR(found.largest_modulus, 1, 1e-11);
 }
@@ -95,7 +96,7 @@ TEST(Stability, SaysWhereItMeansNothing) {
   lifting.static_force(1) = 0.2;
   lifting.cosine_force(0, 1) = 1;
   lifting.damping(1, 1) = lifting.damping(0, 0) = 0.2;
-  steady::State state = steady::steady_state({condensed(lifting), {}, {.harmonics = 7, .tolerance = 1e-2}}, 0.7);
+  steady::State state = paths::steady_state({condensed(lifting), {}, {.harmonics = 7, .tolerance = 1e-2}}, 0.7);
   ASSERT_EQ(state.status, Status::converged);
   ASSERT_TRUE(state.nodes[0].separates && state.nodes[0].carries_load);
   EXPECT_EQ(stability::local_stability(lifting, state).verdict, stability::StabilityVerdict::not_meaningful);
@@ -104,12 +105,12 @@ TEST(Stability, SaysWhereItMeansNothing) {
   reduction::ReducedModel quasi_static = rod(3);
   quasi_static.mass.setZero();
   quasi_static.damping.setZero();
-  state = steady::steady_state({condensed(quasi_static), {}, {}}, 1);
+  state = paths::steady_state({condensed(quasi_static), {}, {}}, 1);
   ASSERT_EQ(state.status, Status::converged);
   EXPECT_EQ(stability::local_stability(quasi_static, state).verdict, stability::StabilityVerdict::not_meaningful);
 
   const reduction::ReducedModel sliding = den_hartog(0.4);
-  state = steady::steady_state({condensed(sliding), {}, {.harmonics = 15}}, 0.8);
+  state = paths::steady_state({condensed(sliding), {}, {.harmonics = 15}}, 0.8);
   ASSERT_EQ(state.status, Status::converged);
   EXPECT_EQ(stability::local_stability(sliding, state).verdict, stability::StabilityVerdict::undetermined);
 
@@ -205,7 +206,7 @@ TEST(Stability, FindsTheMiddleBranchOfAClearanceUnstable) {
   for (std::size_t i = 0; i < 3; ++i) {
     steady::State state;
     for (const double sign : {1.0, -1.0}) {
-      state = steady::steady_state({reduced, {}, {.harmonics = harmonics, .samples = 1024}}, omega,
+      state = paths::steady_state({reduced, {}, {.harmonics = harmonics, .samples = 1024}}, omega,
                                    clearance_guess(sign * starts[i], omega, harmonics));
       if (state.status == Status::converged && std::abs(state.amplitudes(0) - starts[i]) < 0.3 * starts[i]) break;
     }
@@ -343,7 +344,7 @@ TEST_P(NodeInSpace, HasTheMultipliersOfItsPerturbedMotion) {
   model.contact.friction << c.friction;
   model.cosine_force(0, 2) *= c.normal_amplitude;
   model.sine_force(0, 2) *= c.normal_amplitude;
-  const steady::State state = steady::steady_state(
+  const steady::State state = paths::steady_state(
       {condensed(model), {}, {.harmonics = 31, .samples = 1024, .slip_return = "second_order"}}, c.omega);
   ASSERT_EQ(state.status, Status::converged);
   const stability::Stability found = stability::local_stability(model, state);
