@@ -6,6 +6,7 @@
 
 #include "optimizer/evaluator.hpp"
 #include "paths/resonance.hpp"
+#include "paths/steady_state.hpp"
 #include "wear/asymptote.hpp"
 
 namespace dovetail::optimizer {
@@ -307,7 +308,7 @@ ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateMode
     if (!candidate.converged()) return unsettled();
     const Eigen::MatrixXd guess =
         carried_over(unworn.displacement, before, ends_of(candidate.cells), candidate.condensed->directions());
-    unworn = steady::steady_state({candidate.condensed, {}, steady}, peak.omega, guess);
+    unworn = paths::steady_state({candidate.condensed, {}, steady}, peak.omega, guess);
     if (unworn.status != Status::converged) return unsettled();
   }
 }

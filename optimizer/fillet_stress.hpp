@@ -4,7 +4,7 @@
 #include <span>
 
 #include "optimizer/candidate_model.hpp"
-#include "steady/steady_state.hpp"
+#include "steady/state.hpp"
 
 namespace dovetail::optimizer {
 

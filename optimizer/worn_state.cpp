@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "optimizer/worn_zones.hpp"
-#include "steady/steady_state.hpp"
+#include "paths/steady_state.hpp"
 #include "wear/certificate.hpp"
 #include "wear/follow.hpp"
 
@@ -49,7 +49,7 @@ std::optional<wear::OtherState> finer_history(Scene scene, const CandidateModel&
   scene.solver.samples = joint.options.samples;
   joint.options.budget = new_budget(scene.solver, model);
   const steady::State start =
-      steady::steady_state(joint, unworn.omega, steady::padded(unworn.displacement, joint.options.harmonics));
+      paths::steady_state(joint, unworn.omega, paths::padded(unworn.displacement, joint.options.harmonics));
   if (start.status != Status::converged) return {};
   wear::Asymptote found = come_to_rest(scene, joint, start, "always").asymptote;
   if (found.verdict != wear::Verdict::asymptote || !found.confirmed_by_history) return {};

@@ -5,7 +5,7 @@
 
 #include "optimizer/candidate_model.hpp"
 #include "optimizer/evaluation.hpp"
-#include "steady/steady_state.hpp"
+#include "steady/state.hpp"
 #include "wear/asymptote.hpp"
 
 namespace dovetail::optimizer {

@@ -13,7 +13,7 @@ namespace {
 // A resonance that was found, as a support of the predictor.
 struct Support {
   double parameter = 0;
-  BranchVector point;
+  branches::Vector point;
 };
 
 class Tracker {
@@ -29,7 +29,7 @@ class Tracker {
 
   // Followed from the point before, then held against the others.
   BackbonePoint next(double parameter) {
-    const double before = supports_.back().point.omega;
+    const double before = supports_.back().point.parameter;
     BackbonePoint found = followed(parameter);
     check(found, before);
     if (found.status == Status::converged || !backbone_.search || backbone_.check_range == 0) return found;
@@ -73,7 +73,7 @@ class Tracker {
     ResonanceOptions near = backbone_.resonance;
     near.sweep_range = 0;
     const Support& last = supports_.back();
-    BackbonePoint found = searched(parameter, last.point.omega, last.point.displacement, near);
+    BackbonePoint found = searched(parameter, last.point.parameter, last.point.displacement, near);
     found.intermediate = result.intermediate;
     found.jacobians += jacobians;
     return found;
@@ -133,7 +133,7 @@ class Tracker {
       penalty_ratio_ = point.state.penalty_ratio;
     }
     keeps_tangents_ = family_(point.parameter).options.linearise;
-    keep({.parameter = point.parameter, .point = {.displacement = point.state.displacement, .omega = point.omega}});
+    keep({.parameter = point.parameter, .point = {.displacement = point.state.displacement, .parameter = point.omega}});
     last_state_ = point.state;
     last_state_.tangent.reset();
     curvature_ = kLinear;
@@ -142,16 +142,16 @@ class Tracker {
   }
 
   BackbonePoint newton(double parameter) {
-    const BranchEquations branch(family_(parameter), penalty_ratio_);
-    const ArcMetric metric = peak_metric(last_state_, width_);
+    const branches::Equations branch(family_(parameter), penalty_ratio_);
+    const branches::ArcMetric metric = peak_metric(last_state_, width_);
     const PeakOptions peak{.output = backbone_.resonance.output,
                            .frequency_tolerance = backbone_.resonance.frequency_tolerance,
                            .max_iterations = backbone_.max_iterations};
-    const BranchVector start = predicted(parameter);
+    const branches::Vector start = predicted(parameter);
     const Peak found = find_peak(branch, start, metric, peak, curvature_);
     BackbonePoint point{.parameter = parameter,
                         .status = found.status,
-                        .omega = found.at.omega,
+                        .omega = found.at.parameter,
                         .amplitude = found.amplitude,
                         .error = found.error,
                         .jacobians = found.iterations,
@@ -159,7 +159,7 @@ class Tracker {
     if (point.status != Status::converged) return point;
     // A peak this far from where it was expected is another one.
     constexpr double kElsewhere = 0.5;
-    if (std::abs(found.at.omega / supports_.back().point.omega - 1) > kElsewhere) {
+    if (std::abs(found.at.parameter / supports_.back().point.parameter - 1) > kElsewhere) {
       point.status = Status::stalled;
       return point;
     }
@@ -176,9 +176,9 @@ class Tracker {
     return point;
   }
 
-  [[nodiscard]] BranchVector predicted(double parameter) const {
+  [[nodiscard]] branches::Vector predicted(double parameter) const {
     // Lagrange's polynomial through the last points, of which none may coincide.
-    BranchVector result = 0 * supports_.back().point;
+    branches::Vector result = 0 * supports_.back().point;
     for (std::size_t i = 0; i < supports_.size(); ++i) {
       double weight = 1;
       for (std::size_t j = 0; j < supports_.size(); ++j)

@@ -23,7 +23,7 @@ class Sweep {
       constexpr std::array kFurther{0.01, 0.03, 0.1};
       for (std::size_t i = 0; state.status != Status::converged && i < kFurther.size(); ++i) {
         const double beyond = omega * (1 + std::copysign(kFurther[i], omega - before.omega));
-        const steady::State other = steady::steady_state(plain(), beyond);
+        const steady::State other = steady_state(plain(), beyond);
         steady::State back;
         if (other.status == Status::converged) {
           last_ = other;
@@ -59,9 +59,9 @@ class Sweep {
   }
 
   [[nodiscard]] steady::State from_last(double omega, const steady::Joint& joint) const {
-    if (!last_.tangent) return steady::steady_state(joint, omega);
+    if (!last_.tangent) return steady_state(joint, omega);
     const Eigen::MatrixXd guess = last_.displacement + (omega - last_.omega) * last_.tangent->response_to_frequency();
-    return steady::steady_state(joint, omega, guess, last_.tangent);
+    return steady_state(joint, omega, guess, last_.tangent);
   }
 
   // Halves the way to omega while that fails, and carries on from where it got.

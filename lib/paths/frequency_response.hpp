@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "steady/steady_state.hpp"
+#include "paths/steady_state.hpp"
 
 namespace dovetail::paths {
 

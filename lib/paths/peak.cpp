@@ -4,9 +4,9 @@
 #include <cmath>
 #include <vector>
 
+#include "branches/bordered.hpp"
 #include "dynamics/extremes.hpp"
 #include "dynamics/real_block.hpp"
-#include "paths/bordered.hpp"
 #include "paths/stationarity.hpp"
 #include "steady/problem.hpp"
 
@@ -17,21 +17,21 @@ namespace {
 struct Local {
   Status status = Status::singular;
   std::shared_ptr<steady::Point> point = {};
-  BranchVector at, direction, correction;
+  branches::Vector at, direction, correction;
   double distance = 0;  // |c|
   AmplitudeAt amplitude;
   bool on_branch = false;
 };
 
-Local linearised(const BranchEquations& branch, const BranchVector& at, const BranchVector& along,
-                 const ArcMetric& metric, Eigen::Index output) {
+Local linearised(const branches::Equations& branch, const branches::Vector& at, const branches::Vector& along,
+                 const branches::ArcMetric& metric, Eigen::Index output) {
   Local local;
   local.at = at;
   if (spent(branch.options().budget)) {
     local.status = Status::budget_spent;
     return local;
   }
-  const std::shared_ptr<const steady::Problem> problem = branch.at(at.omega);
+  const std::shared_ptr<const steady::Problem> problem = branch.at(at.parameter);
   if (!problem) return local;
   local.point = std::make_shared<steady::Point>();
   steady::evaluate(problem, at.displacement, *local.point);
@@ -43,10 +43,10 @@ Local linearised(const BranchEquations& branch, const BranchVector& at, const Br
   if (local.on_branch && !steady::is_held(*local.point)) return local;
   steady::differentiate(*local.point);
   const steady::Tangent tangent(local.point);
-  const ArcMetric::Row row = metric.row(along);
-  const BorderedSystem bordered(tangent, row.displacement, row.omega);
-  const BorderedSystem::Solution ahead = bordered.solve(Eigen::VectorXd::Zero(row.displacement.size()), 1);
-  const BorderedSystem::Solution back = bordered.solve(-local.point->residual.reshaped(), 0);
+  const branches::ArcMetric::Row row = metric.row(along);
+  const branches::BorderedSystem bordered(tangent, branch.slope(*local.point), row.displacement, row.parameter);
+  const branches::BorderedSystem::Solution ahead = bordered.solve(Eigen::VectorXd::Zero(row.displacement.size()), 1);
+  const branches::BorderedSystem::Solution back = bordered.solve(-local.point->residual.reshaped(), 0);
   if (ahead.status != Status::converged || back.status != Status::converged) return local;
   local.direction = metric.unit(bordered.vector(ahead));
   local.correction = bordered.vector(back);
@@ -58,7 +58,7 @@ Local linearised(const BranchEquations& branch, const BranchVector& at, const Br
 
 }  // namespace
 
-AmplitudeAt amplitude_at(const steady::Point& point, const BranchVector& direction, Eigen::Index output) {
+AmplitudeAt amplitude_at(const steady::Point& point, const branches::Vector& direction, Eigen::Index output) {
   const steady::Problem& problem = *point.problem;
   const dynamics::CondensedModel& model = problem.model();
   const Eigen::Index k = point.displacement.cols();
@@ -69,7 +69,7 @@ AmplitudeAt amplitude_at(const steady::Point& point, const BranchVector& directi
     const Eigen::VectorXcd contact = dynamics::harmonic_of(point.displacement, j);
     const Eigen::VectorXcd moved =
         model.output_gradient(at) * dynamics::harmonic_of(direction.displacement, j) +
-        direction.omega * model.output_slope(static_cast<int>(h), problem.system().omega, at, contact);
+        direction.parameter * model.output_slope(static_cast<int>(h), problem.system().omega, at, contact);
     dynamics::put_harmonic(model.outputs(at, contact).segment(output, 1), j, value);
     dynamics::put_harmonic(moved.segment(output, 1), j, change);
   }
@@ -77,34 +77,35 @@ AmplitudeAt amplitude_at(const steady::Point& point, const BranchVector& directi
   // The extremes are stationary in time: only the coefficients move them, to first order.
   const Eigen::VectorXd difference =
       dynamics::fourier_row(ends.tau_maximum, k) - dynamics::fourier_row(ends.tau_minimum, k);
-  const double size = vibration(value);
+  const double size = branches::vibration(value);
   return {.value = ends.amplitude(),
           .change = change.row(0).dot(difference) / 2,
-          .speed = size > 0 ? vibration(change) / size : 0};
+          .speed = size > 0 ? branches::vibration(change) / size : 0};
 }
 
 double peak_width(const steady::State& state, Eigen::Index output) {
-  const BranchVector along{.displacement = state.tangent->response_to_frequency(), .omega = 1};
+  const branches::Vector along{.displacement = state.tangent->response_to_frequency(), .parameter = 1};
   const double speed = amplitude_at(state.tangent->point(), along, output).speed;
   // A resonance sharper than this is not resolved by the frequency tolerance either.
   constexpr double kSharpest = 1e-6, kWidest = 0.5;
   return state.omega * std::clamp(speed > 0 ? 1 / (speed * state.omega) : kWidest, kSharpest, kWidest);
 }
 
-ArcMetric peak_metric(const steady::State& state, double width) {
-  return arc_metric(state, vibrating_force(state), width);
+branches::ArcMetric peak_metric(const steady::State& state, double width) {
+  return branches::arc_metric(state, branches::vibrating_force(state), width);
 }
 
 namespace {
 
 class PeakNewton {
  public:
-  PeakNewton(const BranchEquations& branch, const ArcMetric& metric, const PeakOptions& options, double curvature)
+  PeakNewton(const branches::Equations& branch, const branches::ArcMetric& metric, const PeakOptions& options,
+             double curvature)
       : branch_(branch), metric_(metric), options_(options), stationarity_(curvature) {}
 
-  Peak run(const BranchVector& start) {
+  Peak run(const branches::Vector& start) {
     peak_.at = start_ = start;
-    const BranchVector forward = reference_ = metric_.forwards(start.displacement);
+    const branches::Vector forward = reference_ = metric_.forwards(start.displacement);
     if (!look(start, forward, kNear) && !correct(start, forward)) return peak_;
     while (peak_.iterations < options_.max_iterations) {
       if (!clean()) {
@@ -129,7 +130,7 @@ class PeakNewton {
   };
 
   // Linearises at a point; false when that fails or the branch is further away than `nearest`.
-  bool look(const BranchVector& point, const BranchVector& along, double nearest) {
+  bool look(const branches::Vector& point, const branches::Vector& along, double nearest) {
     Local found = linearised(branch_, point, along, metric_, options_.output);
     ++peak_.iterations;
     ++peak_.evaluations;
@@ -140,9 +141,9 @@ class PeakNewton {
   }
 
   // The point of the branch in the plane through `from` across `row`; false when the corrector fails.
-  bool correct(const BranchVector& from, const BranchVector& row) {
+  bool correct(const branches::Vector& from, const branches::Vector& row) {
     constexpr int kCorrections = 8;
-    const BranchEquations::Correction found = branch_.correct(from, row, metric_, kCorrections);
+    const branches::Equations::Correction found = branch_.correct(from, row, metric_, kCorrections);
     peak_.iterations += found.iterations;
     peak_.evaluations += found.evaluations;
     peak_.status = found.status;
@@ -174,18 +175,18 @@ class PeakNewton {
     if (!referred_) reference_ = here_.direction;
     referred_ = true;
     stationarity_.add(
-        {.place = place(), .omega = here_.at.omega, .amplitude = here_.amplitude.value, .slope = slope()});
+        {.place = place(), .omega = here_.at.parameter, .amplitude = here_.amplitude.value, .slope = slope()});
     step_ = stationarity_.step();
     peak_.at = here_.at;
     peak_.point = here_.point;
     peak_.amplitude = here_.amplitude.value;
     peak_.slope = slope();
     peak_.curvature = stationarity_.curvature();
-    peak_.width =
-        here_.amplitude.speed > 0 ? std::abs(here_.direction.omega) / here_.amplitude.speed : 1 / metric_.omega_weight;
-    const double way = std::abs(step_ * here_.direction.omega);
-    const double tolerated = options_.frequency_tolerance * here_.at.omega;
-    peak_.error = std::min(way, stationarity_.bracket()) / here_.at.omega;
+    peak_.width = here_.amplitude.speed > 0 ? std::abs(here_.direction.parameter) / here_.amplitude.speed
+                                            : 1 / metric_.parameter_weight;
+    const double way = std::abs(step_ * here_.direction.parameter);
+    const double tolerated = options_.frequency_tolerance * here_.at.parameter;
+    peak_.error = std::min(way, stationarity_.bracket()) / here_.at.parameter;
     // Along a steep branch the frequency hardly moves: the place on the branch must be known as well.
     constexpr double kFlat = 1e-4, kPart = 0.2;
     const bool stands = way <= kPart * tolerated || stationarity_.bracket() <= tolerated;
@@ -223,11 +224,11 @@ class PeakNewton {
     return std::log(from.local.amplitude.value) - 2 * std::abs(target - from.place);
   }
 
-  const BranchEquations& branch_;
-  const ArcMetric& metric_;
+  const branches::Equations& branch_;
+  const branches::ArcMetric& metric_;
   const PeakOptions& options_;
   Stationarity stationarity_;
-  BranchVector start_, reference_;
+  branches::Vector start_, reference_;
   bool referred_ = false;
   Local here_;
   std::vector<Visited> ends_;
@@ -237,17 +238,17 @@ class PeakNewton {
 
 }  // namespace
 
-Peak find_peak(const BranchEquations& branch, const BranchVector& start, const ArcMetric& metric,
+Peak find_peak(const branches::Equations& branch, const branches::Vector& start, const branches::ArcMetric& metric,
                const PeakOptions& options, double curvature) {
   return PeakNewton(branch, metric, options, curvature).run(start);
 }
 
-steady::State described(const BranchEquations& branch, const Peak& peak, const ArcMetric& metric) {
-  const BranchEquations::Correction found{.status = Status::converged,
-                                          .at = peak.at,
-                                          .point = *peak.point,
-                                          .iterations = peak.iterations,
-                                          .evaluations = peak.evaluations};
+steady::State described(const branches::Equations& branch, const Peak& peak, const branches::ArcMetric& metric) {
+  const branches::Equations::Correction found{.status = Status::converged,
+                                              .at = peak.at,
+                                              .point = *peak.point,
+                                              .iterations = peak.iterations,
+                                              .evaluations = peak.evaluations};
   return branch.describe(found, metric.forwards(peak.at.displacement), metric).state;
 }
 

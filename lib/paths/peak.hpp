@@ -1,6 +1,6 @@
 #pragma once
 
-#include "paths/branch.hpp"
+#include "branches/branch.hpp"
 
 namespace dovetail::paths {
 
@@ -10,7 +10,8 @@ struct AmplitudeAt {
   double change = 0;  ///< derivative of the value along the direction
   double speed = 0;   ///< of all coefficients of the output along the direction, relative to its vibration
 };
-[[nodiscard]] AmplitudeAt amplitude_at(const steady::Point& point, const BranchVector& direction, Eigen::Index output);
+[[nodiscard]] AmplitudeAt amplitude_at(const steady::Point& point, const branches::Vector& direction,
+                                       Eigen::Index output);
 
 struct PeakOptions {
   int output = 0;
@@ -20,7 +21,7 @@ struct PeakOptions {
 
 struct Peak {
   Status status = Status::iteration_limit;
-  BranchVector at;
+  branches::Vector at;
   double amplitude = 0;
   double slope = 0;      ///< change of the amplitude with the arc length, relative to the amplitude
   double curvature = 0;  ///< second derivative with the arc length, relative; < 0 at a maximum
@@ -36,7 +37,7 @@ struct Peak {
 [[nodiscard]] double peak_width(const steady::State& state, Eigen::Index output);
 /// Arc length near a peak: one unit is a change of the contact's vibration by its own size, or of the frequency by
 /// `width`.
-[[nodiscard]] ArcMetric peak_metric(const steady::State& state, double width);
+[[nodiscard]] branches::ArcMetric peak_metric(const steady::State& state, double width);
 
 /// Newton on (U, omega) for f = 0 and dA/ds = 0, A the amplitude of one output and s the arc length, from `start` near
 /// the maximum of a branch. Each iteration takes one factorisation of J: the bordered system gives the tangent, the
@@ -44,10 +45,11 @@ struct Peak {
 /// smooth and a local one says nothing of the way the contact changes (`curvature` < 0 is the first guess of it, 0:
 /// none). It works through turning points. dA/ds jumps where samples change their contact state, and a maximum at such
 /// a jump is accepted when its bracket is as narrow as the tolerance.
-[[nodiscard]] Peak find_peak(const BranchEquations& branch, const BranchVector& start, const ArcMetric& metric,
-                             const PeakOptions& options, double curvature = -0.5);
+[[nodiscard]] Peak find_peak(const branches::Equations& branch, const branches::Vector& start,
+                             const branches::ArcMetric& metric, const PeakOptions& options, double curvature = -0.5);
 
 /// The steady state at a converged peak, with its tangent unless that is singular.
-[[nodiscard]] steady::State described(const BranchEquations& branch, const Peak& peak, const ArcMetric& metric);
+[[nodiscard]] steady::State described(const branches::Equations& branch, const Peak& peak,
+                                      const branches::ArcMetric& metric);
 
 }  // namespace dovetail::paths

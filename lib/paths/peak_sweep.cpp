@@ -9,7 +9,7 @@ namespace dovetail::paths {
 namespace {
 
 // Points of the branch that are higher than both neighbours, highest first.
-std::vector<std::size_t> summits(const Branch& branch, Eigen::Index output) {
+std::vector<std::size_t> summits(const branches::Branch& branch, Eigen::Index output) {
   std::vector<std::size_t> found;
   const auto height = [&](std::size_t i) { return branch.points[i].state.amplitudes(output); };
   for (std::size_t i = 1; i + 1 < branch.points.size(); ++i)
@@ -19,7 +19,7 @@ std::vector<std::size_t> summits(const Branch& branch, Eigen::Index output) {
 }
 
 // The frequency range in which the output changes by its own size, from the neighbours of a summit.
-double width_at(const Branch& branch, std::size_t i, Eigen::Index output) {
+double width_at(const branches::Branch& branch, std::size_t i, Eigen::Index output) {
   const steady::State &before = branch.points[i - 1].state, &after = branch.points[i + 1].state;
   const double change = (after.outputs.row(output) - before.outputs.row(output)).norm();
   const double range = std::abs(after.omega - before.omega);
@@ -32,10 +32,10 @@ constexpr double kHeight = 0.99;  // of the summit: a search may have run off to
 
 }  // namespace
 
-std::optional<steady::State> climb(const BranchEquations& equations, const steady::State& from, double width,
+std::optional<steady::State> climb(const branches::Equations& equations, const steady::State& from, double width,
                                    const ResonanceOptions& options, Resonance& work) {
-  const ArcMetric metric = peak_metric(from, width);
-  BranchVector start{.displacement = from.displacement, .omega = from.omega};
+  const branches::ArcMetric metric = peak_metric(from, width);
+  branches::Vector start{.displacement = from.displacement, .parameter = from.omega};
   double height = from.amplitudes(options.output);
   Peak peak;
   // Where the branch turns away from where it led at the start, the climb begins anew.
@@ -60,22 +60,22 @@ std::optional<steady::State> climb(const BranchEquations& equations, const stead
 Resonance peak_sweep(const steady::Joint& joint, double omega_from, double omega_to,
                      const ResonanceOptions& resonance_options) {
   // Coarse steps: what counts is that no peak is stepped over, and the change of the outputs sees to that.
-  const ContinuationOptions coarse{.largest_frequency_step = 0.02,
-                                   .largest_change = 0.5,
-                                   .largest_turn = 0.8,
-                                   .max_points = 1000,
-                                   .max_jacobians = resonance_options.max_sweep_jacobians,
-                                   .locate_turns = false};
+  const branches::FollowOptions coarse{.largest_parameter_step = 0.02,
+                                       .largest_change = 0.5,
+                                       .largest_turn = 0.8,
+                                       .max_points = 1000,
+                                       .max_jacobians = resonance_options.max_sweep_jacobians,
+                                       .locate_turns = false};
   steady::Joint without = joint, with = joint;
   without.options.linearise = false;
   with.options.linearise = true;
-  Branch branch = continuation(without, omega_from, omega_to, coarse);
+  branches::Branch branch = continuation(without, omega_from, omega_to, coarse);
   Resonance result{.status = branch.status, .state = {}};
   result.solves = static_cast<int>(branch.points.size()) + branch.rejected;
   result.jacobians = branch.jacobians;
   const std::vector<std::size_t> candidates = summits(branch, resonance_options.output);
   if (branch.status == Status::converged) result.status = Status::no_bracket;
-  const BranchEquations equations(with, branch.penalty_ratio);
+  const branches::Equations equations(with, branch.penalty_ratio);
   // A summit of coarse steps may be lower than the peak beside it is high: the first few are all climbed.
   constexpr std::size_t kTried = 3;
   constexpr double kHopeless = 0.8;

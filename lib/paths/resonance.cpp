@@ -65,7 +65,7 @@ class PeakSearch {
       Eigen::MatrixXd guess = guess_;
       if (now_.state.tangent)
         guess = now_.state.displacement + (omega - now_.omega) * now_.state.tangent->response_to_frequency();
-      steady::State state = steady::steady_state(joint, omega, guess, now_.state.tangent);
+      steady::State state = steady_state(joint, omega, guess, now_.state.tangent);
       ++result_.solves;
       result_.jacobians += state.iterations;
       last_status_ = state.status;
@@ -171,7 +171,7 @@ class PeakSearch {
   bool climbs_within(double lowest, double highest) {
     if (climbed_) return false;
     climbed_ = true;
-    const BranchEquations equations(joint_, highest_->penalty_ratio);
+    const branches::Equations equations(joint_, highest_->penalty_ratio);
     std::optional<steady::State> top = climb(equations, *highest_, peak_width(*highest_, peak_.output), peak_, result_);
     if (!top || top->omega < lowest || top->omega > highest) return false;
     accept(std::move(*top));

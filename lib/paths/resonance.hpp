@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "steady/steady_state.hpp"
+#include "paths/steady_state.hpp"
 
 namespace dovetail::paths {
 

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "paths/frequency_response.hpp"
+#include "paths/steady_state.hpp"
 #include "quality/truncation.hpp"
 
 namespace dovetail {
@@ -71,11 +72,11 @@ AutomaticState chosen_from(const steady::Joint& joint, double omega, const Autom
   AutomaticState result;
   result.options = joint.options;
   const auto solve = [&](const Eigen::MatrixXd& from) {
-    result.state = steady::steady_state(joint.with(result.options), omega, from);
+    result.state = paths::steady_state(joint.with(result.options), omega, from);
     ++result.solves;
     result.jacobians += result.state.iterations;
   };
-  solve(guess.size() > 0 ? steady::padded(guess, joint.options.harmonics) : guess);
+  solve(guess.size() > 0 ? paths::padded(guess, joint.options.harmonics) : guess);
   while (result.state.status != Status::converged && may_raise_harmonics(result.options, automatic)) {
     result.options = more_harmonics(result.options);
     solve({});

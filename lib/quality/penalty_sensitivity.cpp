@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "paths/steady_state.hpp"
+
 namespace dovetail::quality {
 namespace {
 

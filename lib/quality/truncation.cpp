@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "paths/steady_state.hpp"
+
 namespace dovetail::quality {
 namespace {
 

@@ -7,7 +7,7 @@
 
 #include "core/options.hpp"
 #include "reduction/reduced_model.hpp"
-#include "steady/steady_state.hpp"
+#include "steady/state.hpp"
 
 namespace dovetail::stability {
 

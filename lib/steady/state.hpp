@@ -2,11 +2,11 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include "core/status.hpp"
 #include "steady/tangent.hpp"
-#include "steady/ways.hpp"
 
 namespace dovetail::steady {
 
@@ -47,6 +47,24 @@ struct Summary {
   double error_energy = 0;  ///< e_E [Salles 2009, eq. 38]
 };
 [[nodiscard]] Summary summarise(const Point& point);
+
+/// Ways to a steady state, in the order in which they are tried. From `open` on each starts from solutions of
+/// neighbouring problems, cheapest first. All end with the problem as it was asked, at worst with another eps: the way
+/// changes whether there is an answer and not what counts as one.
+enum class Way {
+  guess,            ///< from the displacement given
+  closed,           ///< from closed contact
+  other_penalty,    ///< with other eps, then with the one asked for from there
+  powell,           ///< Powell's method from closed contact
+  open,             ///< from the linear response without contact
+  harmonics,        ///< the series grows from one harmonic to H
+  growing_penalty,  ///< eps grows from a thousandth to its value
+  frequency,        ///< omega falls from three times its value, above the resonances, with steps that shrink on failure
+  damping,          ///< dashpots across the contact fade away; where steps fail, along the curve of solutions
+  softer_damping,   ///< the same with a tenth of eps
+  none,
+};
+[[nodiscard]] std::string_view to_string(Way way);
 
 /// What solving took.
 struct Work {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "paths/steady_state.hpp"
 #include "tractions/slip_origin_sensitivity.hpp"
 
 namespace dovetail::tractions {
@@ -18,7 +19,7 @@ steady::State FamilyQuantity::solve(const Eigen::MatrixXd& origin, const Eigen::
   steady::Joint member = joint_;
   if (origin.size() > 0) member.condition.slip_origin = origin;
   if (quantity_ != BoundedQuantity::resonance_amplitude && quantity_ != BoundedQuantity::resonance_frequency)
-    return steady::steady_state(member, omega_, guess);
+    return paths::steady_state(member, omega_, guess);
   // Members are tracked from the nominal resonance: another peak is no answer.
   const paths::ResonanceOptions near{
       .output = static_cast<int>(output_), .search_range = search_range_, .sweep_range = 0};
@@ -87,7 +88,7 @@ Eigen::MatrixXd FamilyQuantity::frequency_gradient(const steady::State& member) 
   for (const double side : {-1.0, 1.0}) {
     steady::Joint beside = joint_;
     beside.condition.slip_origin = member.tangent->problem().condition().slip_origin;
-    const steady::State near = steady::steady_state(beside, member.omega * (1 + side * kStep), member.displacement);
+    const steady::State near = paths::steady_state(beside, member.omega * (1 + side * kStep), member.displacement);
     ++solves_;
     if (near.status != Status::converged) return Eigen::MatrixXd::Zero(mixed.rows(), mixed.cols());
     mixed += side * amplitude_to_slip_origin(near, output_);

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "paths/resonance.hpp"
-#include "steady/steady_state.hpp"
+#include "steady/state.hpp"
 
 namespace dovetail::tractions {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/options.hpp"
-#include "steady/steady_state.hpp"
+#include "steady/state.hpp"
 #include "tractions/bounded_quantity.hpp"
 
 namespace dovetail::tractions {

@@ -8,7 +8,7 @@
 
 #include "core/options.hpp"
 #include "core/status.hpp"
-#include "steady/steady_state.hpp"
+#include "steady/state.hpp"
 #include "wear/certificate.hpp"
 #include "wear/control.hpp"
 #include "wear/doubt.hpp"

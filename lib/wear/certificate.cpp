@@ -3,6 +3,7 @@
 #include <limits>
 #include <utility>
 
+#include "paths/steady_state.hpp"
 #include "quality/truncation.hpp"
 
 namespace dovetail::wear {
@@ -16,7 +17,7 @@ steady::Options finer_settings(const steady::Options& steady) {
 Certificate certificate(steady::Joint joint, double fastest, const steady::State& from) {
   joint.options.linearise = false;
   const steady::State state =
-      steady::steady_state(joint, from.omega, steady::padded(from.displacement, joint.options.harmonics));
+      paths::steady_state(joint, from.omega, paths::padded(from.displacement, joint.options.harmonics));
   Certificate result{.status = state.status,
                      .remaining = std::numeric_limits<double>::quiet_NaN(),
                      .harmonics = joint.options.harmonics,

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "steady/steady_state.hpp"
+#include "steady/state.hpp"
 #include "wear/control.hpp"
 
 namespace dovetail::wear {

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "steady/steady_state.hpp"
+#include "steady/state.hpp"
 
 namespace dovetail::wear {
 

@@ -8,7 +8,7 @@
 #include "core/options.hpp"
 #include "core/status.hpp"
 #include "paths/resonance.hpp"
-#include "steady/steady_state.hpp"
+#include "steady/state.hpp"
 #include "wear/control.hpp"
 #include "wear/no_wear.hpp"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "reduction/reduced_model.hpp"
-#include "steady/steady_state.hpp"
+#include "steady/state.hpp"
 
 namespace dovetail::wear {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "steady/steady_state.hpp"
+#include "steady/state.hpp"
 
 namespace dovetail::wear {
 

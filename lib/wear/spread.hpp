@@ -9,7 +9,7 @@
 
 #include "core/options.hpp"
 #include "core/status.hpp"
-#include "steady/steady_state.hpp"
+#include "steady/state.hpp"
 #include "wear/asymptote.hpp"
 
 namespace dovetail::wear {

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "steady/steady_state.hpp"
+#include "steady/state.hpp"
 
 namespace dovetail::wear {
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "paths/steady_state.hpp"
+
 namespace dovetail::wear {
 
 using Eigen::Index;

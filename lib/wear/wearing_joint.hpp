@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "paths/resonance.hpp"
-#include "steady/steady_state.hpp"
+#include "steady/state.hpp"
 #include "wear/control.hpp"
 
 namespace dovetail::wear {

@@ -10,6 +10,7 @@
 
 #include "optimizer/evaluator.hpp"
 #include "paths/frequency_response.hpp"
+#include "paths/steady_state.hpp"
 #include "studies/report/design_record.hpp"
 #include "wear/asymptote.hpp"
 #include "wear/drift.hpp"
@@ -177,7 +178,7 @@ class Study {
     state.peak_hz = drift.worn.omega / kTurn;
     state.peak_m = drift.worn.amplitude;
     if (!state.peak_found) fail("A worn resonance was not found: " + std::string(to_string(drift.worn.status)) + ".");
-    const steady::State held = steady::steady_state(worn, candidate_.unworn->omega);
+    const steady::State held = paths::steady_state(worn, candidate_.unworn->omega);
     state.amplitude_m = held.status == Status::converged ? held.amplitudes(0) : kUnknown;
   }
 

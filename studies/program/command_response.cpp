@@ -80,15 +80,15 @@ class CurveRun {
   ResponseCurve along(const OrderlyInterrupt& interrupt) {
     steady::Options steady = loaded_.joint.options;
     steady.linearise = false;
-    paths::ContinuationOptions follow;
+    branches::FollowOptions follow;
     if (options_.points > 1)
-      follow.largest_frequency_step = std::min(follow.largest_frequency_step, 1.0 / (options_.points - 1));
+      follow.largest_parameter_step = std::min(follow.largest_parameter_step, 1.0 / (options_.points - 1));
     follow.max_points = std::max(follow.max_points, 20 * options_.points);
     curve_.branch =
         paths::continuation({loaded_.joint.model, {}, steady}, kTurn * options_.from_hz, kTurn * options_.to_hz, follow,
-                            [&](const paths::ContinuationPoint& point) { return take(point.state, interrupt, 0); });
+                            [&](const branches::BranchPoint& point) { return take(point.state, interrupt, 0); });
     require_end();
-    for (paths::ContinuationPoint& point : curve_.branch->points) {
+    for (branches::BranchPoint& point : curve_.branch->points) {
       curve_.frequency_hz.push_back(hertz(point.state.omega));
       curve_.states.push_back(std::move(point.state));
     }
@@ -109,7 +109,7 @@ class CurveRun {
 
   /// A branch that claims to have left the interval has its last point on an end of it.
   void require_end() {
-    paths::Branch& branch = *curve_.branch;
+    branches::Branch& branch = *curve_.branch;
     const double last = branch.points.back().state.omega;
     if (branch.status == Status::converged && last != kTurn * options_.from_hz && last != kTurn * options_.to_hz)
       branch.status = Status::stalled;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "paths/resonance.hpp"
+#include "paths/steady_state.hpp"
 #include "quality/truncation.hpp"
 #include "studies/program/commands.hpp"
 #include "studies/program/engine.hpp"
@@ -122,7 +123,7 @@ wear::Spread spread_of(const WearOptions& options, const LoadedModel& loaded, co
   if (at.resonance)
     unworn = at.resonance->state;
   else
-    unworn = steady::steady_state(loaded.joint, at.omega);
+    unworn = paths::steady_state(loaded.joint, at.omega);
   const auto compute = [&](const steady::Joint& joint) {
     wear::WornEnd failed;
     failed.status = Status::interrupted;

@@ -6,6 +6,8 @@
 #include <map>
 #include <utility>
 
+#include "paths/steady_state.hpp"
+
 namespace dovetail::studies {
 namespace {
 

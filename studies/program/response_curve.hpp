@@ -14,11 +14,11 @@ struct ResponseCurve {
   std::vector<double> frequency_hz;  ///< [F]
   std::vector<steady::State> states;
   std::vector<std::string> output_names;
-  steady::Options settings = {};         ///< with the harmonics and samples chosen
-  contact::PseudoPenalty penalty = {};   ///< of the nodes, before the cascade changes it at a point
-  std::optional<Status> automatic = {};  ///< of the choice of harmonics and samples, when it was asked for
-  double accuracy = 0;                   ///< asked for with it
-  std::optional<paths::Branch> branch;   ///< of an arc-length run; its points have no states any more
+  steady::Options settings = {};           ///< with the harmonics and samples chosen
+  contact::PseudoPenalty penalty = {};     ///< of the nodes, before the cascade changes it at a point
+  std::optional<Status> automatic = {};    ///< of the choice of harmonics and samples, when it was asked for
+  double accuracy = 0;                     ///< asked for with it
+  std::optional<branches::Branch> branch;  ///< of an arc-length run; its points have no states any more
   AnalysisChoice choice = {};
   std::vector<PointAnalysis> analyses = {};  ///< [F] when something is chosen
 };

@@ -178,14 +178,14 @@ Json settings_json(const ResponseCurve& curve) {
   return json;
 }
 
-Json branch_json(const paths::Branch& branch) {
+Json branch_json(const branches::Branch& branch) {
   Json json;
   json["status"] = std::string(to_string(branch.status));
   json["turns"] = branch.turns();
   json["jacobians"] = branch.jacobians;
   json["rejected"] = branch.rejected;
   for (const char* key : {"arc_length", "direction", "is_turn"}) json[key] = Json::array();
-  for (const paths::ContinuationPoint& point : branch.points) {
+  for (const branches::BranchPoint& point : branch.points) {
     json["arc_length"].push_back(number(point.arc_length));
     json["direction"].push_back(number(point.direction));
     json["is_turn"].push_back(point.is_turn);

@@ -8,6 +8,7 @@
 
 #include "paths/frequency_response.hpp"
 #include "paths/resonance.hpp"
+#include "paths/steady_state.hpp"
 #include "studies/program/stored_history.hpp"
 #include "studies/program/wear_methods.hpp"
 #include "wear/depth_scale.hpp"
@@ -34,11 +35,11 @@ std::vector<double> curve_frequencies(const WearOptions& options, const LoadedMo
         paths::resonance(loaded.joint.worn(history.final_depth), history.frequency[history.frequency.size() - 1]);
     const double from = first.status == Status::converged ? first.omega : start;
     const double to = last.status == Status::converged ? last.omega : from;
-    const steady::State peak = steady::steady_state(unworn, from);
+    const steady::State peak = paths::steady_state(unworn, from);
     constexpr double kFirst = 1e-5, kWidest = 0.1, kWidths = 3;
     double width = kFirst;
     while (width < kWidest) {
-      const steady::State side = steady::steady_state(unworn, from * (1 - width), peak.displacement);
+      const steady::State side = paths::steady_state(unworn, from * (1 - width), peak.displacement);
       if (side.status == Status::converged && side.amplitudes[0] < 0.5 * peak.amplitudes[0]) break;
       width *= 2;
     }

@@ -1,6 +1,7 @@
 #include "studies/work_precision/newton_step.hpp"
 
 #include "numerics/dense_lu.hpp"
+#include "paths/steady_state.hpp"
 #include "steady/tangent.hpp"
 #include "studies/work_precision/processor_time.hpp"
 
@@ -10,7 +11,7 @@ PatchState solve_patch(const PatchOptions& options, int harmonics, int samples) 
   PatchState patch;
   patch.model = std::make_shared<const dynamics::CondensedModel>(contact_patch(options));
   const steady::Options steady{.harmonics = harmonics, .samples = samples};
-  patch.state = steady::steady_state({patch.model, {}, steady}, kPatchFrequency);
+  patch.state = paths::steady_state({patch.model, {}, steady}, kPatchFrequency);
   for (const steady::NodeSummary& node : patch.state.nodes) {
     patch.stuck += node.stuck;
     patch.slipping += node.slips;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "steady/steady_state.hpp"
+#include "steady/state.hpp"
 #include "studies/work_precision/contact_patch.hpp"
 
 namespace dovetail::work_precision {

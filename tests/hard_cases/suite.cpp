@@ -8,7 +8,7 @@
 #include <map>
 #include <memory>
 
-#include "steady/steady_state.hpp"
+#include "paths/steady_state.hpp"
 
 namespace dovetail::hard_cases {
 
@@ -23,7 +23,7 @@ Outcome attempt(const Family& family, int index, const Problem& problem) {
   steady::State state;
   try {
     const auto model = std::make_shared<const dynamics::CondensedModel>(problem.model);
-    state = steady::steady_state({model, problem.condition, problem.options}, problem.omega);
+    state = paths::steady_state({model, problem.condition, problem.options}, problem.omega);
   } catch (const std::exception& error) {
     outcome.thrown = error.what();
     return outcome;

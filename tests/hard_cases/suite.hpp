@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/status.hpp"
-#include "steady/ways.hpp"
+#include "steady/state.hpp"
 #include "tests/hard_cases/mutations.hpp"
 #include "tests/hard_cases/oracle.hpp"
 

@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "geometry/mesh_motion.hpp"
+#include "paths/steady_state.hpp"
 #include "reduction/reduced_model.hpp"
-#include "steady/steady_state.hpp"
 
 namespace {
 
@@ -32,7 +32,7 @@ dovetail::reduction::ReducedModel slider() {
 int main() {
   const dovetail::geometry::MeshedSector mesh = dovetail::geometry::mesh_sector({});
   const auto model = std::make_shared<const dovetail::dynamics::CondensedModel>(slider());
-  const dovetail::steady::State state = dovetail::steady::steady_state({model, {}, {}}, 1.2);
+  const dovetail::steady::State state = dovetail::paths::steady_state({model, {}, {}}, 1.2);
   std::printf("%d nodes, %s\n", mesh.sector.mesh.node_count(), std::string(to_string(state.status)).c_str());
   const bool good =
       mesh.quality.inverted_elements == 0 && state.status == dovetail::Status::converged && state.friction_energy > 0;

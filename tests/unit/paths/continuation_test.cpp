@@ -5,8 +5,6 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "paths/bordered.hpp"
-#include "steady/problem.hpp"
 #include "tests/verification/steady/gap_oscillator.hpp"
 
 namespace dovetail {
@@ -18,18 +16,18 @@ using verification::gap_oscillator;
 TEST(Continuation, EndsExactlyWhereAskedInBothDirections) {
   const auto model = condensed(gap_oscillator(1, 0.05, 0.05));
   for (const auto& [from, to] : {std::pair{0.7, 1.31}, std::pair{1.31, 0.7}}) {
-    const paths::Branch branch = paths::continuation({model, {}, {}}, from, to);
+    const branches::Branch branch = paths::continuation({model, {}, {}}, from, to);
     ASSERT_EQ(branch.status, Status::converged);
     EXPECT_EQ(branch.points.front().state.omega, from);
     EXPECT_EQ(branch.points.back().state.omega, to);
-    for (const paths::ContinuationPoint& point : branch.points) EXPECT_EQ(point.direction > 0, to > from);
+    for (const branches::BranchPoint& point : branch.points) EXPECT_EQ(point.direction > 0, to > from);
   }
 }
 
 TEST(Continuation, KeepsItsStepsWithinTheirLimits) {
   const auto model = condensed(gap_oscillator(1, 0.05, 0.05));
-  const paths::ContinuationOptions options{.largest_frequency_step = 0.01};
-  const paths::Branch branch = paths::continuation({model, {}, {}}, 0.5, 0.7, options);
+  const branches::FollowOptions options{.largest_parameter_step = 0.01};
+  const branches::Branch branch = paths::continuation({model, {}, {}}, 0.5, 0.7, options);
   ASSERT_EQ(branch.status, Status::converged);
   ASSERT_GE(branch.points.size(), 100U);
   for (std::size_t i = 1; i < branch.points.size(); ++i)
@@ -38,11 +36,11 @@ TEST(Continuation, KeepsItsStepsWithinTheirLimits) {
 
 TEST(Continuation, SaysWhyItEndedEarly) {
   const auto model = condensed(gap_oscillator(1, 0.05, 0.05));
-  const paths::Branch limited = paths::continuation({model, {}, {}}, 0.5, 1.5, {.max_points = 4});
+  const branches::Branch limited = paths::continuation({model, {}, {}}, 0.5, 1.5, {.max_points = 4});
   EXPECT_EQ(limited.status, Status::iteration_limit);
   EXPECT_EQ(limited.points.size(), 4U);
-  const paths::Branch stopped = paths::continuation(
-      {model, {}, {}}, 0.5, 1.5, {}, [](const paths::ContinuationPoint& point) { return point.arc_length < 0.1; });
+  const branches::Branch stopped = paths::continuation(
+      {model, {}, {}}, 0.5, 1.5, {}, [](const branches::BranchPoint& point) { return point.arc_length < 0.1; });
   EXPECT_EQ(stopped.status, Status::interrupted);
   EXPECT_GE(stopped.points.back().arc_length, 0.1);
 }
@@ -55,27 +53,12 @@ TEST(Continuation, RefusesBadInput) {
   EXPECT_THROW(static_cast<void>(paths::continuation({model, {}, {.harmonics = 0}}, 1, 2)), InputError);
 }
 
-// A state with open, sliding and stuck samples, away from equilibrium.
-steady::Tangent linearised(double omega, double size) {
-  const steady::Joint joint{.model = condensed(verification::rod(3))};
-  auto system = std::make_shared<const dynamics::HarmonicSystem>(
-      dynamics::harmonic_system(*joint.model, joint.options.harmonics, omega));
-  const auto problem = std::make_shared<const steady::Problem>(joint, system);
-  Eigen::MatrixXd displacement = problem->closed_start();
-  for (Eigen::Index j = 0; j < displacement.size(); ++j)
-    displacement.data()[j] += size * std::sin(1.7 * static_cast<double>(j) + omega);
-  auto point = std::make_shared<steady::Point>();
-  steady::evaluate(problem, displacement, *point);
-  steady::differentiate(*point);
-  return steady::Tangent(point);
-}
-
 TEST(Tangent, KnowsTheSignOfItsDeterminant) {
   // Of J along a branch that leans over: it changes where the frequency turns, and nowhere else.
   const steady::Options options{.harmonics = 7, .samples = 256, .tolerance = 1e-11};
-  const paths::Branch branch = paths::continuation({condensed(gap_oscillator(1, 0.02, 0.1)), {}, options}, 0.8, 1.4);
+  const branches::Branch branch = paths::continuation({condensed(gap_oscillator(1, 0.02, 0.1)), {}, options}, 0.8, 1.4);
   ASSERT_EQ(branch.turns(), 2);
-  for (const paths::ContinuationPoint& point : branch.points) {
+  for (const branches::BranchPoint& point : branch.points) {
     if (point.is_turn) continue;
     ASSERT_TRUE(point.state.tangent);
     const steady::Tangent& linear = *point.state.tangent;
@@ -96,22 +79,6 @@ TEST(DenseLu, KnowsTheSignOfItsDeterminant) {
   EXPECT_EQ(numerics::DenseLu(matrix).determinant_sign(), -1);
   matrix.row(0).setZero();
   EXPECT_EQ(numerics::DenseLu(matrix).determinant_sign(), 0);
-}
-
-TEST(BorderedSystem, SolvesWithItsRowAndColumn) {
-  const steady::Tangent linear = linearised(2.3, 0.1);
-  const Eigen::MatrixXd jacobian = steady::jacobian(linear.point());
-  const Eigen::Index n = jacobian.rows();
-  const Eigen::VectorXd row = Eigen::VectorXd::LinSpaced(n, -1, 2), forces = Eigen::VectorXd::LinSpaced(n, 0.3, -0.4);
-  const paths::BorderedSystem bordered(linear, row, 0.7);
-  const paths::BorderedSystem::Solution found = bordered.solve(forces, 0.9);
-  ASSERT_EQ(found.status, Status::converged);
-  const Eigen::VectorXd column = steady::residual_to_frequency(linear.point()).reshaped();
-  // Refined to 1e-10 of the terms that cancel.
-  const double size = forces.norm() + column.norm() * std::abs(found.omega);
-  EXPECT_LT((jacobian * found.displacement + column * found.omega - forces).norm(), 1e-9 * size);
-  const double reach = 1 + row.norm() * found.displacement.norm();
-  EXPECT_NEAR(row.dot(found.displacement) + 0.7 * found.omega, 0.9, 1e-9 * reach);
 }
 
 }  // namespace

@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "contact/pseudo_penalty.hpp"
+#include "paths/steady_state.hpp"
 #include "quality/automatic.hpp"
 #include "quality/penalty_sensitivity.hpp"
 #include "quality/truncation.hpp"
-#include "steady/steady_state.hpp"
 #include "tests/verification/steady/random_contact.hpp"
 
 namespace dovetail {
@@ -89,10 +89,10 @@ TEST(PseudoPenalty, HasOneTangentialValuePerNode) {
 
 TEST(Padding, KeepsOrCutsHarmonics) {
   const Eigen::MatrixXd coefficients = Eigen::MatrixXd::Random(4, 7);
-  const Eigen::MatrixXd more = steady::padded(coefficients, 5);
+  const Eigen::MatrixXd more = paths::padded(coefficients, 5);
   EXPECT_EQ(more.leftCols(7), coefficients);
   EXPECT_TRUE(more.rightCols(4).isZero(0));
-  EXPECT_EQ(steady::padded(coefficients, 1), coefficients.leftCols(3));
+  EXPECT_EQ(paths::padded(coefficients, 1), coefficients.leftCols(3));
 }
 
 TEST(Refinement, AddsSamplesBeforeHarmonicsAlias) {
@@ -106,12 +106,12 @@ TEST(Refinement, AddsSamplesBeforeHarmonicsAlias) {
 
 TEST(Refinement, StartsFromTheStateAndKeepsItsPenalty) {
   const auto model = verification::condensed(verification::rod(4));
-  steady::State state = steady::steady_state({model, {}, {}}, 2.5);
+  steady::State state = paths::steady_state({model, {}, {}}, 2.5);
   ASSERT_EQ(state.status, Status::converged);
-  const steady::State same = steady::refined_state({model, {}, {}}, state);
+  const steady::State same = paths::refined_state({model, {}, {}}, state);
   EXPECT_LE(same.iterations, 1);
   state.penalty_ratio = 0.5;
-  const steady::State softer = steady::refined_state({model, {}, {}}, state);
+  const steady::State softer = paths::refined_state({model, {}, {}}, state);
   EXPECT_EQ(softer.penalty_ratio, 0.5);
   EXPECT_DOUBLE_EQ(softer.penalty.tangential(0), 0.5 * same.penalty.tangential(0));
 }
@@ -159,7 +159,7 @@ TEST(ErrorBars, AreWithinTolerancesOfWhatMatters) {
 
 TEST(Truncation, RefusesOptionsOutOfRange) {
   const auto model = verification::condensed(verification::rod(2));
-  const steady::State state = steady::steady_state({model, {}, {}}, 2.5);
+  const steady::State state = paths::steady_state({model, {}, {}}, 2.5);
   EXPECT_THROW(static_cast<void>(quality::automatic_state({model, {}, {}}, 2.5, {.amplitude_tolerance = 0})),
                InputError);
   EXPECT_THROW(static_cast<void>(quality::automatic_state({model, {}, {}}, 2.5, {.max_harmonics = 0})), InputError);

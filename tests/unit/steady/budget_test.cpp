@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "paths/resonance.hpp"
+#include "paths/steady_state.hpp"
 #include "steady/preload.hpp"
-#include "steady/steady_state.hpp"
 #include "steady/work.hpp"
 #include "tests/unit/steady/random_model.hpp"
 
@@ -39,9 +39,9 @@ TEST(Budget, NamesItselfAsTheReasonOnlyOfWhatFailed) {
 // What is counted belongs to the computation alone, and a budget that is not spent changes nothing.
 TEST(Budget, CountsTheSameEveryTime) {
   const SharedBudget first = std::make_shared<Budget>(), second = jacobians(1e6);
-  const steady::State one = steady::steady_state({model(), {}, options(first)}, 1.1);
-  const steady::State other = steady::steady_state({model(), {}, options(second)}, 1.1);
-  const steady::State free = steady::steady_state({model(), {}, options(nullptr)}, 1.1);
+  const steady::State one = paths::steady_state({model(), {}, options(first)}, 1.1);
+  const steady::State other = paths::steady_state({model(), {}, options(second)}, 1.1);
+  const steady::State free = paths::steady_state({model(), {}, options(nullptr)}, 1.1);
   ASSERT_EQ(free.status, Status::converged);
   EXPECT_GT(first->used(), 0.0);
   EXPECT_EQ(first->used(), second->used());
@@ -64,7 +64,7 @@ TEST(Budget, EndsAHopelessSolve) {
   for (const double count : {0.5, 3.0, 40.0, 300.0}) {
     const SharedBudget budget = jacobians(count);
     const steady::State state =
-        steady::steady_state({std::make_shared<const dynamics::CondensedModel>(pulled_off), {}, options(budget)}, 1.1);
+        paths::steady_state({std::make_shared<const dynamics::CondensedModel>(pulled_off), {}, options(budget)}, 1.1);
     EXPECT_EQ(state.status, Status::budget_spent) << count << ": " << to_string(state.status);
     EXPECT_LE(budget->used(), (count + 4) * steady::jacobian_operations(kNodes, 3, kHarmonics, kSamples)) << count;
   }

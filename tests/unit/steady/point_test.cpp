@@ -6,7 +6,7 @@
 #include <random>
 
 #include "dynamics/extremes.hpp"
-#include "steady/steady_state.hpp"
+#include "paths/steady_state.hpp"
 #include "steady/tangent.hpp"
 #include "tests/unit/steady/random_model.hpp"
 
@@ -133,19 +133,19 @@ TEST(Extremes, FindsTheLargestOfSeveral) {
 
 TEST(State, RefusesBadOptions) {
   const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(2, 1, false));
-  EXPECT_THROW((void)steady::steady_state({model, {}, {.harmonics = 3, .samples = 6}}, 1), InputError);
-  EXPECT_THROW((void)steady::steady_state({model, {}, {}}, -1), InputError);
-  EXPECT_THROW((void)steady::steady_state({model, {}, {.solver = "magic"}}, 1), InputError);
-  EXPECT_THROW((void)steady::steady_state({model, {}, {}}, 1, Eigen::MatrixXd::Zero(2, 7)), InputError);
-  EXPECT_THROW((void)steady::steady_state({model, {.wear_depth = Eigen::VectorXd::Zero(5)}, {}}, 1), InputError);
+  EXPECT_THROW((void)paths::steady_state({model, {}, {.harmonics = 3, .samples = 6}}, 1), InputError);
+  EXPECT_THROW((void)paths::steady_state({model, {}, {}}, -1), InputError);
+  EXPECT_THROW((void)paths::steady_state({model, {}, {.solver = "magic"}}, 1), InputError);
+  EXPECT_THROW((void)paths::steady_state({model, {}, {}}, 1, Eigen::MatrixXd::Zero(2, 7)), InputError);
+  EXPECT_THROW((void)paths::steady_state({model, {.wear_depth = Eigen::VectorXd::Zero(5)}, {}}, 1), InputError);
 }
 
 TEST(State, SolversAgree) {
   const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(2, 1, false));
-  const steady::State newton = steady::steady_state({model, {}, {.solver = "newton"}}, 1.3);
+  const steady::State newton = paths::steady_state({model, {}, {.solver = "newton"}}, 1.3);
   ASSERT_EQ(newton.status, Status::converged);
   for (const char* solver : {"powell", "powell_fd"}) {
-    const steady::State other = steady::steady_state({model, {}, {.solver = solver}}, 1.3);
+    const steady::State other = paths::steady_state({model, {}, {.solver = solver}}, 1.3);
     ASSERT_EQ(other.status, Status::converged) << solver;
     EXPECT_LT((other.displacement - newton.displacement).norm(), 1e-7 * newton.displacement.norm()) << solver;
   }
@@ -169,12 +169,11 @@ reduction::ReducedModel free_body(Eigen::Index nodes) {
 
 TEST(State, OfABodyThatNothingHoldsIsSingular) {
   const auto model = std::make_shared<const dynamics::CondensedModel>(free_body(3));
-  const steady::State held = steady::steady_state({model, {}, {}}, 1.3);
+  const steady::State held = paths::steady_state({model, {}, {}}, 1.3);
   ASSERT_EQ(held.status, Status::converged);
   ASSERT_TRUE(held.tangent);
   for (const bool linearise : {true, false}) {
-    const steady::State floating =
-        steady::steady_state({model, {.released = {1, 1, 1}}, {.linearise = linearise}}, 1.3);
+    const steady::State floating = paths::steady_state({model, {.released = {1, 1, 1}}, {.linearise = linearise}}, 1.3);
     EXPECT_NE(floating.status, Status::converged) << linearise << " " << floating.residual;
     EXPECT_FALSE(floating.tangent);
   }
@@ -187,8 +186,7 @@ TEST(State, OfABodyThatIsFreeToGoNowhereInParticularIsSingular) {
   body.static_force.setZero();
   const auto model = std::make_shared<const dynamics::CondensedModel>(body);
   for (const bool linearise : {true, false}) {
-    const steady::State floating =
-        steady::steady_state({model, {.released = {1, 1, 1}}, {.linearise = linearise}}, 1.3);
+    const steady::State floating = paths::steady_state({model, {.released = {1, 1, 1}}, {.linearise = linearise}}, 1.3);
     EXPECT_EQ(floating.status, Status::singular) << linearise << " " << floating.residual;
     EXPECT_FALSE(floating.tangent);
   }
@@ -198,17 +196,16 @@ TEST(Tangent, PredictsWearAndFrequency) {
   const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(4, 2, false));
   const steady::Options options{.tolerance = 1e-13, .periodic_tolerance = 1e-13};
   const double omega = 1.3, h = 1e-6;
-  const steady::State at = steady::steady_state({model, {}, options}, omega);
+  const steady::State at = paths::steady_state({model, {}, options}, omega);
   ASSERT_EQ(at.status, Status::converged);
   ASSERT_TRUE(at.tangent);
-  const steady::State up = steady::steady_state({model, {}, options}, omega + h, at.displacement);
-  const steady::State down = steady::steady_state({model, {}, options}, omega - h, at.displacement);
+  const steady::State up = paths::steady_state({model, {}, options}, omega + h, at.displacement);
+  const steady::State down = paths::steady_state({model, {}, options}, omega - h, at.displacement);
   const Eigen::MatrixXd slope = (up.displacement - down.displacement) / (2 * h);
   EXPECT_LT((at.tangent->response_to_frequency() - slope).norm(), 1e-5 * slope.norm());
   const Eigen::VectorXd change = Eigen::Vector4d(1, 0, -0.5, 0.2);
-  const steady::State more = steady::steady_state({model, {.wear_depth = h * change}, options}, omega, at.displacement);
-  const steady::State less =
-      steady::steady_state({model, {.wear_depth = -h * change}, options}, omega, at.displacement);
+  const steady::State more = paths::steady_state({model, {.wear_depth = h * change}, options}, omega, at.displacement);
+  const steady::State less = paths::steady_state({model, {.wear_depth = -h * change}, options}, omega, at.displacement);
   const Eigen::MatrixXd moved = (more.displacement - less.displacement) / (2 * h);
   EXPECT_LT((at.tangent->response_to_wear(change) - moved).norm(), 1e-5 * moved.norm());
   const Eigen::VectorXd rate = (more.wear_rate - less.wear_rate) / (2 * h);

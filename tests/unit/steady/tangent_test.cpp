@@ -4,8 +4,8 @@
 
 #include <random>
 
+#include "paths/steady_state.hpp"
 #include "steady/solve.hpp"
-#include "steady/steady_state.hpp"
 #include "tests/unit/steady/random_model.hpp"
 
 namespace dovetail {
@@ -60,10 +60,10 @@ TEST(Tangent, SharesTheFactorsOfAnEqualJacobianOnly) {
 TEST(State, IsTheSameWithKeptFactorsAndTakesFewerJacobians) {
   const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(60, 1, false));
   const steady::Options options{.tolerance = 1e-12};
-  const steady::State from = steady::steady_state({model, {}, options}, 1.30);
+  const steady::State from = paths::steady_state({model, {}, options}, 1.30);
   ASSERT_EQ(from.status, Status::converged);
-  const steady::State fresh = steady::steady_state({model, {}, options}, 1.301, from.displacement);
-  const steady::State kept = steady::steady_state({model, {}, options}, 1.301, from.displacement, from.tangent);
+  const steady::State fresh = paths::steady_state({model, {}, options}, 1.301, from.displacement);
+  const steady::State kept = paths::steady_state({model, {}, options}, 1.301, from.displacement, from.tangent);
   ASSERT_EQ(fresh.status, Status::converged);
   ASSERT_EQ(kept.status, Status::converged);
   EXPECT_LT((fresh.displacement - kept.displacement).norm(), 1e-10 * fresh.displacement.norm());

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "optimizer/problem.hpp"
+#include "paths/steady_state.hpp"
 #include "reduction/accuracy.hpp"
 #include "tests/verification/optimizer/coarse_scene.hpp"
 #include "wear/history.hpp"
@@ -148,7 +149,7 @@ TEST(SectionEvaluation, EnergyBalanceConvergesWithHarmonicsAndSamples) {
     steady::Options options = steady_options({});
     options.harmonics = harmonics;
     options.samples = 128 * harmonics;
-    const steady::State state = steady::steady_state({model.condensed, {}, options}, baseline().unworn->omega);
+    const steady::State state = paths::steady_state({model.condensed, {}, options}, baseline().unworn->omega);
     ASSERT_EQ(state.status, Status::converged);
     defect.push_back(std::abs(state.input_energy - state.damping_energy - state.friction_energy) / state.input_energy);
   }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "paths/continuation.hpp"
+#include "paths/steady_state.hpp"
 #include "tests/verification/steady/gap_oscillator.hpp"
 
 namespace dovetail::verification {
@@ -106,7 +107,7 @@ void expect_maxima(const paths::Backbone& backbone, const paths::BackboneFamily&
   for (const paths::BackbonePoint& point : backbone.points) {
     const steady::Joint joint = family(point.parameter);
     for (const double beside : {1 - 1e-6, 1 + 1e-6}) {
-      const steady::State near = steady::steady_state(joint, point.omega * beside, point.state.displacement);
+      const steady::State near = paths::steady_state(joint, point.omega * beside, point.state.displacement);
       ASSERT_EQ(near.status, Status::converged);
       // The slope of ln A over ln w jumps by up to some 1 / (2 zeta N) = 0.2 between neighbouring maxima.
       EXPECT_LE(near.amplitudes(0), point.amplitude * (1 + 0.2e-6)) << point.parameter << " beside " << beside;
@@ -145,9 +146,9 @@ TEST(Backbone, IsTheLargestPeakWhicheverWayItIsFollowed) {
     for (const paths::BackbonePoint& point : found.points) {
       const steady::Joint joint = family(point.parameter);
       double highest = 0;
-      const paths::Branch sweep = paths::continuation(joint, 0.8, 4.2, {.largest_frequency_step = 0.005});
+      const branches::Branch sweep = paths::continuation(joint, 0.8, 4.2, {.largest_parameter_step = 0.005});
       ASSERT_EQ(sweep.status, Status::converged);
-      for (const paths::ContinuationPoint& at : sweep.points) highest = std::max(highest, at.state.amplitudes(0));
+      for (const branches::BranchPoint& at : sweep.points) highest = std::max(highest, at.state.amplitudes(0));
       EXPECT_TRUE(point.checked);
       EXPECT_NEAR(point.amplitude / highest, 1, noise) << point.parameter << " from " << way.front();
     }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "paths/frequency_response.hpp"
+#include "paths/steady_state.hpp"
 #include "tests/verification/steady/gap_oscillator.hpp"
 
 namespace dovetail::verification {
@@ -62,18 +63,18 @@ TEST_P(Fold, SweepsFromBothSidesLieOnTheBranchAndFallOffAtItsTurns) {
   const Leaning& test = GetParam();
   const double zeta = 0.02;
   const auto model = condensed(gap_oscillator(test.gap, zeta, test.force));
-  const paths::Branch branch = paths::continuation({model, {}, kSteady}, test.from, test.to);
+  const branches::Branch branch = paths::continuation({model, {}, kSteady}, test.from, test.to);
   ASSERT_EQ(branch.status, Status::converged);
   EXPECT_EQ(branch.points.back().state.omega, test.to);
   ASSERT_EQ(branch.turns(), 2);
   std::vector<double> turns;
   for (std::size_t i = 0; i < branch.points.size(); ++i) {
-    const paths::ContinuationPoint& point = branch.points[i];
+    const branches::BranchPoint& point = branch.points[i];
     ASSERT_EQ(point.state.status, Status::converged);
     EXPECT_EQ(point.state.penalty_ratio, 1);
     if (point.is_turn) turns.push_back(point.state.omega);
     // Each point solves the equations of its frequency.
-    const steady::State again = steady::steady_state({model, {}, kSteady}, point.state.omega, point.state.displacement);
+    const steady::State again = paths::steady_state({model, {}, kSteady}, point.state.omega, point.state.displacement);
     ASSERT_EQ(again.status, Status::converged);
     EXPECT_NEAR(again.amplitudes(0), point.state.amplitudes(0), 1e-7);
     if (i > 0) {
@@ -111,16 +112,16 @@ TEST_P(Fold, TimeIntegrationStaysOnTheOuterBranches) {
   fine.harmonics = 15;
   fine.samples = 1024;
   const auto model = condensed(gap_oscillator(test.gap, zeta, test.force));
-  const paths::Branch branch = paths::continuation({model, {}, fine}, test.from, test.to);
+  const branches::Branch branch = paths::continuation({model, {}, fine}, test.from, test.to);
   ASSERT_EQ(branch.status, Status::converged);
   int compared = 0;
   double lower = kInfinity, upper = 0;
-  for (const paths::ContinuationPoint& point : branch.points)
+  for (const branches::BranchPoint& point : branch.points)
     if (point.is_turn) {
       lower = std::min(lower, point.state.omega);
       upper = std::max(upper, point.state.omega);
     }
-  for (const paths::ContinuationPoint& point : branch.points) {
+  for (const branches::BranchPoint& point : branch.points) {
     const bool two_answers = point.state.omega > lower + 2e-3 && point.state.omega < upper - 2e-3;
     if (!two_answers || point.turns == 1 || point.is_turn) continue;
     // Transients die out by exp(-zeta t): 250 periods leave 1e-12. The series of x converges by 1/h^4.
@@ -139,12 +140,13 @@ INSTANTIATE_TEST_SUITE_P(GapOscillator, Fold,
 TEST(Continuation, EqualsPlainSolvesWithFriction) {
   const auto model = condensed(rod(5));
   for (const bool up : {true, false}) {
-    const paths::Branch branch = paths::continuation({model, {}, {.tolerance = 1e-11}}, up ? 1.0 : 4.0, up ? 4.0 : 1.0);
+    const branches::Branch branch =
+        paths::continuation({model, {}, {.tolerance = 1e-11}}, up ? 1.0 : 4.0, up ? 4.0 : 1.0);
     ASSERT_EQ(branch.status, Status::converged);
     EXPECT_EQ(branch.turns(), 0);
     EXPECT_EQ(branch.points.back().state.omega, up ? 4.0 : 1.0);
-    for (const paths::ContinuationPoint& point : branch.points) {
-      const steady::State plain = steady::steady_state({model, {}, {.tolerance = 1e-11}}, point.state.omega);
+    for (const branches::BranchPoint& point : branch.points) {
+      const steady::State plain = paths::steady_state({model, {}, {.tolerance = 1e-11}}, point.state.omega);
       ASSERT_EQ(plain.status, Status::converged);
       EXPECT_NEAR(plain.amplitudes(0) / point.state.amplitudes(0), 1, 1e-8) << point.state.omega;
       EXPECT_NEAR(plain.friction_energy, point.state.friction_energy, 1e-8) << point.state.omega;
@@ -156,10 +158,10 @@ TEST(Continuation, ResolvesASharpPeakBetweenItsPoints) {
   // Damping 1e-4, stuck contact: the unknowns of the contact say nothing of the peak, the output does. Its peak is
   // F / (2 k zeta) high, and the largest of the points is within a change of 0.3 of it.
   reduction::ReducedModel still = gap_oscillator(10, 1e-4, 1e-3);
-  const paths::Branch branch = paths::continuation({condensed(still), {}, kSteady}, 0.5, 1.5);
+  const branches::Branch branch = paths::continuation({condensed(still), {}, kSteady}, 0.5, 1.5);
   ASSERT_EQ(branch.status, Status::converged);
   double highest = 0;
-  for (const paths::ContinuationPoint& point : branch.points) highest = std::max(highest, point.state.amplitudes(0));
+  for (const branches::BranchPoint& point : branch.points) highest = std::max(highest, point.state.amplitudes(0));
   EXPECT_GT(highest, 0.8 * 1e-3 / (2 * 1e-4));
 }
 
@@ -196,7 +198,7 @@ TEST(Continuation, PassesTheZigzagOfFewSamplesAtStiffStops) {
   for (const Case& test : {Case{4, 0.04, 2}, Case{4, 0.01, 2}, Case{20, 0.04, 2}, Case{20, 0.01, 0}})
     for (const bool up : {true, false}) {
       const auto model = condensed(two_stops(test.kn, test.damping));
-      const paths::Branch branch =
+      const branches::Branch branch =
           paths::continuation({model, {}, {.harmonics = 3, .samples = 128}}, up ? 0.5 : 4, up ? 4 : 0.5);
       const bool back = test.turns == 0 && !up;
       SCOPED_TRACE(testing::Message() << test.kn << " " << test.damping << " " << up);
@@ -205,7 +207,7 @@ TEST(Continuation, PassesTheZigzagOfFewSamplesAtStiffStops) {
       EXPECT_EQ(branch.points.back().state.omega, up || back ? 4 : 0.5);
       EXPECT_LT(branch.points.size(), 1000U);
       int marked = 0;
-      for (const paths::ContinuationPoint& point : branch.points) marked += point.is_turn ? 1 : 0;
+      for (const branches::BranchPoint& point : branch.points) marked += point.is_turn ? 1 : 0;
       EXPECT_EQ(marked, branch.turns());
     }
 }
@@ -215,10 +217,10 @@ TEST(Continuation, FindsTheSamePeakUpwardsAndDownwardsThroughAZigzag) {
   const auto model = condensed(two_stops(4, 0.04));
   std::array<double, 2> highest{0, 0};
   for (const bool up : {true, false}) {
-    const paths::Branch branch =
+    const branches::Branch branch =
         paths::continuation({model, {}, {.harmonics = 5, .samples = 128}}, up ? 0.5 : 4, up ? 4 : 0.5);
     ASSERT_EQ(branch.status, Status::converged);
-    for (const paths::ContinuationPoint& point : branch.points)
+    for (const branches::BranchPoint& point : branch.points)
       highest[up ? 1 : 0] = std::max(highest[up ? 1 : 0], point.state.amplitudes(0));
   }
   EXPECT_NEAR(highest[0] / highest[1], 1, 1.0 / 128);

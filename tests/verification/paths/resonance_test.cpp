@@ -4,6 +4,7 @@
 
 #include "paths/continuation.hpp"
 #include "paths/frequency_response.hpp"
+#include "paths/steady_state.hpp"
 #include "tests/verification/steady/gap_oscillator.hpp"
 
 namespace dovetail::verification {
@@ -57,9 +58,9 @@ TEST(Resonance, HasAnExactSlope) {
   const auto model = condensed(rod(10));
   const steady::Options tight{.harmonics = 5, .tolerance = 1e-13};
   const double omega = 2.6, h = 1e-6;
-  const paths::AmplitudeSlope at = paths::amplitude_slope(steady::steady_state({model, {}, tight}, omega), 0);
-  const double difference = (steady::steady_state({model, {}, tight}, omega + h).amplitudes(0) -
-                             steady::steady_state({model, {}, tight}, omega - h).amplitudes(0)) /
+  const paths::AmplitudeSlope at = paths::amplitude_slope(paths::steady_state({model, {}, tight}, omega), 0);
+  const double difference = (paths::steady_state({model, {}, tight}, omega + h).amplitudes(0) -
+                             paths::steady_state({model, {}, tight}, omega - h).amplitudes(0)) /
                             (2 * h);
   EXPECT_NEAR(at.slope, difference, 1e-6 * std::abs(difference));
 }
@@ -95,9 +96,9 @@ TEST(Resonance, IsFoundOnABranchThatLeansOver) {
   const steady::Options steady{.harmonics = 7, .samples = 256, .tolerance = 1e-11};
   const paths::Resonance peak = paths::resonance({model, {}, steady}, model->glued_frequencies()(0));
   ASSERT_EQ(peak.status, Status::converged);
-  const paths::Branch branch = paths::continuation({model, {}, steady}, 0.8, 1.4);
+  const branches::Branch branch = paths::continuation({model, {}, steady}, 0.8, 1.4);
   double highest = 0;
-  for (const paths::ContinuationPoint& point : branch.points) highest = std::max(highest, point.state.amplitudes(0));
+  for (const branches::BranchPoint& point : branch.points) highest = std::max(highest, point.state.amplitudes(0));
   EXPECT_GE(peak.amplitude, highest);
   EXPECT_LT(peak.amplitude, 1.02 * highest);
 }
@@ -105,12 +106,12 @@ TEST(Resonance, IsFoundOnABranchThatLeansOver) {
 TEST(Resonance, IsClimbedWhereStepsInFrequencyFallOffTheBranch) {
   const auto model = condensed(gap_oscillator(1, 0.02, 0.1));
   const steady::Options steady{.harmonics = 7, .samples = 256, .tolerance = 1e-11};
-  const paths::Branch branch = paths::continuation({model, {}, steady}, 1.4, 0.8);
+  const branches::Branch branch = paths::continuation({model, {}, steady}, 1.4, 0.8);
   double highest = 0;
-  for (const paths::ContinuationPoint& point : branch.points) highest = std::max(highest, point.state.amplitudes(0));
+  for (const branches::BranchPoint& point : branch.points) highest = std::max(highest, point.state.amplitudes(0));
   int starts = 0;
   for (const double share : {0.5, 0.7, 0.9}) {
-    for (const paths::ContinuationPoint& point : branch.points) {
+    for (const branches::BranchPoint& point : branch.points) {
       if (point.state.amplitudes(0) < share * highest) continue;
       const paths::Resonance peak =
           paths::resonance({model, {}, steady}, point.state.omega, {.sweep_range = 0}, point.state.displacement);

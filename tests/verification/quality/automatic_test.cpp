@@ -1,5 +1,6 @@
 // Harmonics and samples chosen for a tolerance, against refined references.
 #include "quality/automatic.hpp"
+#include "paths/steady_state.hpp"
 
 #include <gtest/gtest.h>
 
@@ -78,7 +79,7 @@ TEST(AutomaticTruncation, HoldsOnTheCurveItWasChosenFor) {
   std::vector<steady::State> curve, fine;
   double largest = 0;
   for (const double w : omega) {
-    curve.push_back(steady::steady_state({model, {}, settings.options}, w));
+    curve.push_back(paths::steady_state({model, {}, settings.options}, w));
     ASSERT_EQ(curve.back().status, Status::converged);
     fine.push_back(fine_reference(model, curve.back(), 63, 4096));
     ASSERT_EQ(fine.back().status, Status::converged);

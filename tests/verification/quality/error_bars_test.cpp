@@ -1,5 +1,6 @@
 // Error bars against refined references.
 #include "quality/error_bars.hpp"
+#include "paths/steady_state.hpp"
 
 #include <gtest/gtest.h>
 
@@ -51,7 +52,7 @@ TEST(ErrorBars, HoldTheTrueErrorsOfRandomStructures) {
   for (unsigned seed = 1; seed <= 60; ++seed) {
     const RandomContact contact = random_contact(seed);
     const auto model = condensed(contact.model);
-    const steady::State state = steady::steady_state({model, {}, {}}, contact.omega);
+    const steady::State state = paths::steady_state({model, {}, {}}, contact.omega);
     ASSERT_EQ(state.status, Status::converged) << seed;
     const quality::ErrorBars bars = quality::error_bars({model, {}, {}}, state);
     ASSERT_EQ(bars.status, Status::converged) << seed;
@@ -82,7 +83,7 @@ TEST(ErrorBars, HoldWhereContactHasMass) {
     const double exact = std::sqrt(v * v - 0.16 * u * u);
     for (const int harmonics : {3, 7}) {
       const steady::Options options{.harmonics = harmonics, .samples = 512};
-      const steady::State state = steady::steady_state({model, {}, options}, omega);
+      const steady::State state = paths::steady_state({model, {}, options}, omega);
       ASSERT_EQ(state.status, Status::converged);
       const double error = std::abs(state.amplitudes(0) - exact);
       const double bar = quality::error_bars({model, {}, options}, state).total.amplitudes(0);
@@ -94,7 +95,7 @@ TEST(ErrorBars, HoldWhereContactHasMass) {
 
 TEST(ErrorBars, AreUnknownWhereARefinementFails) {
   const auto model = condensed(single_node());
-  steady::State state = steady::steady_state({model, {}, {}}, 1.1);
+  steady::State state = paths::steady_state({model, {}, {}}, 1.1);
   ASSERT_EQ(state.status, Status::converged);
   const quality::ErrorBars starved =
       quality::error_bars({model, {}, {.max_iterations = 1, .penalty_cascade = false}}, state);

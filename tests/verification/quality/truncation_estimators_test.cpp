@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "paths/steady_state.hpp"
 #include "quality/error_bars.hpp"
 #include "quality/penalty_sensitivity.hpp"
 #include "tests/verification/steady/fine_reference.hpp"
@@ -19,7 +20,7 @@ TEST(PenaltySensitivity, VanishesWithMoreHarmonics) {
   double before = kInfinity, spread_before = kInfinity;
   for (const int harmonics : {3, 7, 15}) {
     const steady::Options options{.harmonics = harmonics, .samples = 1024};
-    const steady::State state = steady::steady_state({model, {}, options}, 2.5);
+    const steady::State state = paths::steady_state({model, {}, options}, 2.5);
     const quality::PenaltySensitivity found = quality::penalty_sensitivity({model, {}, options}, state);
     ASSERT_EQ(found.status, Status::converged);
     ASSERT_EQ(found.values.size(), 4u);
@@ -59,7 +60,7 @@ TEST(TruncationEstimators, FallWhileTheTrueErrorGrows) {
   const double exact = 11.4313802832;  // energy per cycle, known to 2e-8
   const auto at = [&](double penalty_scale) {
     options.penalty_scale = penalty_scale;
-    steady::State state = steady::steady_state({model, {}, options}, 1.1);
+    steady::State state = paths::steady_state({model, {}, options}, 1.1);
     EXPECT_EQ(state.status, Status::converged);
     return state;
   };
@@ -86,7 +87,7 @@ TEST(TruncationEstimators, FallWhileTheTrueErrorGrows) {
 // Where the normal preload is large e_lambda is even smaller than the error: it is relative to the whole force.
 TEST(TruncationEstimators, AreNoErrorBar) {
   const auto model = condensed(rod(10));
-  const steady::State state = steady::steady_state({model, {}, {}}, 2.5);
+  const steady::State state = paths::steady_state({model, {}, {}}, 2.5);
   const steady::State fine = fine_reference(model, state, 31, 2048);
   const double error = std::abs(state.amplitudes(0) / fine.amplitudes(0) - 1);
   EXPECT_GT(error, 3 * state.error_force);

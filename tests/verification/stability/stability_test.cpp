@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 
+#include "paths/steady_state.hpp"
 #include "tests/verification/steady/rod.hpp"
 
 namespace dovetail::verification {

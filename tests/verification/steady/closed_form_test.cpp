@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "steady/steady_state.hpp"
+#include "paths/steady_state.hpp"
 #include "tests/verification/steady/rod.hpp"
 
 namespace dovetail::verification {
@@ -17,7 +17,7 @@ TEST(SingleNode, ApproachesTheKnownFrictionEnergy) {
   const double bounds[] = {3.5e-3, 6.5e-4, 1e-4, 1.7e-5};
   const int harmonics[] = {3, 7, 15, 31};
   for (int i = 0; i < 4; ++i) {
-    const steady::State state = steady::steady_state(
+    const steady::State state = paths::steady_state(
         {model, {}, {.harmonics = harmonics[i], .samples = 4096, .slip_return = "second_order"}}, 1.1);
     ASSERT_EQ(state.status, Status::converged);
     EXPECT_LT(std::abs(state.friction_energy / exact - 1), bounds[i]) << harmonics[i];
@@ -36,7 +36,7 @@ TEST(DenHartog, ConvergesAtFirstOrderInTheHarmonics) {
     double error[2] = {0, 0};
     for (int i = 0; i < 2; ++i) {
       const int harmonics = i == 0 ? 7 : 15;
-      const steady::State state = steady::steady_state(
+      const steady::State state = paths::steady_state(
           {condensed(den_hartog(0.4)), {}, {.harmonics = harmonics, .samples = 1024}}, known.frequency);
       ASSERT_EQ(state.status, Status::converged) << known.frequency << " " << harmonics;
       error[i] = std::abs(state.amplitudes(0) / known.amplitude - 1);
@@ -63,7 +63,7 @@ TEST(DenHartog, IsTheLimitOfAStiffContactSpring) {
       model.output_vectors = Eigen::MatrixXd::Identity(1, 3);
       model.output_names = {"x"};
       const steady::State state =
-          steady::steady_state({condensed(model), {}, {.harmonics = 25, .samples = 1024}}, known.frequency);
+          paths::steady_state({condensed(model), {}, {.harmonics = 25, .samples = 1024}}, known.frequency);
       ASSERT_EQ(state.status, Status::converged) << known.frequency;
       const double error = std::abs(state.amplitudes(0) / known.amplitude - 1);
       EXPECT_LT(error, 1.5 / spring + 1.0 / 25);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "steady/steady_state.hpp"
+#include "paths/steady_state.hpp"
 #include "tests/verification/steady/rod.hpp"
 
 namespace dovetail::verification {
@@ -54,7 +54,7 @@ double extrapolated(const NonStop& motion, int* failed) {
       start = Eigen::MatrixXd::Zero(2, 2 * harmonics + 1);
       start.leftCols(guess.cols()) = guess;
     }
-    const steady::State state = steady::steady_state(
+    const steady::State state = paths::steady_state(
         {condensed(den_hartog(motion.f)), {}, {.harmonics = harmonics, .samples = 32 * (harmonics + 1)}}, motion.b,
         start);
     if (state.status != Status::converged) ++*failed;

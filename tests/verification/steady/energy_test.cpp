@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "steady/steady_state.hpp"
+#include "paths/steady_state.hpp"
 #include "tests/verification/steady/rod.hpp"
 
 namespace dovetail::verification {
@@ -27,7 +27,7 @@ std::vector<Case> cases() {
 TEST(Energy, BalancesToRounding) {
   for (const Case& at : cases())
     for (const int harmonics : {1, 7, 31}) {
-      const steady::State state = steady::steady_state(
+      const steady::State state = paths::steady_state(
           {condensed(at.model), {}, {.harmonics = harmonics, .samples = 512, .tolerance = 1e-13}}, at.omega);
       ASSERT_EQ(state.status, Status::converged) << at.name;
       EXPECT_NEAR(state.input_energy, state.damping_energy + state.contact_work, 2e-13 * state.input_energy)
@@ -46,7 +46,7 @@ TEST(Energy, OfSlipConvergesToTheContactWork) {
       const auto model = condensed(at.model);
       Eigen::MatrixXd guess;
       for (const int samples : {256, 1024, 4096}) {
-        const steady::State state = steady::steady_state(
+        const steady::State state = paths::steady_state(
             {model, {}, {.harmonics = harmonics, .samples = samples, .slip_return = "second_order"}}, at.omega, guess);
         ASSERT_EQ(state.status, Status::converged) << at.name;
         guess = state.displacement;
@@ -64,8 +64,8 @@ TEST(Energy, OfTheSingleNodeConvergesWithHarmonics) {
   const auto model = condensed(single_node());
   double before = 1;
   for (const int harmonics : {3, 7, 15, 31, 63}) {
-    const steady::State state = steady::steady_state(
-        {model, {}, {.harmonics = harmonics, .samples = 4096, .slip_return = "second_order"}}, 1.1);
+    const steady::State state =
+        paths::steady_state({model, {}, {.harmonics = harmonics, .samples = 4096, .slip_return = "second_order"}}, 1.1);
     ASSERT_EQ(state.status, Status::converged);
     const double error = std::abs(state.contact_work / exact - 1);
     // Measured slopes of log error over log H: 2.0 to 2.7.

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "steady/steady_state.hpp"
+#include "paths/steady_state.hpp"
 
 namespace dovetail::verification {
 
@@ -15,7 +15,7 @@ inline steady::State fine_reference(const std::shared_ptr<const dynamics::Conden
                                 .penalty_scale = 1 / near.penalty_ratio,
                                 .slip_return = "second_order",
                                 .linearise = false};
-  return steady::refined_state({model, {}, options}, near);
+  return paths::refined_state({model, {}, options}, near);
 }
 
 }  // namespace dovetail::verification

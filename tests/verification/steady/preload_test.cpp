@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "steady/steady_state.hpp"
+#include "paths/steady_state.hpp"
 #include "tests/verification/steady/rod.hpp"
 
 namespace dovetail::verification {
@@ -68,7 +68,7 @@ TEST(Preload, StartsTheVibration) {
   const steady::Preload preload = steady::quasi_static(condensed(model));
   ASSERT_EQ(preload.status, Status::converged);
   model.contact.slip_origin = preload.slip_origin;
-  const steady::State state = steady::steady_state({condensed(model), {}, {}}, 0.5);
+  const steady::State state = paths::steady_state({condensed(model), {}, {}}, 0.5);
   ASSERT_EQ(state.status, Status::converged);
   // At the limit a small push moves the block once by 0.2 / 4 and then its own spring holds it: stuck, higher by that.
   EXPECT_EQ(state.wear_rate(0), 0);

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <memory>
 
+#include "paths/steady_state.hpp"
 #include "steady/preload.hpp"
-#include "steady/steady_state.hpp"
 #include "tests/verification/steady/rod.hpp"
 
 namespace dovetail::verification {
@@ -51,8 +51,8 @@ TEST(RoughInterface, IsASpringBetweenTheStructureAndItsContact) {
   const Model with_interface = condensed(rough), with_spring = condensed(rubbing(true, kSpring));
   int slipping = 0;
   for (const double omega : {0.7, 1.1, 1.6}) {
-    const steady::State one = steady::steady_state({with_interface}, omega);
-    const steady::State other = steady::steady_state({with_spring}, omega);
+    const steady::State one = paths::steady_state({with_interface}, omega);
+    const steady::State other = paths::steady_state({with_spring}, omega);
     ASSERT_EQ(one.status, Status::converged);
     slipping += one.nodes.front().slips;
     EXPECT_NEAR(one.amplitudes(0), other.amplitudes(0), 1e-8 * other.amplitudes(0)) << omega;
@@ -76,12 +76,12 @@ TEST(RoughInterface, TakesItsShareOfTheClosing) {
 }
 
 TEST(RoughInterface, IsRigidWhereItIsStiff) {
-  const steady::State rigid = steady::steady_state({condensed(rod(5))}, 2.0);
+  const steady::State rigid = paths::steady_state({condensed(rod(5))}, 2.0);
   ASSERT_EQ(rigid.status, Status::converged);
   const auto difference = [&](double stiffness) {
     reduction::ReducedModel model = rod(5);
     reduction::add_interface({.normal = stiffness, .tangential = stiffness}, model);
-    const steady::State rough = steady::steady_state({condensed(model)}, 2.0);
+    const steady::State rough = paths::steady_state({condensed(model)}, 2.0);
     EXPECT_EQ(rough.status, Status::converged);
     return std::abs(rough.amplitudes(0) / rigid.amplitudes(0) - 1);
   };

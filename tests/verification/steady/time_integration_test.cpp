@@ -4,7 +4,7 @@
 
 #include <Eigen/Geometry>
 
-#include "steady/steady_state.hpp"
+#include "paths/steady_state.hpp"
 #include "tests/verification/steady/rod.hpp"
 
 namespace dovetail::verification {
@@ -72,7 +72,7 @@ void expect_same(reduction::ReducedModel model, double omega, int harmonics, boo
   ASSERT_GT(motion.periods, 0);
   ASSERT_EQ(motion.separates, separates);
   model.contact.slip_origin = motion.slip_end;
-  const steady::State state = steady::steady_state(
+  const steady::State state = paths::steady_state(
       {condensed(model), {}, {.harmonics = harmonics, .samples = 4096, .slip_return = "second_order"}}, omega);
   ASSERT_EQ(state.status, Status::converged);
   EXPECT_NEAR(state.input_energy / motion.input_energy, 1, 1e-4);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "paths/steady_state.hpp"
 #include "tests/verification/steady/rod.hpp"
 #include "tractions/slip_origin_sensitivity.hpp"
 
@@ -63,7 +64,7 @@ constexpr double kOmega = 1.2;
 TEST(SlipOrigin, DerivativesMatchDifferences) {
   const reduction::ReducedModel model = elastic(4, 2, 3);
   const auto reduced = condensed(model);
-  const steady::State state = steady::steady_state({reduced, {}, kOptions}, kOmega);
+  const steady::State state = paths::steady_state({reduced, {}, kOptions}, kOmega);
   ASSERT_EQ(state.status, Status::converged);
   ASSERT_TRUE(state.nodes[0].stuck && state.nodes[1].stuck);
   ASSERT_GT(state.friction_energy, 0);
@@ -73,9 +74,9 @@ TEST(SlipOrigin, DerivativesMatchDifferences) {
     Eigen::MatrixXd step = Eigen::MatrixXd::Zero(4, 1);
     step(i, 0) = 1e-6;
     const steady::State above =
-        steady::steady_state({reduced, {.slip_origin = step}, kOptions}, kOmega, state.displacement);
+        paths::steady_state({reduced, {.slip_origin = step}, kOptions}, kOmega, state.displacement);
     const steady::State below =
-        steady::steady_state({reduced, {.slip_origin = -step}, kOptions}, kOmega, state.displacement);
+        paths::steady_state({reduced, {.slip_origin = -step}, kOptions}, kOmega, state.displacement);
     // Residuals of 1e-11 over the step of 2e-6; the second derivative is O(1).
     EXPECT_NEAR(amplitude(i, 0), (above.amplitudes(0) - below.amplitudes(0)) / 2e-6, 2e-5) << i;
     EXPECT_NEAR(energy(i, 0), (above.friction_energy - below.friction_energy) / 2e-6, 2e-5) << i;
@@ -101,7 +102,7 @@ TEST_P(OneQuantity, IsBoundedLikeAGridOverOneTraction) {
   for (int p = -60; p <= 60; ++p) {
     Eigen::MatrixXd origin = Eigen::MatrixXd::Zero(3, 1);
     origin(0, 0) = 0.02 * p;
-    state = steady::steady_state({reduced, {.slip_origin = origin}, kOptions}, kOmega, state.displacement);
+    state = paths::steady_state({reduced, {.slip_origin = origin}, kOptions}, kOmega, state.displacement);
     if (state.status != Status::converged) continue;
     const double value = value_of(model, state, GetParam());
     smallest = std::min(smallest, value);
@@ -128,7 +129,7 @@ TEST_P(OneQuantity, IsBoundedLikeAGridOverTwoTractions) {
       Eigen::MatrixXd origin = Eigen::MatrixXd::Zero(3, 1);
       origin(0, 0) = 0.12 * p;
       origin(2, 0) = 0.12 * q;
-      state = steady::steady_state({reduced, {.slip_origin = origin}, kOptions}, kOmega, state.displacement);
+      state = paths::steady_state({reduced, {.slip_origin = origin}, kOptions}, kOmega, state.displacement);
       if (state.status != Status::converged) continue;
       const double value = value_of(model, state, GetParam());
       smallest = std::min(smallest, value);
@@ -149,7 +150,7 @@ TEST_P(OneQuantity, OfRandomTractionsLiesInsideTheBounds) {
   EXPECT_GE(bounds.stuck_nodes, 5);
   // What is attained is attained again from the origin reported.
   for (const tractions::AttainedValue* end : {&bounds.minimum, &bounds.maximum}) {
-    const steady::State again = steady::steady_state({reduced, {.slip_origin = end->slip_origin}, kOptions}, kOmega);
+    const steady::State again = paths::steady_state({reduced, {.slip_origin = end->slip_origin}, kOptions}, kOmega);
     EXPECT_NEAR(value_of(model, again, GetParam()), end->value, 1e-6 * std::abs(end->value));
     EXPECT_LE(end->traction.cwiseAbs().maxCoeff(), 1 + 1e-9);
   }
@@ -160,7 +161,7 @@ TEST_P(OneQuantity, OfRandomTractionsLiesInsideTheBounds) {
   for (int p = 0; p < 200; ++p) {
     Eigen::MatrixXd origin = Eigen::MatrixXd::Zero(10, 1);
     for (double& value : origin.reshaped()) value = uniform(random);
-    const steady::State state = steady::steady_state({reduced, {.slip_origin = origin}, kOptions}, kOmega);
+    const steady::State state = paths::steady_state({reduced, {.slip_origin = origin}, kOptions}, kOmega);
     if (state.status != Status::converged) continue;
     ++converged;
     const double value = value_of(model, state, GetParam());

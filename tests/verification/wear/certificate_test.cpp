@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "paths/steady_state.hpp"
 #include "verdict_scenes.hpp"
 #include "wear/asymptote.hpp"
 
@@ -47,7 +48,7 @@ TEST(Certificate, ThatFailsAtFinerSettingsIsADoubt) {
   EXPECT_EQ(worn.doubt, Doubt::finer_settings);
   // The same from a steady state of its own.
   const steady::State separate =
-      steady::steady_state({model, {.wear_depth = worn.depth}, finer_settings(scenes::kVerdictSettings)}, 1.0);
+      paths::steady_state({model, {.wear_depth = worn.depth}, finer_settings(scenes::kVerdictSettings)}, 1.0);
   ASSERT_EQ(separate.status, Status::converged);
   EXPECT_NEAR(worn.finer.remaining, separate.wear_rate.maxCoeff() / worn.unworn_rate.maxCoeff(),
               1e-5 * worn.finer.remaining);
@@ -63,7 +64,7 @@ TEST(Certificate, IsNotCheckedWhenNotAsked) {
 
 TEST(Certificate, SaysWhatCouldNotBeSolved) {
   const auto model = condensed(Family::crowned, 1);
-  const steady::State unworn = steady::steady_state({model, {}, scenes::kVerdictSettings}, 1.0);
+  const steady::State unworn = paths::steady_state({model, {}, scenes::kVerdictSettings}, 1.0);
   ASSERT_EQ(unworn.status, Status::converged);
   steady::Options hasty = finer_settings(scenes::kVerdictSettings);
   hasty.max_iterations = 1;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "empty_model.hpp"
+#include "paths/steady_state.hpp"
 #include "scenes.hpp"
 #include "wear/asymptote.hpp"
 #include "wear/depth_scale.hpp"
@@ -113,7 +114,7 @@ TEST_P(Sliding, HasAFiniteScaleOfDepth) {
 // Every state is solved to 1e-9, and its rate is the first one's.
 TEST_P(Sliding, GivesHistoriesASteadyRate) {
   const Slider scene = slider();
-  const steady::State unworn = steady::steady_state({scene.model, {}, scene.steady}, kOmega);
+  const steady::State unworn = paths::steady_state({scene.model, {}, scene.steady}, kOmega);
   ASSERT_EQ(unworn.status, Status::converged);
   const double rate = unworn.wear_rate[0];
   const double increment = 0.01 * largest_penetration(*scene.model, unworn);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "paths/steady_state.hpp"
 #include "scenes.hpp"
 #include "wear/asymptote.hpp"
 #include "wear/history.hpp"
@@ -55,7 +56,7 @@ TEST(EnergyWear, LeavesNodesAtRestInSlip) {
   reduction::ReducedModel model = scenes::punch({.nodes = 41});
   model.contact.wear_law = "energy";
   const steady::Joint plain = joint_of(model, 3, 128);
-  const steady::State unworn = steady::steady_state(plain, 1.0);
+  const steady::State unworn = paths::steady_state(plain, 1.0);
   double largest = 0;
   for (std::size_t i = 0; i < unworn.nodes.size(); ++i)
     largest = std::max(largest, unworn.nodes[i].dissipated_energy / model.contact.area(static_cast<Eigen::Index>(i)));

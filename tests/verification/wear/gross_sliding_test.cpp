@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "paths/steady_state.hpp"
 #include "scenes.hpp"
 #include "wear/asymptote.hpp"
 
@@ -49,7 +50,7 @@ TEST(GrossSliding, IsMeasuredByWhatBearsAndHowFarItCloses) {
 TEST(GrossSliding, DoesNotDependOnTheMesh) {
   const auto compression = [](int nodes) {
     const Model model = punch(0.36, nodes);
-    const steady::State state = steady::steady_state({model, {}, kSteady}, 1.0);
+    const steady::State state = paths::steady_state({model, {}, kSteady}, 1.0);
     EXPECT_EQ(state.status, Status::converged);
     return flank_compression(*model, state);
   };

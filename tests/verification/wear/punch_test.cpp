@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "paths/steady_state.hpp"
 #include "scenes.hpp"
 #include "wear/asymptote.hpp"
 #include "wear/history.hpp"
@@ -45,7 +46,7 @@ constexpr AsymptoteOptions kOptions{.rate_threshold = 0.0, .arbitration = "unset
 TEST(Punch, SticksInTheMiddle) {
   const scenes::Punch data{.nodes = 121};
   const auto model = std::make_shared<const dynamics::CondensedModel>(scenes::punch(data));
-  const steady::State state = steady::steady_state({model, {}, {.harmonics = 3, .samples = 128}}, 1.0);
+  const steady::State state = paths::steady_state({model, {}, {.harmonics = 3, .samples = 128}}, 1.0);
   ASSERT_EQ(state.status, Status::converged);
   const double step = 2.0 * data.half_length / (data.nodes - 1);
   double contact = 0.0;
@@ -62,7 +63,7 @@ TEST(Punch, SticksInTheMiddle) {
 TEST(Punch, DissipatesTheEnergyOfPartialSlip) {
   const scenes::Punch data{.nodes = 81};
   const auto model = std::make_shared<const dynamics::CondensedModel>(scenes::punch(data));
-  const steady::State state = steady::steady_state({model, {}, {.harmonics = 9, .samples = 256}}, 1.0);
+  const steady::State state = paths::steady_state({model, {}, {.harmonics = 9, .samples = 256}}, 1.0);
   ASSERT_EQ(state.status, Status::converged);
   const double limit = data.friction * data.normal_load;
   const double s = data.tangential_load / limit;

@@ -6,6 +6,7 @@
 
 #include "core/errors.hpp"
 #include "dynamics/condensed_model.hpp"
+#include "paths/steady_state.hpp"
 #include "tests/verification/wear/scenes.hpp"
 #include "wear/follow.hpp"
 
@@ -36,7 +37,7 @@ const SpreadRange& range_of(const Spread& spread, const std::string& source) {
 class PunchSpread : public testing::Test {
  protected:
   steady::Joint joint_{std::make_shared<const dynamics::CondensedModel>(scenes::punch({.nodes = 41})), {}, settings()};
-  steady::State unworn_ = steady::steady_state(joint_, 1.0);
+  steady::State unworn_ = paths::steady_state(joint_, 1.0);
   Spread spread_ = spread(joint_, worn(joint_), worn, &unworn_);
 };
 

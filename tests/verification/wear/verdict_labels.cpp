@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "paths/steady_state.hpp"
 #include "wear/asymptote.hpp"
 #include "wear/history.hpp"
 #include "wear/measures.hpp"
@@ -32,7 +33,7 @@ std::string_view to_string(Label label) {
 Label explicit_label(const std::shared_ptr<const dynamics::CondensedModel>& model, double omega,
                      steady::Options steady) {
   steady.samples *= 4;
-  const steady::State first = steady::steady_state({model, {}, steady}, omega);
+  const steady::State first = paths::steady_state({model, {}, steady}, omega);
   if (first.status != Status::converged) return Label::open;
   const double penetration = largest_penetration(*model, first);
   AsymptoteOptions direct;

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string_view>
 
-#include "steady/steady_state.hpp"
+#include "steady/state.hpp"
 #include "verdict_scenes.hpp"
 
 namespace dovetail::wear::scenes {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "paths/steady_state.hpp"
 #include "verdict_labels.hpp"
 #include "wear/asymptote.hpp"
 
@@ -83,7 +84,7 @@ TEST(Verdict, OfAnOscillatorFollowsFromItsNormalSpring) {
     for (const double omega : {0.8, 1.0, 1.3}) {
       const auto model =
           std::make_shared<const dynamics::CondensedModel>(scenes::rubbing_oscillator(load, 2.0, 1.0, 0.05));
-      const steady::State unworn = steady::steady_state({model, {}, kSteady}, omega);
+      const steady::State unworn = paths::steady_state({model, {}, kSteady}, omega);
       ASSERT_EQ(unworn.status, Status::converged);
       if (unworn.wear_rate[0] == 0.0) continue;
       const Asymptote worn = asymptote({model, {}, kSteady}, omega, settings("always"));

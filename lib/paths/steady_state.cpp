@@ -1,15 +1,15 @@
-#include "steady/steady_state.hpp"
+#include "paths/steady_state.hpp"
 
 #include <algorithm>
 #include <string>
 
-#include "steady/ways.hpp"
+#include "paths/ways.hpp"
 
-namespace dovetail::steady {
+namespace dovetail::paths {
 
-State steady_state(const Joint& joint, double omega, const Eigen::MatrixXd& guess,
-                   const std::shared_ptr<const Tangent>& reuse) {
-  validate(joint.options);
+steady::State steady_state(const steady::Joint& joint, double omega, const Eigen::MatrixXd& guess,
+                           const std::shared_ptr<const steady::Tangent>& reuse) {
+  steady::validate(joint.options);
   if (!kPositive.contains(omega))
     throw InputError({.file = {}, .key = "omega", .value = shortest(omega), .allowed = kPositive.phrase()});
   const Eigen::Index rows = joint.model->contact_size(), columns = 2 * joint.options.harmonics + 1;
@@ -18,7 +18,7 @@ State steady_state(const Joint& joint, double omega, const Eigen::MatrixXd& gues
                       .key = "guess",
                       .value = std::to_string(guess.rows()) + " x " + std::to_string(guess.cols()),
                       .allowed = "must be " + std::to_string(rows) + " x " + std::to_string(columns)});
-  State without;
+  steady::State without;
   without.omega = omega;
   without.status = Status::budget_spent;
   if (spent(joint.options.budget)) return without;
@@ -28,11 +28,12 @@ State steady_state(const Joint& joint, double omega, const Eigen::MatrixXd& gues
     without.status = system->status;
     return without;
   }
-  Found found = try_ways(joint, std::make_shared<const Problem>(joint, std::move(system)), guess, reuse);
-  const AtSolution jacobian = joint.options.linearise      ? AtSolution::linearise
-                              : joint.options.show_regular ? AtSolution::show_regular
-                                                           : AtSolution::trust;
-  State state = described(std::move(found.attempt.point), found.attempt.status, jacobian, found.attempt.tangent.get());
+  Found found = try_ways(joint, std::make_shared<const steady::Problem>(joint, std::move(system)), guess, reuse);
+  const steady::AtSolution jacobian = joint.options.linearise      ? steady::AtSolution::linearise
+                                      : joint.options.show_regular ? steady::AtSolution::show_regular
+                                                                   : steady::AtSolution::trust;
+  steady::State state =
+      steady::described(std::move(found.attempt.point), found.attempt.status, jacobian, found.attempt.tangent.get());
   state.status = within(joint.options.budget, state.status);
   state.way = found.way;
   state.iterations = found.attempt.iterations;
@@ -47,14 +48,15 @@ Eigen::MatrixXd padded(const Eigen::MatrixXd& coefficients, int harmonics) {
   return result;
 }
 
-State refined_state(Joint finer, const State& state, const std::shared_ptr<const Tangent>& reuse) {
+steady::State refined_state(steady::Joint finer, const steady::State& state,
+                            const std::shared_ptr<const steady::Tangent>& reuse) {
   finer.options.penalty_scale *= state.penalty_ratio;
   finer.options.penalty_cascade = false;
   finer.options.max_rescue_iterations = 0;
   finer.options.show_regular = false;
-  State refined = steady_state(finer, state.omega, padded(state.displacement, finer.options.harmonics), reuse);
+  steady::State refined = steady_state(finer, state.omega, padded(state.displacement, finer.options.harmonics), reuse);
   refined.penalty_ratio *= state.penalty_ratio;
   return refined;
 }
 
-}  // namespace dovetail::steady
+}  // namespace dovetail::paths

@@ -1,11 +1,11 @@
-#include "paths/branch_turns.hpp"
+#include "branches/turns.hpp"
 
-namespace dovetail::paths {
+namespace dovetail::branches {
 
-void TurnCounter::observe(std::vector<ContinuationPoint>& points) {
+void TurnCounter::observe(std::vector<BranchPoint>& points) {
   const std::size_t last = points.size() - 1;
   points[last].turns = turns_;
-  const double gone = sign_ * (points[last].state.omega - points[extreme_].state.omega);
+  const double gone = sign_ * (points[last].parameter - points[extreme_].parameter);
   if (gone >= 0) {
     extreme_ = last;
     return;
@@ -18,4 +18,4 @@ void TurnCounter::observe(std::vector<ContinuationPoint>& points) {
   extreme_ = last;
 }
 
-}  // namespace dovetail::paths
+}  // namespace dovetail::branches

@@ -1,12 +1,12 @@
-#include "paths/bordered.hpp"
+#include "branches/bordered.hpp"
 
 #include <cmath>
 
-namespace dovetail::paths {
+namespace dovetail::branches {
 
-BorderedSystem::BorderedSystem(const steady::Tangent& tangent, Eigen::VectorXd row, double corner)
-    : tangent_(tangent), row_(std::move(row)), corner_(corner) {
-  column_ = steady::residual_to_frequency(tangent.point()).reshaped();
+BorderedSystem::BorderedSystem(const steady::Tangent& tangent, Eigen::VectorXd column, Eigen::VectorXd row,
+                               double corner)
+    : tangent_(tangent), column_(std::move(column)), row_(std::move(row)), corner_(corner) {
   if (tangent.status() == Status::converged) by_column_ = tangent.solve(column_);
 }
 
@@ -15,8 +15,8 @@ BorderedSystem::Defect BorderedSystem::defect(const Solution& at, const Eigen::V
   const Eigen::Index nc = tangent_.problem().model().contact_size();
   const Eigen::MatrixXd change = at.displacement.reshaped(nc, at.displacement.size() / nc);
   const Eigen::MatrixXd applied = steady::apply_jacobian(tangent_.point(), change);
-  return {.forces = forces - applied.reshaped() - at.omega * column_,
-          .constraint = constraint - row_.dot(at.displacement) - corner_ * at.omega};
+  return {.forces = forces - applied.reshaped() - at.parameter * column_,
+          .constraint = constraint - row_.dot(at.displacement) - corner_ * at.parameter};
 }
 
 // Adds the solution for `defect` by block elimination.
@@ -24,7 +24,7 @@ void BorderedSystem::eliminate(const Defect& defect, Solution& solution) const {
   const Eigen::VectorXd direct = tangent_.solve(defect.forces);
   const double change = (defect.constraint - row_.dot(direct)) / (corner_ - row_.dot(by_column_));
   solution.displacement += direct - change * by_column_;
-  solution.omega += change;
+  solution.parameter += change;
 }
 
 BorderedSystem::Solution BorderedSystem::solve(const Eigen::VectorXd& forces, double constraint) const {
@@ -35,10 +35,10 @@ BorderedSystem::Solution BorderedSystem::solve(const Eigen::VectorXd& forces, do
   constexpr int kRefinements = 4;
   for (int pass = 0; pass <= kRefinements; ++pass) {
     Defect left{.forces = forces, .constraint = constraint};
-    double size = forces.norm() + std::abs(solution.omega) * column_.norm();
+    double size = forces.norm() + std::abs(solution.parameter) * column_.norm();
     if (pass > 0) left = defect(solution, forces, constraint);
     if (!left.forces.allFinite() || !std::isfinite(left.constraint)) break;
-    const double reach = row_.norm() * solution.displacement.norm() + std::abs(corner_ * solution.omega);
+    const double reach = row_.norm() * solution.displacement.norm() + std::abs(corner_ * solution.parameter);
     const double force_error = size > 0 ? left.forces.norm() / size : 0;
     const double error = std::max(force_error, std::abs(left.constraint) / std::max(reach, std::abs(constraint)));
     if (pass > 0 && error <= (pass == kRefinements ? kUsable : kExact)) {
@@ -52,7 +52,7 @@ BorderedSystem::Solution BorderedSystem::solve(const Eigen::VectorXd& forces, do
 
 BorderedSystem::Solution BorderedSystem::solve_densely(const Eigen::VectorXd& forces, double constraint) const {
   const Eigen::Index n = forces.size();
-  // Rows and columns are brought to one size: forces by the largest entry of J, displacements and dw by their columns.
+  // Rows and columns are brought to one size: forces by the largest entry of J, displacements and ds by their columns.
   Eigen::MatrixXd matrix(n + 1, n + 1);
   matrix.topLeftCorner(n, n) = steady::jacobian(tangent_.point());
   matrix.topRightCorner(n, 1) = column_;
@@ -76,13 +76,13 @@ BorderedSystem::Solution BorderedSystem::solve_densely(const Eigen::VectorXd& fo
   const Eigen::VectorXd found = Eigen::VectorXd(lu.solve(right)).cwiseQuotient(columns.transpose());
   return {.status = found.allFinite() ? Status::converged : Status::not_finite,
           .displacement = found.head(n),
-          .omega = found(n)};
+          .parameter = found(n)};
 }
 
-BranchVector BorderedSystem::vector(const Solution& solution) const {
+Vector BorderedSystem::vector(const Solution& solution) const {
   const Eigen::Index rows = tangent_.problem().model().contact_size();
   return {.displacement = solution.displacement.reshaped(rows, solution.displacement.size() / rows),
-          .omega = solution.omega};
+          .parameter = solution.parameter};
 }
 
-}  // namespace dovetail::paths
+}  // namespace dovetail::branches

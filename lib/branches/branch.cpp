@@ -1,48 +1,49 @@
-#include "paths/branch.hpp"
+#include "branches/branch.hpp"
 
 #include <limits>
 
+#include "branches/bordered.hpp"
 #include "numerics/newton.hpp"
-#include "paths/bordered.hpp"
 #include "steady/solve.hpp"
 
-namespace dovetail::paths {
+namespace dovetail::branches {
 namespace {
 
 // Newton's unknowns are the coordinates in which the metric is the Euclidean one, its residuals forces relative to the
 // excitation at the start and the distance from the plane.
 class PlaneEquations {
  public:
-  PlaneEquations(const BranchEquations& branch, const BranchVector& start, const BranchVector& row,
-                 const ArcMetric& metric)
+  PlaneEquations(const Equations& branch, const Vector& start, const Vector& row, const ArcMetric& metric)
       : branch_(branch),
         start_(start),
         metric_(metric),
         weight_(metric.displacement_weight.replicate(start.displacement.cols(), 1)),
         row_(metric.row(row)) {}
 
-  [[nodiscard]] BranchVector point(const Eigen::VectorXd& z) const {
+  [[nodiscard]] Vector point(const Eigen::VectorXd& z) const {
     const Eigen::VectorXd u = z.head(weight_.size()).cwiseQuotient(weight_);
     return {.displacement = u.reshaped(start_.displacement.rows(), start_.displacement.cols()),
-            .omega = z(weight_.size()) / metric_.omega_weight};
+            .parameter = z(weight_.size()) / metric_.parameter_weight};
   }
-  [[nodiscard]] Eigen::VectorXd coordinates(const BranchVector& point) const {
+  [[nodiscard]] Eigen::VectorXd coordinates(const Vector& point) const {
     Eigen::VectorXd z(weight_.size() + 1);
-    z << weight_.cwiseProduct(point.displacement.reshaped()), metric_.omega_weight * point.omega;
+    z << weight_.cwiseProduct(point.displacement.reshaped()), metric_.parameter_weight * point.parameter;
     return z;
   }
 
   // Goes to a point; false where the problem cannot be set up.
-  bool go_to(const BranchVector& now) {
-    if (problem_ && now.omega == problem_->system().omega && at_->displacement == now.displacement) return true;
-    // The condensation is the dear part for a model of many modes, and steps at the end hardly move omega.
-    if (!problem_ || now.omega != problem_->system().omega) problem_ = branch_.at(now.omega);
+  bool go_to(const Vector& now) {
+    const bool same_problem = problem_ && now.parameter == parameter_;
+    if (same_problem && at_->displacement == now.displacement) return true;
+    // To set the problem up is the dear part for a model of many modes, and steps at the end hardly move the parameter.
+    if (!same_problem) problem_ = branch_.at(now.parameter);
     if (!problem_) return false;
+    parameter_ = now.parameter;
     if (!(force_ > 0)) force_ = problem_->system().force_scale;
     if (at_.use_count() > 1) at_ = std::make_shared<steady::Point>();
     steady::evaluate(problem_, now.displacement, *at_);
     constraint_ = row_.displacement.dot((now.displacement - start_.displacement).reshaped()) +
-                  row_.omega * (now.omega - start_.omega);
+                  row_.parameter * (now.parameter - start_.parameter);
     return true;
   }
 
@@ -59,39 +60,53 @@ class PlaneEquations {
     steady::differentiate(*at_);
     const steady::Tangent tangent(at_);
     if (tangent.status() == Status::not_finite) return tangent.status();
-    const BorderedSystem bordered(tangent, row_.displacement, row_.omega);
+    const BorderedSystem bordered(tangent, branch_.slope(*at_), row_.displacement, row_.parameter);
     const BorderedSystem::Solution found = bordered.solve(-at_->residual.reshaped(), -constraint_);
     if (found.status != Status::converged) return found.status;
     step.resize(weight_.size() + 1);
-    step << weight_.cwiseProduct(found.displacement), metric_.omega_weight * found.omega;
+    step << weight_.cwiseProduct(found.displacement), metric_.parameter_weight * found.parameter;
     return Status::converged;
   }
 
   [[nodiscard]] const steady::Point& at() const { return *at_; }
 
  private:
-  const BranchEquations& branch_;
-  const BranchVector& start_;
+  const Equations& branch_;
+  const Vector& start_;
   const ArcMetric& metric_;
   Eigen::VectorXd weight_;
   ArcMetric::Row row_;
-  double force_ = 0, constraint_ = 0;
+  double parameter_ = 0, force_ = 0, constraint_ = 0;
   std::shared_ptr<const steady::Problem> problem_;
   std::shared_ptr<steady::Point> at_ = std::make_shared<steady::Point>();
 };
 
 }  // namespace
 
-std::shared_ptr<const steady::Problem> BranchEquations::at(double omega) const {
-  if (!kPositive.contains(omega)) return {};
-  auto system =
-      std::make_shared<const dynamics::HarmonicSystem>(dynamics::harmonic_system(model(), options().harmonics, omega));
-  if (system->status != Status::converged) return {};
-  return std::make_shared<const steady::Problem>(joint_, std::move(system), penalty_ratio_);
+Equations::Equations(steady::Options options, ProblemAt problem_at, Slope slope)
+    : options_(std::move(options)), problem_at_(std::move(problem_at)), slope_(std::move(slope)) {}
+
+Equations::Equations(const steady::Joint& joint, double penalty_ratio)
+    : options_(joint.options),
+      problem_at_([joint, penalty_ratio](double omega) -> std::shared_ptr<const steady::Problem> {
+        if (!kPositive.contains(omega)) return {};
+        auto system = std::make_shared<const dynamics::HarmonicSystem>(
+            dynamics::harmonic_system(*joint.model, joint.options.harmonics, omega));
+        if (system->status != Status::converged) return {};
+        return std::make_shared<const steady::Problem>(joint, std::move(system), penalty_ratio);
+      }),
+      slope_(steady::residual_to_frequency) {}
+
+Direction Equations::direction(const steady::Tangent& tangent, const Vector& along, const ArcMetric& metric) const {
+  const ArcMetric::Row row = metric.row(along);
+  const BorderedSystem bordered(tangent, slope(tangent.point()), row.displacement, row.parameter);
+  const BorderedSystem::Solution found = bordered.solve(Eigen::VectorXd::Zero(row.displacement.size()), 1);
+  if (found.status != Status::converged) return {};
+  return {.status = Status::converged, .direction = bordered.vector(found)};
 }
 
-BranchEquations::Correction BranchEquations::correct(const BranchVector& start, const BranchVector& row,
-                                                     const ArcMetric& metric, int max_iterations) const {
+Equations::Correction Equations::correct(const Vector& start, const Vector& row, const ArcMetric& metric,
+                                         int max_iterations) const {
   PlaneEquations equations(*this, start, row, metric);
   Correction found{.status = Status::singular, .at = start};
   if (!equations.go_to(start)) return found;
@@ -117,9 +132,9 @@ BranchEquations::Correction BranchEquations::correct(const BranchVector& start, 
   return found;
 }
 
-BranchEquations::Correction BranchEquations::correct_at(const BranchVector& start, int max_iterations) const {
+Equations::Correction Equations::correct_at(const Vector& start, int max_iterations) const {
   Correction found{.status = Status::singular, .at = start};
-  const std::shared_ptr<const steady::Problem> problem = at(start.omega);
+  const std::shared_ptr<const steady::Problem> problem = at(start.parameter);
   if (!problem) return found;
   steady::Attempt attempt = steady::solve(problem, start.displacement, steady::Method::newton, max_iterations);
   found.status = attempt.status;
@@ -130,8 +145,7 @@ BranchEquations::Correction BranchEquations::correct_at(const BranchVector& star
   return found;
 }
 
-BranchEquations::Described BranchEquations::describe(const Correction& found, const BranchVector& along,
-                                                     const ArcMetric& metric) const {
+Equations::Described Equations::describe(const Correction& found, const Vector& along, const ArcMetric& metric) const {
   Described result{.state = steady::described(found.point, found.status, steady::AtSolution::linearise), .tangent = {}};
   result.state.iterations = found.iterations;
   result.state.evaluations = found.evaluations;
@@ -140,7 +154,7 @@ BranchEquations::Described BranchEquations::describe(const Correction& found, co
     auto point = std::make_shared<steady::Point>(found.point);
     steady::differentiate(*point);
     auto tangent = std::make_shared<const steady::Tangent>(std::move(point));
-    if (branch_direction(*tangent, along, metric).status == Status::converged) {
+    if (direction(*tangent, along, metric).status == Status::converged) {
       result.state.status = Status::converged;
       result.tangent = std::move(tangent);
     }
@@ -149,12 +163,4 @@ BranchEquations::Described BranchEquations::describe(const Correction& found, co
   return result;
 }
 
-BranchDirection branch_direction(const steady::Tangent& tangent, const BranchVector& along, const ArcMetric& metric) {
-  const ArcMetric::Row row = metric.row(along);
-  const BorderedSystem bordered(tangent, row.displacement, row.omega);
-  const BorderedSystem::Solution found = bordered.solve(Eigen::VectorXd::Zero(row.displacement.size()), 1);
-  if (found.status != Status::converged) return {};
-  return {.status = Status::converged, .direction = bordered.vector(found)};
-}
-
-}  // namespace dovetail::paths
+}  // namespace dovetail::branches

@@ -1,9 +1,9 @@
-#include "paths/arc.hpp"
+#include "branches/arc.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace dovetail::paths {
+namespace dovetail::branches {
 namespace {
 
 Eigen::VectorXd penalty_of(const steady::Summary& state) {
@@ -13,23 +13,23 @@ Eigen::VectorXd penalty_of(const steady::Summary& state) {
 
 }  // namespace
 
-double ArcMetric::inner(const BranchVector& a, const BranchVector& b) const {
+double ArcMetric::inner(const Vector& a, const Vector& b) const {
   const Eigen::VectorXd squares = displacement_weight.cwiseAbs2();
   return (squares.asDiagonal() * a.displacement).cwiseProduct(b.displacement).sum() +
-         omega_weight * omega_weight * a.omega * b.omega;
+         parameter_weight * parameter_weight * a.parameter * b.parameter;
 }
 
-double ArcMetric::length(const BranchVector& a) const {
+double ArcMetric::length(const Vector& a) const {
   return std::sqrt(inner(a, a));
 }
 
-BranchVector ArcMetric::forwards(const Eigen::MatrixXd& like, double sign) const {
-  return {.displacement = Eigen::MatrixXd::Zero(like.rows(), like.cols()), .omega = sign / omega_weight};
+Vector ArcMetric::forwards(const Eigen::MatrixXd& like, double sign) const {
+  return {.displacement = Eigen::MatrixXd::Zero(like.rows(), like.cols()), .parameter = sign / parameter_weight};
 }
 
-ArcMetric::Row ArcMetric::row(const BranchVector& a) const {
+ArcMetric::Row ArcMetric::row(const Vector& a) const {
   const Eigen::MatrixXd weighted = displacement_weight.cwiseAbs2().asDiagonal() * a.displacement;
-  return {.displacement = weighted.reshaped(), .omega = omega_weight * omega_weight * a.omega};
+  return {.displacement = weighted.reshaped(), .parameter = parameter_weight * parameter_weight * a.parameter};
 }
 
 Eigen::MatrixXd penalty_forces(const steady::Summary& state) {
@@ -42,8 +42,8 @@ double vibrating_force(const steady::Summary& state) {
   return std::max(vibration(penalty_forces(state)), kSlip * vibration(state.force));
 }
 
-ArcMetric arc_metric(const steady::Summary& state, double force, double omega) {
-  return {.displacement_weight = penalty_of(state) / (force > 0 ? force : 1.0), .omega_weight = 1 / omega};
+ArcMetric arc_metric(const steady::Summary& state, double force, double range) {
+  return {.displacement_weight = penalty_of(state) / (force > 0 ? force : 1.0), .parameter_weight = 1 / range};
 }
 
-}  // namespace dovetail::paths
+}  // namespace dovetail::branches

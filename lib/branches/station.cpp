@@ -1,18 +1,18 @@
-#include "paths/branch_station.hpp"
+#include "branches/station.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace dovetail::paths {
+namespace dovetail::branches {
 namespace {
 
-// On a branch sign(d omega / ds) sign(det J) is constant, over turns and over kinks: where two pieces of a piecewise
+// On a branch sign(ds / d arc) sign(det J) is constant, over turns and over kinks: where two pieces of a piecewise
 // smooth f meet their Jacobians differ by a rank-one matrix along the normal of the border, so the branch crosses it
 // the same way on both sides. That tells a sharp kink from a way back. It fails at a crossing with another branch,
 // which goes on straight, and says the wrong thing on the middle of a fold smaller than the step: both are doubtful.
-void orient(const Station& now, const BranchVector& way, int determinant, Station& next) {
+void orient(const Station& now, const Vector& way, int determinant, Station& next) {
   if (next.metric.inner(way, next.tangent) < 0) next.tangent = -1 * next.tangent;
-  const int here = determinant * (next.tangent.omega > 0 ? 1 : -1);
+  const int here = determinant * (next.tangent.parameter > 0 ? 1 : -1);
   next.orientation = here != 0 ? here : now.orientation;
   next.doubtful = here != 0 && now.orientation != 0 && here != now.orientation;
   constexpr double kStraight = 0.9;
@@ -24,29 +24,22 @@ void orient(const Station& now, const BranchVector& way, int determinant, Statio
 
 }  // namespace
 
-StationMaker::StationMaker(const steady::Joint& joint, const ContinuationOptions& follow, double interval,
-                           double penalty_ratio)
-    : equations_(joint, penalty_ratio),
-      follow_(follow),
-      interval_(std::abs(interval)),
-      keeps_tangents_(joint.options.linearise) {}
-
-std::optional<Station> StationMaker::first(steady::State state, double sign) {
+std::optional<Station> StationMaker::first(steady::State state, double parameter, double sign) {
   Station now;
-  now.at = {.displacement = state.displacement, .omega = state.omega};
+  now.at = {.displacement = state.displacement, .parameter = parameter};
   now.metric = metric_at(state);
-  const BranchDirection found =
-      branch_direction(*state.tangent, now.metric.forwards(now.at.displacement, sign), now.metric);
+  const Direction found =
+      equations_.direction(*state.tangent, now.metric.forwards(now.at.displacement, sign), now.metric);
   failure_ = found.status;
   if (found.status != Status::converged) return {};
   now.tangent = now.metric.unit(found.direction);
-  now.orientation = state.tangent->determinant_sign() * (now.tangent.omega > 0 ? 1 : -1);
+  now.orientation = state.tangent->determinant_sign() * (now.tangent.parameter > 0 ? 1 : -1);
   now.state = std::move(state);
-  if (!keeps_tangents_) now.state.tangent.reset();
+  if (!equations_.options().linearise) now.state.tangent.reset();
   return now;
 }
 
-// One unit is a change of the contact's vibration by its own size, or the frequency step that counts as much.
+// One unit is a change of the contact's vibration by its own size, or the step of the parameter that counts as much.
 ArcMetric StationMaker::metric_at(const steady::State& state) {
   // Slip that is small against what the contact forces do is no reason for tiny steps, nor is an antiresonance.
   constexpr double kFloor = 1e-2;
@@ -54,22 +47,21 @@ ArcMetric StationMaker::metric_at(const steady::State& state) {
   largest_forces_ = std::max({largest_forces_, vibrating, 1e-6 * penalty_forces(state).norm()});
   largest_output_ = std::max(largest_output_, vibration(state.outputs));
   return arc_metric(state, std::max(vibrating, kFloor * largest_forces_),
-                    follow_.largest_frequency_step * interval_ / follow_.largest_change);
+                    follow_.largest_parameter_step * interval_ / follow_.largest_change);
 }
 
-std::optional<Station> StationMaker::advance(const Station& now, const BranchVector& direction, double step) {
+std::optional<Station> StationMaker::advance(const Station& now, const Vector& direction, double step) {
   return described(now, equations_.correct(now.at + step * direction, direction, now.metric, follow_.max_corrections),
                    direction, step);
 }
 
-std::optional<Station> StationMaker::at_frequency(const Station& now, const BranchVector& start, double step) {
+std::optional<Station> StationMaker::at_parameter(const Station& now, const Vector& start, double step) {
   return described(now, equations_.correct_at(start, follow_.max_corrections), now.tangent, step);
 }
 
-std::optional<BranchVector> StationMaker::tangent_ahead(const Station& now, const BranchVector& direction,
-                                                        double step) {
-  const BranchVector there = now.at + step * direction;
-  const std::shared_ptr<const steady::Problem> problem = equations_.at(there.omega);
+std::optional<Vector> StationMaker::tangent_ahead(const Station& now, const Vector& direction, double step) {
+  const Vector there = now.at + step * direction;
+  const std::shared_ptr<const steady::Problem> problem = equations_.at(there.parameter);
   if (!problem || spent(problem->budget())) return {};
   auto point = std::make_shared<steady::Point>();
   steady::evaluate(problem, there.displacement, *point);
@@ -78,31 +70,31 @@ std::optional<BranchVector> StationMaker::tangent_ahead(const Station& now, cons
   if (point->status == Status::not_finite) return {};
   steady::differentiate(*point);
   const steady::Tangent tangent(std::move(point));
-  const BranchDirection found = branch_direction(tangent, direction, now.metric);
+  const Direction found = equations_.direction(tangent, direction, now.metric);
   if (found.status != Status::converged) return {};
-  BranchVector result = now.metric.unit(found.direction);
-  const int here = tangent.determinant_sign() * (result.omega > 0 ? 1 : -1);
+  Vector result = now.metric.unit(found.direction);
+  const int here = tangent.determinant_sign() * (result.parameter > 0 ? 1 : -1);
   if (here != 0 && now.orientation != 0 && here != now.orientation) result = -1 * result;
   return result;
 }
 
-std::optional<Station> StationMaker::described(const Station& now, const BranchEquations::Correction& found,
-                                               const BranchVector& direction, double step) {
+std::optional<Station> StationMaker::described(const Station& now, const Equations::Correction& found,
+                                               const Vector& direction, double step) {
   jacobians_ += found.iterations;
   evaluations_ += found.evaluations;
   failure_ = found.status;
   if (found.status != Status::converged) return {};
   // Further away than twice the step it is another branch, or the other side of a loop; very near, it is the way on
   // behind a sharp kink, where contact that was stuck begins to slide.
-  const BranchVector way = found.at - now.at;
+  const Vector way = found.at - now.at;
   const double reached = now.metric.length(way);
   failure_ = Status::stalled;
   constexpr double kSidestep = 2, kKink = 0.1;
   if (reached > std::max(kSidestep * step, kKink * follow_.largest_change)) return {};
-  BranchEquations::Described point = equations_.describe(found, direction, now.metric);
+  Equations::Described point = equations_.describe(found, direction, now.metric);
   failure_ = point.state.status;
   if (point.state.status != Status::converged || !point.tangent) return {};
-  const BranchDirection next = branch_direction(*point.tangent, direction, now.metric);
+  const Direction next = equations_.direction(*point.tangent, direction, now.metric);
   failure_ = next.status;
   if (next.status != Status::converged) return {};
   Station result;
@@ -126,4 +118,4 @@ double StationMaker::output_change(const steady::State& before, const steady::St
   return size > 0 ? (after.outputs - before.outputs).norm() / size : 0;
 }
 
-}  // namespace dovetail::paths
+}  // namespace dovetail::branches

@@ -1,12 +1,13 @@
-#include "steady/ways.hpp"
+#include "paths/ways.hpp"
 
 #include <algorithm>
-#include <array>
 
-#include "steady/dashpots.hpp"
+#include "paths/dashpots.hpp"
 
-namespace dovetail::steady {
+namespace dovetail::paths {
 namespace {
+
+using steady::Way;
 
 // How far neighbouring problems are from each other. A step is relative to what changes; one that fails is cut, one
 // that succeeds lets the next grow, and when it has become too short the way is given up.
@@ -29,16 +30,16 @@ struct WayParams {
 
 class Ways {
  public:
-  Ways(const Joint& joint, const std::shared_ptr<const Problem>& problem)
+  Ways(const steady::Joint& joint, const std::shared_ptr<const steady::Problem>& problem)
       : joint_(joint),
         options_(joint.options),
         problem_(problem),
-        method_(options_.solver == "powell"      ? Method::powell
-                : options_.solver == "powell_fd" ? Method::powell_fd
-                                                 : Method::newton),
+        method_(options_.solver == "powell"      ? steady::Method::powell
+                : options_.solver == "powell_fd" ? steady::Method::powell_fd
+                                                 : steady::Method::newton),
         left_(options_.max_rescue_iterations) {}
 
-  Found run(const Eigen::MatrixXd& guess, const std::shared_ptr<const Tangent>& reuse) {
+  Found run(const Eigen::MatrixXd& guess, const std::shared_ptr<const steady::Tangent>& reuse) {
     Found found{.attempt = {}, .way = way_to(guess, reuse)};
     found.attempt = std::move(best_);
     found.attempt.iterations = iterations_;
@@ -47,13 +48,13 @@ class Ways {
   }
 
  private:
-  Way way_to(const Eigen::MatrixXd& guess, const std::shared_ptr<const Tangent>& reuse) {
+  Way way_to(const Eigen::MatrixXd& guess, const std::shared_ptr<const steady::Tangent>& reuse) {
     if (guess.size() > 0 && plain(problem_, guess, method_, reuse)) return Way::guess;
     if (plain(problem_, problem_->closed_start(), method_)) return Way::closed;
     if (!options_.penalty_cascade) return Way::none;
     if (other_penalty()) return Way::other_penalty;
     if (options_.solver != "auto") return Way::none;
-    if (plain(problem_, problem_->closed_start(), Method::powell)) return Way::powell;
+    if (plain(problem_, problem_->closed_start(), steady::Method::powell)) return Way::powell;
     struct Rescue {
       Way way;
       bool (Ways::*take)();
@@ -74,10 +75,10 @@ class Ways {
   }
 
   // An attempt at the problem asked for; the best of those that fail is kept.
-  bool plain(const std::shared_ptr<const Problem>& problem, const Eigen::MatrixXd& start, Method method,
-             const std::shared_ptr<const Tangent>& reuse = {}) {
+  bool plain(const std::shared_ptr<const steady::Problem>& problem, const Eigen::MatrixXd& start, steady::Method method,
+             const std::shared_ptr<const steady::Tangent>& reuse = {}) {
     if (spent(options_.budget)) return false;
-    Attempt found = count(solve(problem, start, method, options_.max_iterations, reuse));
+    steady::Attempt found = count(steady::solve(problem, start, method, options_.max_iterations, reuse));
     const bool converged = found.status == Status::converged;
     if (converged || best_.point.displacement.size() == 0 || found.residual < best_.residual) best_ = std::move(found);
     return converged;
@@ -87,16 +88,16 @@ class Ways {
   bool other_penalty() {
     for (const double ratio : contact::kPenaltyCascade) {
       if (ratio == 1) continue;
-      const auto other = std::make_shared<const Problem>(problem_->with_penalty(ratio));
+      const auto other = std::make_shared<const steady::Problem>(problem_->with_penalty(ratio));
       if (!plain(other, other->closed_start(), method_)) continue;
-      const Attempt fallback = best_;
+      const steady::Attempt fallback = best_;
       if (!plain(problem_, fallback.point.displacement, method_)) best_ = fallback;
       return true;
     }
     return false;
   }
 
-  Attempt count(Attempt found) {
+  steady::Attempt count(steady::Attempt found) {
     iterations_ += found.iterations;
     evaluations_ += found.evaluations;
     return found;
@@ -105,11 +106,11 @@ class Ways {
   [[nodiscard]] bool exhausted() const { return left_ <= reserve_ || spent(options_.budget); }
 
   // A neighbour of the problem asked for; true when it converged, kept in last_.
-  bool neighbour(const Problem& problem, const Eigen::MatrixXd& start) {
+  bool neighbour(const steady::Problem& problem, const Eigen::MatrixXd& start) {
     if (problem.system().status != Status::converged) return false;
-    const auto shared = std::make_shared<const Problem>(problem);
-    last_ = count(solve(shared, start.size() > 0 ? start : problem.closed_start(), Method::newton,
-                        std::min(options_.max_iterations, std::max(left_ - reserve_, 1))));
+    const auto shared = std::make_shared<const steady::Problem>(problem);
+    last_ = count(steady::solve(shared, start.size() > 0 ? start : problem.closed_start(), steady::Method::newton,
+                                std::min(options_.max_iterations, std::max(left_ - reserve_, 1))));
     left_ -= last_.iterations;
     return last_.status == Status::converged;
   }
@@ -120,9 +121,9 @@ class Ways {
   }
 
   bool open() {
-    Joint joint = joint_;
+    steady::Joint joint = joint_;
     joint.condition.released.assign(static_cast<std::size_t>(joint.model->nodes()), 1);
-    return neighbour(*problem_, Problem(joint, problem_->shared_system()).closed_start());
+    return neighbour(*problem_, steady::Problem(joint, problem_->shared_system()).closed_start());
   }
 
   bool harmonics() {
@@ -130,9 +131,9 @@ class Ways {
     for (int h = 1; !exhausted(); h = std::min(options_.harmonics, h + 1 + h / 4)) {
       Eigen::MatrixXd padded = Eigen::MatrixXd::Zero(start.rows(), start.size() > 0 ? 2 * h + 1 : 0);
       if (start.size() > 0) padded.leftCols(std::min(start.cols(), padded.cols())) = start;
-      Joint joint = joint_;
+      steady::Joint joint = joint_;
       joint.options.harmonics = h;
-      const bool found = neighbour(Problem(joint, system(h, problem_->system().omega)), padded);
+      const bool found = neighbour(steady::Problem(joint, system(h, problem_->system().omega)), padded);
       if (h == options_.harmonics) return found;
       if (found) start = last_.point.displacement;
     }
@@ -190,14 +191,14 @@ class Ways {
   bool softer_damping() {
     if (!fade(problem_->with_penalty(params_.softer))) return false;
     // From there the most accurate eps is often within reach.
-    const Attempt fallback = last_;
+    const steady::Attempt fallback = last_;
     reserve_ = -options_.max_iterations;
     if (!neighbour(*problem_, fallback.point.displacement)) last_ = fallback;
     return true;
   }
 
   // In plain steps as far as they go, then along the curve through its turns.
-  bool fade(const Problem& problem) {
+  bool fade(const steady::Problem& problem) {
     const Dashpots dashpots(problem, problem_->dof_penalty());
     double alpha = params_.strongest;
     const auto go = [&](double target, const Eigen::MatrixXd& start) {
@@ -210,36 +211,27 @@ class Ways {
     const auto next = [&](double step) { return alpha * (1 - step) < params_.weakest ? 0 : alpha * (1 - step); };
     if (step_towards(0, alpha, params_.fade, next, go)) return true;
     if (exhausted()) return false;
-    const Dashpots::Followed followed =
-        dashpots.follow(alpha, last_.point.displacement, left_ - reserve_,
-                        [&](const Eigen::MatrixXd& near) { return neighbour(problem, near); });
+    const Dashpots::Followed followed = dashpots.follow(alpha, last_.point.displacement, left_ - reserve_);
     iterations_ += followed.jacobians;
     evaluations_ += followed.evaluations;
     left_ -= followed.jacobians;
-    return followed.found;
+    return followed.displacement.size() > 0 && neighbour(problem, followed.displacement);
   }
 
-  const Joint& joint_;
-  const Options& options_;
-  const std::shared_ptr<const Problem>& problem_;
+  const steady::Joint& joint_;
+  const steady::Options& options_;
+  const std::shared_ptr<const steady::Problem>& problem_;
   const WayParams params_ = {};
-  Method method_;
+  steady::Method method_;
   int left_, reserve_ = 0, iterations_ = 0, evaluations_ = 0;
-  Attempt best_, last_;
+  steady::Attempt best_, last_;
 };
 
 }  // namespace
 
-std::string_view to_string(Way way) {
-  constexpr std::array<std::string_view, 11> kNames{
-      "guess",           "closed",    "other_penalty", "powell",         "open", "harmonics",
-      "growing_penalty", "frequency", "damping",       "softer_damping", "none"};
-  return kNames[static_cast<std::size_t>(way)];
-}
-
-Found try_ways(const Joint& joint, const std::shared_ptr<const Problem>& problem, const Eigen::MatrixXd& guess,
-               const std::shared_ptr<const Tangent>& reuse) {
+Found try_ways(const steady::Joint& joint, const std::shared_ptr<const steady::Problem>& problem,
+               const Eigen::MatrixXd& guess, const std::shared_ptr<const steady::Tangent>& reuse) {
   return Ways(joint, problem).run(guess, reuse);
 }
 
-}  // namespace dovetail::steady
+}  // namespace dovetail::paths

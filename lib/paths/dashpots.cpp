@@ -1,0 +1,54 @@
+#include "paths/dashpots.hpp"
+
+#include "branches/follow.hpp"
+#include "dynamics/real_block.hpp"
+
+namespace dovetail::paths {
+namespace {
+
+// Only the end of the branch counts: its steps may be long. With shorter ones the many kinks of hard cases cost more
+// Jacobians than there are, with longer ones they are lost.
+constexpr branches::FollowOptions kLongSteps{
+    .largest_parameter_step = 0.5, .largest_change = 2, .largest_turn = 1.5, .locate_turns = false};
+
+}  // namespace
+
+std::shared_ptr<const dynamics::HarmonicSystem> Dashpots::system(double alpha) const {
+  if (alpha == 0) return problem_.shared_system();
+  auto damped = std::make_shared<dynamics::HarmonicSystem>(problem_.system());
+  for (std::size_t h = 1; h < damped->harmonics.size(); ++h)
+    damped->harmonics[h].stiffness.diagonal() += std::complex<double>(0, alpha * static_cast<double>(h)) * strength_;
+  return damped;
+}
+
+// d f / d alpha = (I - D) (i h k U)
+Eigen::MatrixXd Dashpots::slope(const steady::Point& point) const {
+  Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(point.displacement.rows(), point.displacement.cols());
+  for (Eigen::Index h = 1; 2 * h < forces.cols(); ++h)
+    dynamics::put_harmonic(std::complex<double>(0, static_cast<double>(h)) *
+                               strength_.cwiseProduct(dynamics::harmonic_of(point.displacement, h)),
+                           h, forces);
+  return forces - steady::apply_force_derivative(point, forces);
+}
+
+Dashpots::Followed Dashpots::follow(double alpha, const Eigen::MatrixXd& displacement, int max_jacobians) const {
+  // The states on the way are forgotten: none keeps its factors.
+  steady::Options options = problem_.options();
+  options.linearise = false;
+  const branches::Equations equations(
+      options, [this](double s) { return std::make_shared<const steady::Problem>(problem_.at(system(s))); },
+      [this](const steady::Point& point) { return slope(point); });
+  steady::Point point;
+  steady::evaluate(equations.at(alpha), displacement, point);
+  steady::State start = steady::described(std::move(point), Status::converged, steady::AtSolution::linearise);
+  start.iterations = start.evaluations = 1;
+  branches::FollowOptions steps = kLongSteps;
+  steps.max_jacobians = max_jacobians;
+  const branches::Branch branch =
+      branches::follow(equations, std::move(start), {.from = alpha, .to = 0, .back = kInfinity}, steps);
+  Followed followed{.displacement = {}, .jacobians = branch.jacobians, .evaluations = branch.evaluations};
+  if (branch.status == Status::converged) followed.displacement = branch.points.back().state.displacement;
+  return followed;
+}
+
+}  // namespace dovetail::paths

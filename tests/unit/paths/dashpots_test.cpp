@@ -1,0 +1,46 @@
+#include "paths/dashpots.hpp"
+
+#include <gtest/gtest.h>
+
+#include "paths/steady_state.hpp"
+#include "steady/solve.hpp"
+#include "tests/verification/steady/rod.hpp"
+
+namespace dovetail::paths {
+namespace {
+
+class FadingDashpots : public testing::Test {
+ protected:
+  FadingDashpots()
+      : problem_(joint_, std::make_shared<const dynamics::HarmonicSystem>(
+                             dynamics::harmonic_system(*joint_.model, joint_.options.harmonics, kOmega))),
+        dashpots_(problem_, problem_.dof_penalty()) {}
+
+  static constexpr double kOmega = 2.5, kStrong = 10;
+  const steady::Joint joint_{.model = verification::condensed(verification::rod(5))};
+  const steady::Problem problem_;
+  const Dashpots dashpots_;
+  const steady::Attempt strong_ =
+      steady::solve(std::make_shared<const steady::Problem>(problem_.at(dashpots_.system(kStrong))),
+                    problem_.closed_start(), steady::Method::newton, joint_.options.max_iterations);
+};
+
+TEST_F(FadingDashpots, LeadToTheStateWithoutThem) {
+  ASSERT_EQ(strong_.status, Status::converged);
+  constexpr int kMany = 1000;
+  const Dashpots::Followed followed = dashpots_.follow(kStrong, strong_.point.displacement, kMany);
+  ASSERT_GT(followed.displacement.size(), 0);
+  const steady::State direct = steady_state(joint_, kOmega);
+  ASSERT_EQ(direct.status, Status::converged);
+  const double size = direct.displacement.norm();
+  // Both to a residual of 1e-9, and the strong dashpots leave hardly any of the motion.
+  EXPECT_LT((followed.displacement - direct.displacement).norm(), 1e-7 * size);
+  EXPECT_GT((strong_.point.displacement - direct.displacement).norm(), 1e-2 * size);
+}
+
+TEST_F(FadingDashpots, AreLostWithoutJacobians) {
+  EXPECT_EQ(dashpots_.follow(kStrong, strong_.point.displacement, 1).displacement.size(), 0);
+}
+
+}  // namespace
+}  // namespace dovetail::paths
