@@ -3,8 +3,27 @@
 #include <string>
 
 #include "optimizer/journal.hpp"
+#include "optimizer/record_fields.hpp"
 
 namespace dovetail::optimizer {
+
+/// The keys of an evaluation in the journal and in the answer of the command evaluate.
+template <>
+inline constexpr auto kFields<Evaluation> = std::tuple{
+    RecordField{"status", &Evaluation::status},
+    RecordField{"feasible", &Evaluation::feasible},
+    RecordField{"parameters", &Evaluation::parameters},
+    RecordField{"responses", &Evaluation::responses},
+    RecordField{"constraints", &Evaluation::constraints},
+    RecordField{"error_estimates", &Evaluation::error_estimates},
+    RecordField{"error_sources", &Evaluation::error_sources},
+    RecordField{"unbounded", &Evaluation::unbounded},
+    RecordField{"undecided_constraints", &Evaluation::undecided_constraints},
+    RecordField{"model", &Evaluation::model},
+    RecordField{"timings_s", &Evaluation::timings_s},
+    RecordField{"messages", &Evaluation::messages},
+    RecordField{"derivatives", &Evaluation::derivatives},
+};
 
 /// One line of JSON text. Doubles read back bit by bit; NaN and infinities are the strings "nan", "inf", "-inf" (the
 /// payload and sign of a NaN are not kept). Bytes that are no UTF-8 are replaced by U+FFFD.

@@ -67,17 +67,11 @@ Plot along_flank(const Results& r, const Numbers& values, const Unit& unit, Plot
 
 /// The same over both flanks in space.
 report::FlankMap over_flanks(const Results& r, const Numbers& values, const Unit& unit, const Plot& plot) {
-  const report::ContactRecord& contact = r.design.contact;
-  report::FlankMap map{
-      .title = plot.title, .description = plot.description, .quantity = plot.y.label, .unit = unit, .panels = {}};
-  for (std::size_t f = 0; f < contact.flank_names.size(); ++f) {
-    const auto flank = static_cast<std::int64_t>(f);
-    map.panels.push_back({.name = contact.flank_names[f] + " flank",
-                          .along = of_flank(contact, contact.along_m, flank),
-                          .across = of_flank(contact, contact.across_m, flank),
-                          .values = of_flank(contact, values, flank)});
-  }
-  return map;
+  return {.title = plot.title,
+          .description = plot.description,
+          .quantity = plot.y.label,
+          .unit = unit,
+          .panels = report::flank_panels(r.design.contact, values)};
 }
 
 /// Along the flank in the plane, over the flanks in space.

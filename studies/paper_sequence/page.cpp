@@ -135,10 +135,7 @@ std::string page_html(const Results& r) {
   const std::vector<Finding> all = findings(r);
   const SceneWords words = scene_words(r);
   std::string text =
-      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"/>\n"
-      "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"/>\n<title>The reference " +
-      words.title + " \u2013 dovetail</title>\n<style>" + report::plot_style() + report::page_style() + kStyle +
-      "</style></head>\n<body><main>\n" + opening(r, all, words);
+      report::page_begin("The reference " + words.title + " \u2013 dovetail", kStyle) + opening(r, all, words);
   if (!all.empty()) text += "<section><h2>Findings</h2>\n" + finding_table(all, words) + "</section>\n";
   if (!r.design.contact.flank.empty()) {
     text += "<section><h2>The disk and its preload</h2>\n" +
@@ -170,7 +167,7 @@ std::string page_html(const Results& r) {
         "bold.</p>\n" +
         convergence_table(r.convergence) + "</section>\n";
   return text + "<section><h2>Where the two differ</h2>\n<ul>\n" + words.differences + kDifferences +
-         "</ul>\n</section>\n" + provenance(r) + "</main></body></html>\n";
+         "</ul>\n</section>\n" + provenance(r) + report::kPageEnd;
 }
 
 }  // namespace dovetail::paper_sequence

@@ -1,7 +1,9 @@
 #include "studies/program/arguments.hpp"
 
+#include "optimizer/evaluation_json.hpp"
 #include "studies/program/engine.hpp"
 #include "studies/program/export.hpp"
+#include "studies/program/refusal.hpp"
 #include "studies/program/shared_arguments.hpp"
 
 namespace dovetail::studies {
@@ -20,13 +22,12 @@ void define_study_commands(CLI::App& app, Arguments& a) {
   add_study(*run, a.run.study);
   run->add_option("-o,--output", a.run.directory, "Directory of the results (default: results/NAME)")->type_name("DIR");
   run->add_flag("--resume", a.run.resume, "Continue the run stored in the directory");
-  run->callback([&a] { a.command = [&a](const Streams& s) { return run_study(a.run, s, study_engine); }; });
+  runs(*run, a, a.run, [](const RunOptions& options, const Streams& s) { return run_study(options, s, study_engine); });
 
   CLI::App* evaluate = app.add_subcommand("evaluate", "Compute one design: all responses with error estimates");
-  evaluate->footer(
-      "JSON: {\"status\", \"feasible\", \"parameters\", \"responses\", \"constraints\", \"error_estimates\",\n"
-      "\"error_sources\", \"unbounded\", \"undecided_constraints\", \"model\", \"timings_s\", \"messages\"};\n"
-      "parameters in the study file's units, all else SI; constraints hold when <= 0.");
+  evaluate->footer("JSON: {" + optimizer::listed_keys<optimizer::Evaluation>() +
+                   "}; derivatives where they are known,\n"
+                   "parameters in the study file's units, all else SI; constraints hold when <= 0.");
   add_study(*evaluate, a.evaluate.study);
   add_set(*evaluate, a);
   add_solver(*evaluate, a);
@@ -38,41 +39,25 @@ void define_study_commands(CLI::App& app, Arguments& a) {
                      "only where the direct method finds none");
   evaluate->add_flag("--unworn", a.evaluate.unworn,
                      "Responses of the joint before it wears, and limits on them, without error bars");
-  evaluate->callback([&a] {
-    a.command = [&a](const Streams& s) {
-      a.evaluate.overrides = a.overrides();
-      a.evaluate.solver = a.solver;
-      return run_evaluate(a.evaluate, s);
-    };
-  });
+  runs(*evaluate, a, a.evaluate, run_evaluate);
 
   CLI::App* reduce = app.add_subcommand("reduce", "Write the reduced model of a design (HDF5)");
   add_study(*reduce, a.reduce.study);
   add_set(*reduce, a);
   reduce->add_option("-o,--output", a.reduce.model, "The model file to write")->type_name("MODEL.h5")->required();
-  reduce->callback([&a] {
-    a.command = [&a](const Streams& s) {
-      a.reduce.overrides = a.overrides();
-      return run_reduce(a.reduce, s);
-    };
-  });
+  runs(*reduce, a, a.reduce, run_reduce);
 
   CLI::App* check = app.add_subcommand("check", "Read and validate a study, computing nothing");
   check->footer("Every problem is told at once, one sentence each, with the line it stands on.");
   add_study(*check, a.check.study);
   add_set(*check, a);
-  check->callback([&a] {
-    a.command = [&a](const Streams& s) {
-      a.check.overrides = a.overrides();
-      return run_check(a.check, s);
-    };
-  });
+  runs(*check, a, a.check, run_check);
 
   CLI::App* create = app.add_subcommand("new", "Write a commented study to start from");
   create->add_option("FILE", a.create.file, "The study file to write (TOML); must not exist")
       ->required()
       ->type_name("");
-  create->callback([&a] { a.command = [&a](const Streams& s) { return run_new(a.create, s); }; });
+  runs(*create, a, a.create, run_new);
 }
 
 void define_file_commands(CLI::App& app, Arguments& a) {
@@ -85,7 +70,7 @@ void define_file_commands(CLI::App& app, Arguments& a) {
       "from 0. `response` and `wear` read it directly, too.");
   import_model->add_option("INPUT", a.import.input, "The model (TOML)")->required()->type_name("");
   import_model->add_option("-o,--output", a.import.model, "The model file to write")->type_name("MODEL.h5")->required();
-  import_model->callback([&a] { a.command = [&a](const Streams& s) { return run_import(a.import, s); }; });
+  runs(*import_model, a, a.import, run_import);
 
   CLI::App* geometry = app.add_subcommand(
       "export",
@@ -116,17 +101,12 @@ void define_file_commands(CLI::App& app, Arguments& a) {
       ->type_name("N");
   geometry->add_flag("--contact", a.geometry.deck.contact, "inp: flanks in frictional contact, not glued");
   add_set(*geometry, a);
-  geometry->callback([&a] {
-    a.command = [&a](const Streams& s) {
-      a.geometry.overrides = a.overrides();
-      return run_export(a.geometry, s);
-    };
-  });
+  runs(*geometry, a, a.geometry, run_export);
 
   CLI::App* report = app.add_subcommand("report", "Write the report of a run again, from its stored results");
   report->add_option("DIR", a.report.directory, "Directory of the run")->required()->type_name("");
   report->add_option("-o,--output", a.report.file, "The page to write")->type_name("FILE.html")->required();
-  report->callback([&a] { a.command = [&a](const Streams& s) { return run_report(a.report, s); }; });
+  runs(*report, a, a.report, run_report);
 }
 
 }  // namespace
@@ -139,7 +119,7 @@ std::vector<Override> Arguments::overrides() const {
     } catch (const InputError& error) {
       found.insert(found.end(), error.violations().begin(), error.violations().end());
     }
-  if (!found.empty()) throw InputError(std::move(found));
+  refuse(std::move(found));
   return result;
 }
 

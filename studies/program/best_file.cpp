@@ -22,13 +22,6 @@ std::size_t offset(const std::string& text, Position position) {
   return at;
 }
 
-std::string number_text(double value) {
-  std::string text = shortest(value);
-  // TOML wants a digit on both sides of a point and none of its floats look like a whole number.
-  if (text.find_first_of(".e") == std::string::npos) text += ".0";
-  return text;
-}
-
 /// The section's header line "[section]" as written, or npos.
 std::size_t end_of_header(const std::string& text, const std::string& section) {
   std::size_t line = 0;
@@ -53,9 +46,9 @@ std::string edited(const Document& document, const std::map<std::string, double>
   std::string appended;
   for (const auto& [key, value] : values) {
     const std::size_t dot = key.rfind('.');
-    const std::string line = key.substr(dot + 1) + " = " + number_text(value);
+    const std::string line = key.substr(dot + 1) + " = " + real_text(value);
     if (const Node* node = document.root.at(key)) {
-      edits.push_back({offset(text, node->begin), offset(text, node->end), number_text(value)});
+      edits.push_back({offset(text, node->begin), offset(text, node->end), real_text(value)});
     } else if (const std::size_t header = end_of_header(text, key.substr(0, dot)); header != std::string::npos) {
       edits.push_back({header, header, "\n" + line});
     } else {

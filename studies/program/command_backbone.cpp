@@ -12,51 +12,39 @@
 #include "studies/program/interrupt.hpp"
 #include "studies/program/json_values.hpp"
 #include "studies/program/progress.hpp"
+#include "studies/program/refusal.hpp"
 
 namespace dovetail::studies {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 
-[[noreturn]] void refuse(const std::string& key, const std::string& value, const std::string& allowed) {
-  throw InputError(Violation{.file = {}, .key = key, .value = value, .allowed = allowed});
-}
-
 std::vector<double> parameters(const BackboneOptions& options) {
   const bool wear = options.over == "wear";
   const Range& range = wear ? kNonNegative : kPositive;
-  std::vector<Violation> found;
-  const auto require = [&](const char* option, double value, const Range& within) {
-    if (!within.contains(value))
-      found.push_back({.file = {}, .key = option, .value = shortest(value), .allowed = within.phrase()});
-  };
-  require("--from", options.from, range);
-  require("--to", options.to, range);
-  require("--points", options.points, {.lower = 1, .upper = 100000});
-  if (options.frequency_hz) require("--frequency", *options.frequency_hz, kFrequencies);
+  Complaints wrong;
+  wrong.require("--from", options.from, range);
+  wrong.require("--to", options.to, range);
+  wrong.require("--points", options.points, {.lower = 1, .upper = 100000});
+  if (options.frequency_hz) wrong.require("--frequency", *options.frequency_hz, kFrequencies);
   if (options.logarithmic && (options.from <= 0 || options.to <= 0))
-    found.push_back({.file = {}, .key = "--logarithmic", .value = {}, .allowed = "needs --from > 0 and --to > 0"});
-  if (!found.empty()) throw InputError(std::move(found));
-  std::vector<double> values;
-  for (int i = 0; i < options.points; ++i) {
-    // Both ends exactly as asked for.
-    const double t = options.points == 1 ? 0 : static_cast<double>(i) / (options.points - 1);
-    const double between = options.logarithmic ? options.from * std::pow(options.to / options.from, t)
-                                               : options.from + t * (options.to - options.from);
-    values.push_back(i == 0 ? options.from : i == options.points - 1 ? options.to : between);
-  }
+    wrong.add("--logarithmic", "needs --from > 0 and --to > 0");
+  wrong.raise();
+  std::vector<double> values = evenly_spaced(options.from, options.to, options.points);
+  for (std::size_t i = 1; options.logarithmic && i + 1 < values.size(); ++i)
+    values[i] = options.from * std::pow(options.to / options.from, static_cast<double>(i) / (options.points - 1));
   return values;
 }
 
 int output_index(const BackboneOptions& options, const LoadedModel& loaded) {
   const std::vector<std::string>& names = loaded.model.output_names;
-  if (names.empty()) refuse(options.input, "", "has no output whose resonance could be followed");
+  if (names.empty()) refuse(options.input, "has no output whose resonance could be followed");
   if (!options.output) return 0;
   const auto found = std::find(names.begin(), names.end(), *options.output);
   if (found == names.end()) {
     const std::string near = nearest(*options.output, names);
-    refuse("--output", *options.output,
-           "is no output of the model" + (near.empty() ? std::string() : "; did you mean " + near + "?"));
+    refuse("--output", "is no output of the model" + (near.empty() ? "" : "; did you mean " + near + "?"),
+           *options.output);
   }
   return static_cast<int>(found - names.begin());
 }
@@ -68,11 +56,10 @@ paths::BackboneFamily worn_family(const steady::Joint& joint, double omega, cons
   const double largest =
       unworn.status == Status::converged && unworn.state.wear_rate.size() > 0 ? unworn.state.wear_rate.maxCoeff() : 0;
   if (largest <= 0)
-    refuse(options.input, "",
-           unworn.status == Status::converged
-               ? "does not wear at its unworn resonance"
-               : "its unworn resonance was not found: " + std::string(to_string(unworn.status)) +
-                     "; give --frequency HZ near it");
+    refuse(options.input, unworn.status == Status::converged
+                              ? "does not wear at its unworn resonance"
+                              : "its unworn resonance was not found: " + std::string(to_string(unworn.status)) +
+                                    "; give --frequency HZ near it");
   return paths::wear_levels(joint, unworn.state.wear_rate / largest);
 }
 
@@ -81,27 +68,19 @@ std::string backbone_json(const BackboneOptions& options, const LoadedModel& loa
   Json json;
   json["over"] = options.over;
   json["output"] = loaded.model.output_names[static_cast<std::size_t>(output)];
-  for (const char* key : {"parameter", "status", "frequency_hz", "amplitude", "frequency_error", "dissipated_energy_j",
-                          "searched", "jumped", "checked", "jacobians"})
-    json[key] = Json::array();
-  for (const paths::BackbonePoint& point : found.points) {
-    const bool valid = point.status == Status::converged;
-    const auto known = [&](double value) { return valid ? number(value) : Json(nullptr); };
-    json["parameter"].push_back(number(point.parameter));
-    json["status"].push_back(std::string(to_string(point.status)));
-    json["frequency_hz"].push_back(known(point.omega / kTurn));
-    json["amplitude"].push_back(known(point.amplitude));
-    json["frequency_error"].push_back(known(point.error));
-    json["dissipated_energy_j"].push_back(known(point.state.friction_energy));
-    json["searched"].push_back(point.searched);
-    json["jumped"].push_back(point.jumped);
-    json["checked"].push_back(point.checked);
-    json["jacobians"].push_back(point.jacobians);
-  }
-  json["settings"] = Json{{"harmonics", loaded.joint.options.harmonics},
-                          {"samples", loaded.joint.options.samples},
-                          {"tolerance", loaded.joint.options.tolerance},
-                          {"solver", loaded.joint.options.solver}};
+  using Point = paths::BackbonePoint;
+  const auto known = [](const auto& value) {
+    return [=](const Point& point) {
+      return point.status == Status::converged ? std::invoke(value, point) : std::nan("");
+    };
+  };
+  add_columns(json, found.points, Column("parameter", &Point::parameter), Column("status", &Point::status),
+              Column("frequency_hz", known([](const Point& point) { return point.omega / kTurn; })),
+              Column("amplitude", known(&Point::amplitude)), Column("frequency_error", known(&Point::error)),
+              Column("dissipated_energy_j", known([](const Point& point) { return point.state.friction_energy; })),
+              Column("searched", &Point::searched), Column("jumped", &Point::jumped),
+              Column("checked", &Point::checked), Column("jacobians", &Point::jacobians));
+  json["settings"] = json_of(loaded.joint.options);
   return text(json);
 }
 
@@ -121,17 +100,14 @@ std::string table(const BackboneOptions& options, const paths::Backbone& found) 
 
 int run_backbone(const BackboneOptions& options, const Streams& streams) {
   const std::vector<double> values = parameters(options);
-  if (options.solver.automatic()) refuse("--harmonics, --samples", "auto", "must be whole numbers for a backbone");
+  if (options.solver.automatic()) refuse("--harmonics, --samples", "must be whole numbers for a backbone", "auto");
   LoadedModel loaded = load_model(options.input, options.overrides, options.solver);
-  if (!loaded.failure.empty()) {
-    streams.err << "dovetail: " << options.input << ": not converged: " << loaded.failure << "\n";
-    return kNotConverged;
-  }
+  if (!loaded.failure.empty()) return not_converged(options.input, "not converged: " + loaded.failure, streams);
   paths::BackboneOptions settings;
   const int output = output_index(options, loaded);
   settings.resonance.output = output;
   const double omega = options.frequency_hz ? kTurn * *options.frequency_hz : loaded.glued_omega;
-  if (omega <= 0) refuse(options.input, "", "has no natural frequency to start from; give --frequency HZ");
+  if (omega <= 0) refuse(options.input, "has no natural frequency to start from; give --frequency HZ");
 
   const OrderlyInterrupt interrupt;
   steady::Joint joint = loaded.joint;
@@ -151,9 +127,8 @@ int run_backbone(const BackboneOptions& options, const Streams& streams) {
   const auto failed = std::count_if(found.points.begin(), found.points.end(),
                                     [](const auto& point) { return point.status != Status::converged; });
   if (failed == 0) return kDone;
-  streams.err << fmt::format("dovetail: {}: {} of {} resonances were not found\n", options.input, failed,
-                             found.points.size());
-  return kNotConverged;
+  return not_converged(options.input, fmt::format("{} of {} resonances were not found", failed, found.points.size()),
+                       streams);
 }
 
 }  // namespace dovetail::studies

@@ -12,6 +12,7 @@
 #include "studies/program/export.hpp"
 #include "studies/program/field_export.hpp"
 #include "studies/program/model_toml.hpp"
+#include "studies/program/refusal.hpp"
 #include "studies/report/report_html.hpp"
 #include "studies/report/results_file.hpp"
 
@@ -24,11 +25,8 @@ namespace fs = std::filesystem;
 fs::path run_file(const std::string& directory, const std::string& name, const std::string& what) {
   std::error_code ignored;
   fs::path file = fs::path(directory) / name;
-  if (!fs::is_directory(directory, ignored))
-    throw InputError(Violation{.file = {}, .key = directory, .value = {}, .allowed = "is not the directory of a run"});
-  if (!fs::exists(file, ignored))
-    throw InputError(
-        Violation{.file = {}, .key = directory, .value = {}, .allowed = "holds no " + what + " (" + name + ")"});
+  if (!fs::is_directory(directory, ignored)) refuse(directory, "is not the directory of a run");
+  if (!fs::exists(file, ignored)) refuse(directory, "holds no " + what + " (" + name + ")");
   return file;
 }
 
@@ -36,14 +34,12 @@ report::FieldRecord fields_of(const ExportOptions& options, bool of_run) {
   if (of_run) {
     const report::RunRecord record = report::read_results(run_file(options.input, "results.h5", "results"));
     if (record.best_design && record.best_design->fields.mesh.element_count() > 0) return record.best_design->fields;
-    throw InputError(
-        Violation{.file = {}, .key = options.input, .value = {}, .allowed = "holds no fields of a best design"});
+    refuse(options.input, "holds no fields of a best design");
   }
   const Study study = load_study(options.input, options.overrides);
   const report::DesignRecord design = describe_fields(study);
   if (design.fields.mesh.element_count() > 0) return design.fields;
-  throw InputError(Violation{
-      .file = {}, .key = options.input, .value = {}, .allowed = "the design has no fields: " + design.status});
+  refuse(options.input, "the design has no fields: " + design.status);
 }
 
 }  // namespace
@@ -51,12 +47,9 @@ report::FieldRecord fields_of(const ExportOptions& options, bool of_run) {
 int run_import(const ImportOptions& options, const Streams& streams) {
   const std::optional<reduction::ReducedModel> model = read_any_model(options.input);
   if (!model)
-    throw InputError(Violation{.file = {},
-                               .key = options.input,
-                               .value = {},
-                               .allowed =
-                                   "is not a reduced model: it does not say format = "
-                                   "\"dovetail-reduced-model\"; of a study, `dovetail reduce` writes the model"});
+    refuse(options.input,
+           "is not a reduced model: it does not say format = \"dovetail-reduced-model\"; of a study, `dovetail reduce` "
+           "writes the model");
   reduction::write_model(options.model, *model);
   streams.out << fmt::format("{}: {} coordinates, {} contact nodes\n", options.model, model->size(),
                              model->contact.count());
@@ -67,10 +60,7 @@ namespace {
 
 int export_model(const ExportOptions& options, const std::string& input, const Streams& streams) {
   const LoadedModel loaded = load_model(input, options.overrides, {});
-  if (!loaded.failure.empty()) {
-    streams.err << "dovetail: " << input << ": not converged: " << loaded.failure << "\n";
-    return kNotConverged;
-  }
+  if (!loaded.failure.empty()) return not_converged(input, "not converged: " + loaded.failure, streams);
   write_model_document(options.file, loaded.model, options.input);
   streams.out << options.file << ": written, with three matrices beside it\n";
   return kDone;
@@ -83,14 +73,10 @@ int run_export(const ExportOptions& options, const Streams& streams) {
   if (!matrices && !is_export_format(options.format)) {
     std::string allowed = "must be one of";
     for (const std::string_view known : export_formats()) (allowed += ' ') += known;
-    throw InputError(Violation{
-        .file = {}, .key = "--format", .value = options.format, .allowed = allowed + " " + std::string(kMatrixMarket)});
+    refuse("--format", allowed + " " + std::string(kMatrixMarket), options.format);
   }
   if (!is_deck_format(options.format) && options.deck != DeckOptions{})
-    throw InputError(Violation{.file = {},
-                               .key = "--format",
-                               .value = options.format,
-                               .allowed = "must be inp with --nodal-diameter, --modes or --contact"});
+    refuse("--format", "must be inp with --nodal-diameter, --modes or --contact", options.format);
   check_replaceable(options.file);
   const bool of_run = fs::is_directory(options.input);
   const auto design = [&] {
@@ -98,10 +84,7 @@ int run_export(const ExportOptions& options, const Streams& streams) {
   };
   if (matrices) return export_model(options, design(), streams);
   if (!of_run && (is_hdf5_file(options.input) || is_model_document(load_document(options.input))))
-    throw InputError(Violation{.file = {},
-                               .key = options.input,
-                               .value = {},
-                               .allowed = "is a reduced model: it has matrices (--format matrix-market), no geometry"});
+    refuse(options.input, "is a reduced model: it has matrices (--format matrix-market), no geometry");
   if (is_field_format(options.format))
     export_fields(fields_of(options, of_run), options.file);
   else if (is_deck_format(options.format))

@@ -30,12 +30,6 @@ constexpr const char* kFooter =
     "converge (what did converge is still written); 130 interrupted, with everything finished so far kept.\n"
     "`dovetail COMMAND --help` explains a command.";
 
-std::string one_line(std::string text) {
-  for (char& c : text)
-    if (c == '\n' || c == '\r') c = ' ';
-  return text;
-}
-
 /// What to say of a first word that is no command; empty when it is one.
 std::string unknown_command(const CLI::App& app, const std::string& word) {
   std::vector<std::string> commands;

@@ -11,6 +11,7 @@
 #include "studies/program/engine.hpp"
 #include "studies/program/interrupt.hpp"
 #include "studies/program/progress.hpp"
+#include "studies/program/refusal.hpp"
 #include "studies/program/response_curve.hpp"
 #include "studies/program/truncation_choice.hpp"
 
@@ -20,32 +21,15 @@ namespace {
 constexpr double kTurn = 2 * std::numbers::pi;
 
 std::vector<double> frequencies(const ResponseOptions& options) {
-  std::vector<Violation> found;
-  const auto require = [&](const char* option, double value) {
-    if (!kFrequencies.contains(value))
-      found.push_back({.file = {}, .key = option, .value = shortest(value), .allowed = kFrequencies.phrase()});
-  };
-  require("--from", options.from_hz);
-  require("--to", options.to_hz);
+  Complaints wrong;
+  wrong.require("--from", options.from_hz, kFrequencies);
+  wrong.require("--to", options.to_hz, kFrequencies);
   if (options.points < 1 || options.points > 1000000)
-    found.push_back({.file = {},
-                     .key = "--points",
-                     .value = std::to_string(options.points),
-                     .allowed = "must be >= 1 and <= 1000000"});
+    wrong.add("--points", "must be >= 1 and <= 1000000", std::to_string(options.points));
   if (options.arclength && options.from_hz == options.to_hz)
-    found.push_back({.file = {},
-                     .key = "--arclength",
-                     .value = {},
-                     .allowed = "needs an interval to follow the response through: --to must differ from --from"});
-  if (!found.empty()) throw InputError(std::move(found));
-  std::vector<double> hz;
-  for (int i = 0; i < options.points; ++i) {
-    // Both ends exactly as asked for.
-    const double t = options.points == 1 ? 0 : static_cast<double>(i) / (options.points - 1);
-    hz.push_back(i > 0 && i == options.points - 1 ? options.to_hz
-                                                  : options.from_hz + t * (options.to_hz - options.from_hz));
-  }
-  return hz;
+    wrong.add("--arclength", "needs an interval to follow the response through: --to must differ from --from");
+  wrong.raise();
+  return evenly_spaced(options.from_hz, options.to_hz, options.points);
 }
 
 /// Computes the curve point by point, with what is asked for at each; shows progress and stops when asked to.
@@ -163,10 +147,7 @@ int run_response(const ResponseOptions& options, const Streams& streams) {
   const std::vector<double> hz = frequencies(options);
   check_accuracy(options.solver);
   LoadedModel loaded = load_model(options.input, options.overrides, options.solver);
-  const auto complain = [&](const std::string& what) {
-    streams.err << "dovetail: " << options.input << ": " << what << "\n";
-    return static_cast<int>(kNotConverged);
-  };
+  const auto complain = [&](const std::string& what) { return not_converged(options.input, what, streams); };
   if (!loaded.failure.empty()) return complain("not converged: " + loaded.failure);
 
   const OrderlyInterrupt interrupt;

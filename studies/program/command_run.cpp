@@ -13,6 +13,7 @@
 #include "studies/program/commands.hpp"
 #include "studies/program/interrupt.hpp"
 #include "studies/program/progress.hpp"
+#include "studies/program/refusal.hpp"
 #include "studies/program/run_output.hpp"
 #include "studies/program/run_verification.hpp"
 #include "studies/program/version.hpp"
@@ -23,17 +24,12 @@ namespace {
 namespace fs = std::filesystem;
 using optimizer::OptimizationResult;
 
-Violation refused(const std::string& key, const std::string& allowed) {
-  return {.file = {}, .key = key, .value = {}, .allowed = allowed};
-}
-
 void require_runnable(const Study& study) {
-  std::vector<Violation> found;
-  if (study.problem.space.size() == 0)
-    found.push_back(refused(study.file, "has no [[variable]]; an optimisation needs at least one"));
-  if (study.problem.objective.empty())
-    found.push_back(refused(study.file, "has no [[objective]]; an optimisation needs at least one"));
-  if (!found.empty()) throw InputError(std::move(found));
+  Complaints wrong;
+  for (const auto& [none, what] : {std::pair{study.problem.space.size() == 0, "variable"},
+                                   std::pair{study.problem.objective.empty(), "objective"}})
+    if (none) wrong.add(study.file, fmt::format("has no [[{}]]; an optimisation needs at least one", what));
+  wrong.raise();
 }
 
 /// The directory of the results, created; an existing one is only touched to resume it.
@@ -41,13 +37,12 @@ fs::path prepare_directory(const RunOptions& options, const Study& study) {
   fs::path directory = options.directory.empty() ? fs::path("results") / study.name : fs::path(options.directory);
   std::error_code error;
   if (fs::exists(directory, error)) {
-    if (!fs::is_directory(directory, error)) throw InputError(refused(directory.string(), "is not a directory"));
+    if (!fs::is_directory(directory, error)) refuse(directory.string(), "is not a directory");
     if (!options.resume && !fs::is_empty(directory, error))
-      throw InputError(refused(directory.string(),
-                               "exists already; give --resume to continue the run in it or -o another directory"));
+      refuse(directory.string(), "exists already; give --resume to continue the run in it or -o another directory");
   }
   fs::create_directories(directory, error);
-  if (error) throw InputError(refused(directory.string(), "cannot be created: " + error.message()));
+  if (error) refuse(directory.string(), "cannot be created: " + error.message());
   return directory;
 }
 
@@ -107,6 +102,20 @@ std::string verified(const std::vector<report::VerificationRecord>& verification
   return text;
 }
 
+/// What keeps the best design from being an answer, or nothing.
+std::string shortcoming(const Study& study, const OptimizationResult& result, const report::RunRecord& record) {
+  if (!result.best)
+    return fmt::format("{}: no feasible design was found in {} evaluations", study.file, result.evaluations.size());
+  const bool stands = !record.best_design || record.best_design->status == "converged";
+  if (!stands || !record.evaluations[*result.best].feasible)
+    return fmt::format("the best design, evaluation {}, looked at with bars and its wear history: {}", *result.best + 1,
+                       stands ? "breaks a limit" : record.best_design->status);
+  for (const report::VerificationRecord& v : record.verifications)
+    if (v.evaluation == static_cast<std::int64_t>(*result.best) && v.status != "converged")
+      return fmt::format("the verification of the best design, evaluation {}: {}", v.evaluation + 1, v.status);
+  return {};
+}
+
 }  // namespace
 
 int run_study(const RunOptions& options, const Streams& streams, const RunEngineFactory& make_engine) {
@@ -159,22 +168,8 @@ int run_study(const RunOptions& options, const Streams& streams, const RunEngine
     streams.err << "dovetail: everything finished is kept; go on with --resume\n";
     return kInterrupted;
   }
-  if (!result.best) {
-    streams.err << fmt::format("dovetail: {}: no feasible design was found in {} evaluations\n", study.file,
-                               result.evaluations.size());
-    return kNotConverged;
-  }
-  const bool stands = !record.best_design || record.best_design->status == "converged";
-  if (!stands || !record.evaluations[*result.best].feasible) {
-    streams.err << fmt::format(
-        "dovetail: the best design, evaluation {}, looked at with bars and its wear history: {}\n", *result.best + 1,
-        stands ? "breaks a limit" : record.best_design->status);
-    return kNotConverged;
-  }
-  for (const report::VerificationRecord& v : verifications) {
-    if (v.evaluation != static_cast<std::int64_t>(*result.best) || v.status == "converged") continue;
-    streams.err << fmt::format("dovetail: the verification of the best design, evaluation {}: {}\n", v.evaluation + 1,
-                               v.status);
+  if (const std::string open = shortcoming(study, result, record); !open.empty()) {
+    streams.err << "dovetail: " << open << "\n";
     return kNotConverged;
   }
   return result.status == Status::converged || result.status == Status::iteration_limit ? kDone : kNotConverged;

@@ -17,6 +17,7 @@
 #include "studies/program/commands.hpp"
 #include "studies/program/engine.hpp"
 #include "studies/program/json.hpp"
+#include "studies/program/refusal.hpp"
 #include "studies/program/study_template.hpp"
 #include "studies/program/truncation_choice.hpp"
 
@@ -26,8 +27,12 @@ void deliver_json(const std::string& where, const std::string& text, const Strea
   if (where.empty()) return;
   if (where != "-") return replace_file(where, text);
   streams.out << text << std::flush;
-  if (!streams.out)
-    throw InputError(Violation{.file = {}, .key = "standard output", .value = {}, .allowed = "cannot be written"});
+  if (!streams.out) refuse("standard output", "cannot be written");
+}
+
+int not_converged(const std::string& input, const std::string& what, const Streams& streams) {
+  streams.err << "dovetail: " << input << ": " << what << "\n";
+  return kNotConverged;
 }
 
 int run_check(const CheckOptions& options, const Streams& streams) {
@@ -45,9 +50,7 @@ int run_check(const CheckOptions& options, const Streams& streams) {
 
 int run_new(const NewOptions& options, const Streams& streams) {
   const std::filesystem::path file(options.file);
-  if (std::filesystem::exists(file))
-    throw InputError(
-        Violation{.file = {}, .key = options.file, .value = {}, .allowed = "exists already; choose another name"});
+  if (std::filesystem::exists(file)) refuse(options.file, "exists already; choose another name");
   std::string title = file.stem().string();
   for (char& c : title)
     if (c == '"' || c == '\\' || static_cast<unsigned char>(c) < 0x20) c = ' ';
@@ -138,16 +141,12 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
   const char* what = evaluation.status.ends_with("no_asymptote")    ? "wear has no end"
                      : evaluation.status.ends_with("gross_sliding") ? "the joint slides"
                                                                     : "not converged";
-  streams.err << fmt::format("dovetail: {}: {}: {}\n", options.study, what, evaluation.status);
-  return kNotConverged;
+  return not_converged(options.study, fmt::format("{}: {}", what, evaluation.status), streams);
 }
 
 int run_reduce(const ReduceOptions& options, const Streams& streams) {
   const LoadedModel loaded = load_model(options.study, options.overrides, {});
-  if (!loaded.failure.empty()) {
-    streams.err << "dovetail: " << options.study << ": not converged: " << loaded.failure << "\n";
-    return kNotConverged;
-  }
+  if (!loaded.failure.empty()) return not_converged(options.study, "not converged: " + loaded.failure, streams);
   reduction::write_model(options.model, loaded.model);
   streams.out << fmt::format("{}: {} coordinates, {} contact nodes\n", options.model, loaded.model.size(),
                              loaded.model.contact.count());

@@ -158,4 +158,7 @@ int run_report(const ReportOptions& options, const Streams& streams);
 /// Writes a command's JSON to where --json says: nowhere when empty, `out` for "-", else a file. Throws InputError.
 void deliver_json(const std::string& where, const std::string& text, const Streams& streams);
 
+/// Says that of `input` on the error stream. @return the exit status for it
+int not_converged(const std::string& input, const std::string& what, const Streams& streams);
+
 }  // namespace dovetail::studies

@@ -1,10 +1,10 @@
 #include "studies/program/deck_export.hpp"
 
-#include "core/errors.hpp"
 #include "geometry/exports/inp.hpp"
 #include "geometry/mesh_motion.hpp"
 #include "geometry/solid_family.hpp"
 #include "optimizer/candidate_model.hpp"
+#include "studies/program/refusal.hpp"
 
 namespace dovetail::studies {
 
@@ -12,8 +12,7 @@ void export_deck(const optimizer::Scene& scene, const DeckOptions& options, cons
   const geometry::MeshedSector mesh =
       scene.in_space() ? geometry::mesh_solid(scene.geometry, scene.solid, scene.mesh, scene.solid_mesh)
                        : geometry::mesh_sector(scene.geometry, scene.mesh);
-  if (mesh.quality.inverted_elements > 0)
-    throw InputError({.file = {}, .key = "geometry", .value = {}, .allowed = "cannot be meshed: " + mesh.note});
+  if (mesh.quality.inverted_elements > 0) refuse("geometry", "cannot be meshed: " + mesh.note);
   geometry::InpOptions deck{.joint = options.contact ? geometry::FlankJoint::contact : geometry::FlankJoint::glued,
                             .friction = scene.contact.friction,
                             .speed = scene.loading.speed,

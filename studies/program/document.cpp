@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/options.hpp"
+#include "studies/program/refusal.hpp"
 
 namespace dovetail::studies {
 namespace {
@@ -56,12 +57,6 @@ Node converted(const toml::node& source) {
   return node;
 }
 
-std::string one_line(std::string text) {
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-  return text;
-}
-
 /// The typed value as TOML if it is one value, else as the text it is.
 Node value_of(const Override& given) {
   Node node;
@@ -90,6 +85,18 @@ Node& member(Node& table, const std::string& key) {
 }
 
 }  // namespace
+
+std::string one_line(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  return text;
+}
+
+std::string real_text(double value) {
+  std::string text = shortest(value);
+  if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  return text;
+}
 
 std::string Node::shown() const {
   switch (kind) {
@@ -141,32 +148,26 @@ Override parse_override(const std::string& assignment) {
   }
   result.origin = "--set " + one_line(assignment);
   if (result.key.empty() || result.value.empty())
-    throw InputError(Violation{.file = {},
-                               .key = result.origin,
-                               .value = {},
-                               .allowed = "must be KEY=VALUE, as in --set geometry.neck_width_mm=8.5"});
+    refuse(result.origin, "must be KEY=VALUE, as in --set geometry.neck_width_mm=8.5");
   return result;
 }
 
 Document load_document(const std::string& file) {
-  const auto refuse = [&](const std::string& why) {
-    throw InputError(Violation{.file = {}, .key = file, .value = {}, .allowed = "cannot be read: " + why});
-  };
+  const auto unreadable = [&](const std::string& why) { refuse(file, "cannot be read: " + why); };
   std::error_code error;
-  if (std::filesystem::is_directory(file, error)) refuse("it is a directory; name a study file");
+  if (std::filesystem::is_directory(file, error)) unreadable("it is a directory; name a study file");
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) refuse(errno != 0 ? std::strerror(errno) : "it does not open");
+  if (!stream) unreadable(errno != 0 ? std::strerror(errno) : "it does not open");
   std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (stream.bad()) refuse("reading failed");
+  if (stream.bad()) unreadable("reading failed");
   return parse_document(std::move(text), file);
 }
 
 Document parse_document(std::string text, std::string file) {
   Document document{.file = std::move(file), .text = std::move(text), .root = {}};
   if (document.text.find('\0') != std::string::npos)
-    throw InputError(Violation{
-        .file = {}, .key = document.file, .value = {}, .allowed = "is not a study file: it contains binary data"});
+    refuse(document.file, "is not a study file: it contains binary data");
   try {
     document.root = converted(toml::parse(document.text));
   } catch (const toml::parse_error& error) {
@@ -204,7 +205,7 @@ void apply_overrides(Document& document, std::span<const Override> overrides) {
     }
     if (table) member(*table, rest) = value_of(given);
   }
-  if (!refused.empty()) throw InputError(std::move(refused));
+  refuse(std::move(refused));
 }
 
 }  // namespace dovetail::studies

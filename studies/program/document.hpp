@@ -68,6 +68,12 @@ struct Document {
 /// Parses the text; `file` names it in messages. Throws InputError.
 [[nodiscard]] Document parse_document(std::string text, std::string file);
 
+/// A number as TOML writes it: with a point or an exponent, so that it is no whole number and -0 keeps its sign.
+[[nodiscard]] std::string real_text(double value);
+
+/// The text without line breaks, for a message.
+[[nodiscard]] std::string one_line(std::string text);
+
 /// Replaces or creates the values, later ones winning. Throws InputError for a path through something
 /// that is not a section; keys that do not exist are found when the study is read.
 void apply_overrides(Document& document, std::span<const Override> overrides);

@@ -11,6 +11,7 @@
 #include "quality/truncation.hpp"
 #include "reduction/model_file.hpp"
 #include "studies/program/model_toml.hpp"
+#include "studies/program/refusal.hpp"
 #include "studies/report/design_record.hpp"
 
 namespace dovetail::studies {
@@ -117,7 +118,7 @@ LoadedModel from_study(const std::string& file, const std::vector<Override>& ove
 /// The settings of a model, within the ranges that a study file keeps. Throws InputError naming the options.
 optimizer::SolverSettings settings_of(const SolverOverrides& solver) {
   optimizer::SolverSettings settings;
-  std::vector<Violation> found;
+  Complaints wrong;
   const std::string section = "solver.";
   for (const Override& given : with_solver({}, solver))
     for (const Field<optimizer::SolverSettings>& field : option_table<optimizer::SolverSettings>()) {
@@ -128,13 +129,13 @@ optimizer::SolverSettings settings_of(const SolverOverrides& solver) {
       }
       const double value = std::strtod(given.value.c_str(), nullptr);
       if (!field.range.contains(value))
-        found.push_back({.file = {}, .key = given.origin, .value = {}, .allowed = field.range.phrase()});
+        wrong.add(given.origin, field.range.phrase());
       else if (const auto* whole = std::get_if<int optimizer::SolverSettings::*>(&field.member))
         settings.*(*whole) = static_cast<int>(value);
       else if (const auto* real = std::get_if<double optimizer::SolverSettings::*>(&field.member))
         settings.*(*real) = value;
     }
-  if (!found.empty()) throw InputError(std::move(found));
+  wrong.raise();
   return settings;
 }
 
@@ -142,10 +143,7 @@ optimizer::SolverSettings settings_of(const SolverOverrides& solver) {
 steady::Options model_options(const std::string& file, const std::vector<Override>& overrides,
                               const SolverOverrides& solver) {
   if (!overrides.empty())
-    throw InputError(Violation{.file = file,
-                               .key = overrides.front().origin,
-                               .value = {},
-                               .allowed = "sets a key of a study file, but the input is a reduced model"});
+    refuse(overrides.front().origin, "sets a key of a study file, but the input is a reduced model", {}, file);
   return optimizer::steady_options(settings_of(solver));
 }
 
@@ -161,20 +159,20 @@ int largest_harmonic(const reduction::ReducedModel& model) {
 void fit_to_force(const std::string& file, const SolverOverrides& solver, const reduction::ReducedModel& model,
                   steady::Options& steady) {
   const int forced = largest_harmonic(model);
-  const auto refuse = [&](const std::string& key, int value, const std::string& allowed) {
-    throw InputError(Violation{.file = file, .key = key, .value = std::to_string(value), .allowed = allowed});
+  const auto wrong = [&](const std::string& key, int value, const std::string& allowed) {
+    refuse(key, allowed, std::to_string(value), file);
   };
   if (!solver.harmonics) steady.harmonics = std::max(steady.harmonics, forced);
   if (steady.harmonics < forced)
-    refuse("--harmonics", steady.harmonics, "must be >= " + std::to_string(forced) + ", the largest of the force");
+    wrong("--harmonics", steady.harmonics, "must be >= " + std::to_string(forced) + ", the largest of the force");
   const Range& harmonics = optimizer::find_parameter("solver.harmonics")->range;
   if (!harmonics.contains(steady.harmonics))
-    refuse("/force/cosine, harmonics", forced, "of the force with harmonics " + harmonics.phrase());
+    wrong("/force/cosine, harmonics", forced, "of the force with harmonics " + harmonics.phrase());
   if (!solver.samples) steady.samples = quality::samples_for(steady.harmonics, steady.samples);
   if (steady.samples < 2 * steady.harmonics + 2)
-    refuse("--samples", steady.samples,
-           "must be >= 2 * harmonics + 2 = " + std::to_string(2 * steady.harmonics + 2) + " for " +
-               std::to_string(steady.harmonics) + " harmonics");
+    wrong("--samples", steady.samples,
+          "must be >= 2 * harmonics + 2 = " + std::to_string(2 * steady.harmonics + 2) + " for " +
+              std::to_string(steady.harmonics) + " harmonics");
 }
 
 LoadedModel from_model(const std::string& file, reduction::ReducedModel model, steady::Options steady,

@@ -57,8 +57,7 @@ struct WearQuestion {
 /// successive asymptotes when the resonance is followed.
 [[nodiscard]] std::string wear_json(const WearQuestion& question, const WearAnswer& answer);
 
-/// "asymptote" | "no_asymptote" | "not_converged"; the last also of a history that ended at the cycles asked for while
-/// it wore.
-[[nodiscard]] std::string wear_status(const wear::History& history);
+/// not_converged also of a history that ended at the cycles asked for while it wore.
+[[nodiscard]] wear::Verdict wear_status(const wear::History& history);
 
 }  // namespace dovetail::studies

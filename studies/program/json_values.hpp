@@ -1,35 +1,47 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <cmath>
-#include <map>
-#include <nlohmann/json.hpp>
+#include <functional>
 #include <string>
-#include <vector>
+#include <utility>
 
-/// Numbers as JSON, for the sources that write JSON: one that is not finite does not exist and is null.
+#include "optimizer/record_json.hpp"
+#include "steady/options.hpp"
+
+namespace dovetail::optimizer {
+
+/// The settings that every answer states.
+template <>
+inline constexpr auto kFields<steady::Options> =
+    std::tuple{RecordField{"harmonics", &steady::Options::harmonics}, RecordField{"samples", &steady::Options::samples},
+               RecordField{"tolerance", &steady::Options::tolerance}, RecordField{"solver", &steady::Options::solver}};
+
+}  // namespace dovetail::optimizer
+
+/// Answers as JSON: a number that is not finite does not exist and is null.
 namespace dovetail::studies {
 
 using Json = nlohmann::ordered_json;
 
-[[nodiscard]] inline Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
+/// Of a number, text, list, matrix, map, optional value, enumeration or record; see optimizer::json_value.
+template <class T>
+[[nodiscard]] Json json_of(const T& value) {
+  return optimizer::json_value<Json>(value);
 }
 
-[[nodiscard]] inline Json numbers(const Eigen::Ref<const Eigen::VectorXd>& values) {
-  Json list = Json::array();
-  for (const double value : values) list.push_back(number(value));
-  return list;
-}
+/// A key and what a row of a table has under it: a member, or a function of the row.
+template <class Entry>
+struct Column {
+  constexpr Column(const char* column_key, Entry of_row) : key(column_key), entry(std::move(of_row)) {}
 
-[[nodiscard]] inline Json numbers(const std::vector<double>& values) {
-  return numbers(Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())));
-}
+  const char* key;
+  Entry entry;
+};
 
-[[nodiscard]] inline Json numbers(const std::map<std::string, double>& values) {
-  Json object = Json::object();
-  for (const auto& [key, value] : values) object[key] = number(value);
-  return object;
+/// Adds a list for each column, with one entry per row.
+template <class Rows, class... Entries>
+void add_columns(Json& json, const Rows& rows, const Column<Entries>&... columns) {
+  ((json[columns.key] = Json::array()), ...);
+  for (const auto& row : rows) (json[columns.key].push_back(json_of(std::invoke(columns.entry, row))), ...);
 }
 
 /// The text of a document, ending with a newline.

@@ -1,9 +1,11 @@
 #include "studies/program/shared_arguments.hpp"
 
 namespace dovetail::studies {
+namespace {
 
-void define_model_commands(CLI::App& app, Arguments& a) {
-  constexpr const char* kInput = "A reduced model (HDF5, or TOML with Matrix Market files) or a study file (TOML)";
+constexpr const char* kInput = "A reduced model (HDF5, or TOML with Matrix Market files) or a study file (TOML)";
+
+void define_response(CLI::App& app, Arguments& a) {
   CLI::App* response = app.add_subcommand("response", "Frequency response of a model or a study's design");
   response->footer(
       "The frequencies are gone through in the order given; --from may exceed --to. JSON: {\"frequency_hz\", "
@@ -38,14 +40,10 @@ void define_model_commands(CLI::App& app, Arguments& a) {
   add_set(*response, a);
   add_solver(*response, a);
   add_json(*response, a.response.json);
-  response->callback([&a] {
-    a.command = [&a](const Streams& s) {
-      a.response.overrides = a.overrides();
-      a.response.solver = a.solver;
-      return run_response(a.response, s);
-    };
-  });
+  runs(*response, a, a.response, run_response);
+}
 
+void define_backbone(CLI::App& app, Arguments& a) {
   CLI::App* backbone =
       app.add_subcommand("backbone", "Resonance and its amplitude over the excitation's level or the wear");
   backbone->footer(
@@ -73,14 +71,42 @@ void define_model_commands(CLI::App& app, Arguments& a) {
   add_set(*backbone, a);
   add_solver(*backbone, a);
   add_json(*backbone, a.backbone.json);
-  backbone->callback([&a] {
-    a.command = [&a](const Streams& s) {
-      a.backbone.overrides = a.overrides();
-      a.backbone.solver = a.solver;
-      return run_backbone(a.backbone, s);
-    };
-  });
+  runs(*backbone, a, a.backbone, run_backbone);
+}
 
+/// Options of a history.
+void add_history(CLI::App* wear, WearOptions& o) {
+  wear->add_option("--cycles", o.cycles, "history: end after so many cycles")->type_name("N");
+  wear->add_option("--steps", o.steps, "history: steps at most (default: 1000)")->type_name("N");
+  wear->add_option("--increment", o.increment_m,
+                   "explicit history: largest increase of depth per step, m (default: a hundredth of the largest depth "
+                   "of the directly computed worn state, or of the elastic penetration where there is none)")
+      ->type_name("M");
+  wear->add_option("--integrator", o.integrator,
+                   "history: explicit, by increments of depth; or implicit, in large steps of controlled error "
+                   "(default: explicit; under an energy threshold implicit)")
+      ->type_name("WHICH")
+      ->check(CLI::IsMember({"explicit", "implicit"}));
+  wear->add_option("--history-tolerance", o.history_tolerance,
+                   "history: local error per step relative to the depth (default: explicit 0, increments as they are; "
+                   "implicit 2e-4)")
+      ->type_name("X");
+  wear->add_option(
+          "--resume", o.resume,
+          "history: go on from the last state in this file, which --json of another history of the same "
+          "model at the same settings has written; the answer begins with the states in it, and --steps counts "
+          "the new ones")
+      ->type_name("FILE");
+  wear->add_option("--curves", o.curves,
+                   "history: response curves of so many of its states, evenly spaced in worn volume (default: 0)")
+      ->type_name("N");
+  wear->add_option("--curve-points", o.curve_points, "Frequencies of each curve (default: 60)")->type_name("M");
+  wear->add_option("--curve-from", o.curve_from_hz, "First frequency of the curves (default: around the peaks)")
+      ->type_name("HZ");
+  wear->add_option("--curve-to", o.curve_to_hz, "Last frequency of the curves")->type_name("HZ");
+}
+
+void define_wear(CLI::App& app, Arguments& a) {
   CLI::App* wear = app.add_subcommand("wear", "Worn state of a model or a study's design");
   wear->footer(
       "`asymptote` computes the shape at which wear comes to rest directly, `history` goes there cycle by cycle. What\n"
@@ -118,34 +144,7 @@ void define_model_commands(CLI::App& app, Arguments& a) {
   wear->add_option("--band-from", a.wear.band_from_hz, "First frequency of the band")->type_name("HZ");
   wear->add_option("--band-to", a.wear.band_to_hz, "Last frequency of the band")->type_name("HZ");
   wear->add_option("--band-points", a.wear.band_points, "Frequencies of the band (default: 11)")->type_name("N");
-  wear->add_option("--cycles", a.wear.cycles, "history: end after so many cycles")->type_name("N");
-  wear->add_option("--steps", a.wear.steps, "history: steps at most (default: 1000)")->type_name("N");
-  wear->add_option("--increment", a.wear.increment_m,
-                   "explicit history: largest increase of depth per step, m (default: a hundredth of the largest depth "
-                   "of the directly computed worn state, or of the elastic penetration where there is none)")
-      ->type_name("M");
-  wear->add_option("--integrator", a.wear.integrator,
-                   "history: explicit, by increments of depth; or implicit, in large steps of controlled error "
-                   "(default: explicit; under an energy threshold implicit)")
-      ->type_name("WHICH")
-      ->check(CLI::IsMember({"explicit", "implicit"}));
-  wear->add_option("--history-tolerance", a.wear.history_tolerance,
-                   "history: local error per step relative to the depth (default: explicit 0, increments as they are; "
-                   "implicit 2e-4)")
-      ->type_name("X");
-  wear->add_option(
-          "--resume", a.wear.resume,
-          "history: go on from the last state in this file, which --json of another history of the same "
-          "model at the same settings has written; the answer begins with the states in it, and --steps counts "
-          "the new ones")
-      ->type_name("FILE");
-  wear->add_option("--curves", a.wear.curves,
-                   "history: response curves of so many of its states, evenly spaced in worn volume (default: 0)")
-      ->type_name("N");
-  wear->add_option("--curve-points", a.wear.curve_points, "Frequencies of each curve (default: 60)")->type_name("M");
-  wear->add_option("--curve-from", a.wear.curve_from_hz, "First frequency of the curves (default: around the peaks)")
-      ->type_name("HZ");
-  wear->add_option("--curve-to", a.wear.curve_to_hz, "Last frequency of the curves")->type_name("HZ");
+  add_history(wear, a.wear);
   wear->add_flag(
       "--error-bars", a.wear.error_bars,
       "How far harmonics, samples and pseudo-penalty may have moved volume and depth: four computations more");
@@ -156,13 +155,15 @@ void define_model_commands(CLI::App& app, Arguments& a) {
   add_set(*wear, a);
   add_solver(*wear, a);
   add_json(*wear, a.wear.json);
-  wear->callback([&a] {
-    a.command = [&a](const Streams& s) {
-      a.wear.overrides = a.overrides();
-      a.wear.solver = a.solver;
-      return run_wear(a.wear, s);
-    };
-  });
+  runs(*wear, a, a.wear, run_wear);
+}
+
+}  // namespace
+
+void define_model_commands(CLI::App& app, Arguments& arguments) {
+  define_response(app, arguments);
+  define_backbone(app, arguments);
+  define_wear(app, arguments);
 }
 
 }  // namespace dovetail::studies

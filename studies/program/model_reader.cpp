@@ -1,7 +1,6 @@
 // Reading of the reduced model's TOML file.
 #include <algorithm>
 #include <filesystem>
-#include <limits>
 #include <set>
 #include <utility>
 
@@ -9,7 +8,8 @@
 #include "reduction/matrix_market.hpp"
 #include "reduction/validation.hpp"
 #include "studies/program/model_toml.hpp"
-#include "studies/program/section_reader.hpp"
+#include "studies/program/node_lists.hpp"
+#include "studies/program/refusal.hpp"
 
 namespace dovetail::studies {
 namespace {
@@ -17,79 +17,6 @@ namespace {
 constexpr const char* kFormat = "dovetail-reduced-model";
 constexpr Range kIndices{.lower = 0, .upper = 1e9};
 constexpr Range kHarmonics{.lower = 0, .upper = 1000};
-
-std::string item(const std::string& path, std::size_t index) {
-  return path + "[" + std::to_string(index) + "]";
-}
-
-/// Lists of numbers; what is wrong is reported at its place and read as nothing.
-class Lists {
- public:
-  explicit Lists(Problems& problems) : problems_(problems) {}
-
-  std::optional<double> number(const Node& node, const std::string& path) {
-    if (node.is_number()) return node.real;
-    problems_.add(node, path, "must be a number");
-    return std::nullopt;
-  }
-  std::optional<int> index(const Node& node, const std::string& path, const char* what = "the index of a dof, from 0") {
-    if (node.kind == Node::Kind::whole && node.whole >= 0 && node.whole <= std::numeric_limits<int>::max())
-      return static_cast<int>(node.whole);
-    problems_.add(node, path, std::string("must be ") + what);
-    return std::nullopt;
-  }
-  bool is_list(const Node& node, const std::string& path, const std::string& of) {
-    if (node.kind == Node::Kind::list) return true;
-    problems_.add(node, path, "must be a list of " + of);
-    return false;
-  }
-  /// The numbers of a list, or one number for all `count`.
-  Eigen::VectorXd numbers(const Node& node, const std::string& path, Eigen::Index count) {
-    if (node.is_number()) return Eigen::VectorXd::Constant(count, node.real);
-    Eigen::VectorXd values = Eigen::VectorXd::Zero(count);
-    if (!is_list(node, path, "numbers, one for each contact node, or one number for all") || !fits(node, path, count))
-      return values;
-    for (std::size_t i = 0; i < node.items.size(); ++i)
-      values[static_cast<Eigen::Index>(i)] = number(node.items[i], item(path, i)).value_or(0);
-    return values;
-  }
-  Eigen::VectorXi indices(const Node& node, const std::string& path, const char* what = "the index of a dof, from 0") {
-    if (!is_list(node, path, "whole numbers")) return {};
-    Eigen::VectorXi values(static_cast<Eigen::Index>(node.items.size()));
-    for (std::size_t i = 0; i < node.items.size(); ++i)
-      values[static_cast<Eigen::Index>(i)] = index(node.items[i], item(path, i), what).value_or(0);
-    return values;
-  }
-  /// A row for each contact node: lists of `columns` entries, or plain entries when that is 1.
-  template <class Read>
-  void rows(const Node& node, const std::string& path, Eigen::Index count, Eigen::Index columns, const Read& read) {
-    if (!is_list(node, path, "one entry for each contact node") || !fits(node, path, count)) return;
-    for (std::size_t i = 0; i < node.items.size(); ++i) {
-      const Node& row = node.items[i];
-      const std::string place = item(path, i);
-      if (columns == 1 && row.kind != Node::Kind::list) {
-        read(row, place, static_cast<Eigen::Index>(i), 0);
-        continue;
-      }
-      if (row.kind != Node::Kind::list || static_cast<Eigen::Index>(row.items.size()) != columns) {
-        problems_.add(row, place, "must be a list of " + std::to_string(columns));
-        continue;
-      }
-      for (std::size_t k = 0; k < row.items.size(); ++k)
-        read(row.items[k], item(place, k), static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
-    }
-  }
-
- private:
-  bool fits(const Node& node, const std::string& path, Eigen::Index count) {
-    if (static_cast<Eigen::Index>(node.items.size()) == count) return true;
-    problems_.missing(&node, path,
-                      "has " + std::to_string(node.items.size()) + " entries, but contact.normal has " +
-                          std::to_string(count) + ": must be one for each contact node");
-    return false;
-  }
-  Problems& problems_;
-};
 
 /// Reads the file section by section. Matrices come first: they say how many dofs there are.
 class ModelReader {
@@ -112,7 +39,7 @@ class ModelReader {
     problems_.raise();
     std::vector<Violation> found = reduction::violations(model_);
     for (Violation& violation : found) rename(violation);
-    if (!found.empty()) throw InputError(std::move(found));
+    refuse(std::move(found));
     return std::move(model_);
   }
 
@@ -145,7 +72,7 @@ class ModelReader {
   void contact() {
     SectionReader section(root_.take("contact"), "contact", problems_);
     reduction::ContactNodes& contact = model_.contact;
-    const auto path = [](const char* key) { return std::string("contact.") + key; };
+    const auto path = [&](const char* key) { return section.path(key); };
     if (const Node* node = required(section, "normal", "a list with the normal dof of each contact node"))
       contact.normal = lists_.indices(*node, path("normal"));
     const Eigen::Index count = contact.normal.size();
@@ -191,6 +118,12 @@ class ModelReader {
     section.finish();
   }
 
+  /// All [[key]].
+  std::vector<Node> sections(const std::string& key) {
+    const Node* list = root_.take(key);
+    return list && lists_.is_list(*list, key, key + "s: sections [[" + key + "]]") ? list->items : std::vector<Node>();
+  }
+
   /// The dof of a force or output, within the model.
   std::optional<int> dof(const Node& node, const std::string& path) {
     const std::optional<int> index = lists_.index(node, path);
@@ -207,10 +140,9 @@ class ModelReader {
     std::vector<Term> terms;
     std::set<std::pair<int, int>> given;
     int harmonics = root_.whole("force_harmonics", kHarmonics).value_or(0);
-    const Node* list = root_.take("force");
-    if (list && !lists_.is_list(*list, "force", "forces: sections [[force]]")) list = nullptr;
-    for (std::size_t i = 0; list && i < list->items.size(); ++i) {
-      const Node& node = list->items[i];
+    const std::vector<Node> list = sections("force");
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const Node& node = list[i];
       const std::string path = item("force", i);
       SectionReader section(&node, path, problems_);
       if (!section.present()) continue;
@@ -245,13 +177,11 @@ class ModelReader {
   }
 
   void outputs() {
-    const Node* list = root_.take("output");
-    if (list && !lists_.is_list(*list, "output", "outputs: sections [[output]]")) list = nullptr;
-    const std::size_t count = list ? list->items.size() : 0;
-    model_.output_vectors.setZero(static_cast<Eigen::Index>(count), size_);
-    for (std::size_t i = 0; i < count; ++i) {
+    const std::vector<Node> list = sections("output");
+    model_.output_vectors.setZero(static_cast<Eigen::Index>(list.size()), size_);
+    for (std::size_t i = 0; i < list.size(); ++i) {
       const std::string path = item("output", i);
-      SectionReader section(&list->items[i], path, problems_);
+      SectionReader section(&list[i], path, problems_);
       if (!section.present()) continue;
       model_.output_names.push_back(section.text("name", {}, true).value_or("?"));
       const Node* dofs = required(section, "dofs", "a list of dofs");

@@ -10,6 +10,7 @@
 #include "reduction/matrix_market.hpp"
 #include "reduction/validation.hpp"
 #include "studies/program/model_toml.hpp"
+#include "studies/program/refusal.hpp"
 
 namespace dovetail::studies {
 namespace {
@@ -17,13 +18,6 @@ namespace {
 /// Whether the entry has to be written: zeros are left out, but for those with a minus sign.
 bool is_there(double value) {
   return std::bit_cast<std::uint64_t>(value) != 0;
-}
-
-/// A number as TOML writes it: with a point or an exponent, so that -0 keeps its sign.
-std::string real(double value) {
-  std::string text = shortest(value);
-  if (text.find_first_of(".e") == std::string::npos) text += ".0";
-  return text;
 }
 
 std::string quoted(const std::string& text) {
@@ -56,7 +50,7 @@ std::string list(Eigen::Index count, const std::function<std::string(Eigen::Inde
 }
 
 std::string numbers(const Eigen::VectorXd& values) {
-  return list(values.size(), [&](Eigen::Index i) { return real(values[i]); });
+  return list(values.size(), [&](Eigen::Index i) { return real_text(values[i]); });
 }
 
 template <class Matrix, class Entry>
@@ -80,11 +74,11 @@ std::string contact_section(const reduction::ContactNodes& contact) {
   text += "wear_coefficient = " + numbers(contact.wear_coefficient) + "\n";
   if (contact.wear_law != reduction::ContactNodes().wear_law) text += "wear_law = \"" + contact.wear_law + "\"\n";
   if (contact.wear_threshold.size() > 0) text += "wear_threshold = " + numbers(contact.wear_threshold) + "\n";
-  if (contact.position.rows() > 0) text += "position = " + rows(contact.position, real) + "\n";
+  if (contact.position.rows() > 0) text += "position = " + rows(contact.position, real_text) + "\n";
   if (contact.group.size() > 0) text += "group = " + rows(contact.group, whole) + "\n";
   const auto values = contact.slip_origin.reshaped();
   if (std::any_of(values.begin(), values.end(), is_there))
-    text += "slip_origin = " + rows(contact.slip_origin, real) + "\n";
+    text += "slip_origin = " + rows(contact.slip_origin, real_text) + "\n";
   return text;
 }
 
@@ -93,8 +87,8 @@ std::string force_sections(const reduction::ReducedModel& model) {
   const auto add = [&](Eigen::Index dof, Eigen::Index harmonic, double cosine, double sine) {
     if (!is_there(cosine) && !is_there(sine)) return;
     text += "\n[[force]]\ndof = " + std::to_string(dof) + "\nharmonic = " + std::to_string(harmonic) + "\n";
-    if (is_there(cosine)) text += "cosine = " + real(cosine) + "\n";
-    if (is_there(sine)) text += "sine = " + real(sine) + "\n";
+    if (is_there(cosine)) text += "cosine = " + real_text(cosine) + "\n";
+    if (is_there(sine)) text += "sine = " + real_text(sine) + "\n";
   };
   for (Eigen::Index dof = 0; dof < model.static_force.size(); ++dof) add(dof, 0, model.static_force[dof], 0);
   for (Eigen::Index h = 0; h < model.cosine_force.rows(); ++h)
@@ -111,7 +105,7 @@ std::string output_sections(const reduction::ReducedModel& model) {
       const double factor = model.output_vectors(static_cast<Eigen::Index>(i), dof);
       if (!is_there(factor)) continue;
       dofs += (dofs.empty() ? "" : ", ") + std::to_string(dof);
-      factors += (factors.empty() ? "" : ", ") + real(factor);
+      factors += (factors.empty() ? "" : ", ") + real_text(factor);
     }
     text += "\n[[output]]\nname = " + quoted(model.output_names[i]) + "\n";
     text += "dofs = [" + dofs + "]\nfactors = [" + factors + "]\n";
@@ -125,16 +119,13 @@ void write_model_document(const std::string& file, const reduction::ReducedModel
   namespace fs = std::filesystem;
   const fs::path path(file);
   if (path.extension() != ".toml" || path.stem().empty())
-    throw InputError(Violation{
-        .file = {}, .key = file, .value = {}, .allowed = "must end with .toml; the matrices are written beside it"});
+    refuse(file, "must end with .toml; the matrices are written beside it");
   check_replaceable(path);
   std::vector<Violation> found = reduction::violations(model);
   for (Violation& violation : found) violation.file = file;
-  if (!found.empty()) throw InputError(std::move(found));
+  refuse(std::move(found));
 
-  std::string comment = origin;
-  for (char& c : comment)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  const std::string comment = one_line(origin);
   std::string text = "# Reduced model: " + comment + "\n";
   text += "format = \"dovetail-reduced-model\"\nversion = 1\n";
   const auto matrix = [&](const std::string& name, const Eigen::MatrixXd& values) {

@@ -1,5 +1,3 @@
-#include <utility>
-
 #include "studies/program/json_values.hpp"
 #include "studies/program/response_curve.hpp"
 
@@ -8,147 +6,117 @@ namespace {
 
 using quality::Quantities;
 
-/// cosine[h] and sine[h], h = 0..H, of coefficients [c0, c1, s1, ...]; NaN when the point did not converge.
-std::pair<Eigen::VectorXd, Eigen::VectorXd> cosine_and_sine(const Eigen::RowVectorXd& coefficients, bool valid) {
-  const Eigen::Index harmonics = (coefficients.size() - 1) / 2;
-  Eigen::VectorXd cosine = Eigen::VectorXd::Constant(harmonics + 1, std::nan(""));
-  Eigen::VectorXd sine = cosine;
-  if (!valid) return {cosine, sine};
-  cosine[0] = coefficients[0];
-  sine[0] = 0;
-  for (Eigen::Index h = 1; h <= harmonics; ++h) {
-    cosine[h] = coefficients[2 * h - 1];
-    sine[h] = coefficients[2 * h];
-  }
-  return {cosine, sine};
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+/// Of coefficients [c0, c1, s1, ...] the cosines h = 0..H, or with `sine` the sines, of which that of h = 0 is 0.
+Json series(const Eigen::RowVectorXd& coefficients, bool sine) {
+  const double mean = coefficients[0];
+  Eigen::VectorXd values =
+      Eigen::VectorXd::Constant((coefficients.size() + 1) / 2, sine && std::isfinite(mean) ? 0 : mean);
+  for (Eigen::Index h = 1; h < values.size(); ++h) values[h] = coefficients[sine ? 2 * h : 2 * h - 1];
+  return json_of(values);
 }
 
-/// "outputs":{NAME:list} and the other quantities, with one entry in each list for every point.
-class QuantityLists {
- public:
-  explicit QuantityLists(const std::vector<std::string>& outputs) : outputs_(outputs) {
-    json_["outputs"] = Json::object();
-    for (const std::string& name : outputs_) json_["outputs"][name] = Json::array();
-    for (const char* key : kKeys) json_[key] = Json::array();
-  }
-  /// `entry(get)` is the point's entry for the quantity that `get` reads from Quantities.
-  template <class Entry>
-  void add(const Entry& entry) {
-    for (std::size_t i = 0; i < outputs_.size(); ++i)
-      json_["outputs"][outputs_[i]].push_back(
-          entry([i](const Quantities& q) { return q.amplitudes(static_cast<Eigen::Index>(i)); }));
-    json_[kKeys[0]].push_back(entry([](const Quantities& q) { return q.friction_energy; }));
-    json_[kKeys[1]].push_back(entry([](const Quantities& q) { return q.largest_wear_rate; }));
-    json_[kKeys[2]].push_back(entry([](const Quantities& q) { return q.wear_volume_rate; }));
-  }
-  void add_nothing() {
-    add([](const auto&) { return Json(nullptr); });
-  }
-  [[nodiscard]] const Json& json() const { return json_; }
+/// "outputs":{NAME:list} and lists of the other quantities: `entry(point, get)` is the entry of a point for the
+/// quantity that `get` reads from Quantities.
+template <class Entry>
+Json quantity_lists(const ResponseCurve& curve, const Entry& entry) {
+  Json json;
+  const auto list = [&](const auto& get) {
+    Json entries = Json::array();
+    for (const PointAnalysis& point : curve.analyses) entries.push_back(entry(point, get));
+    return entries;
+  };
+  json["outputs"] = Json::object();
+  for (std::size_t i = 0; i < curve.output_names.size(); ++i)
+    json["outputs"][curve.output_names[i]] =
+        list([i](const Quantities& q) { return q.amplitudes(static_cast<Eigen::Index>(i)); });
+  json["dissipated_energy_j"] = list(std::mem_fn(&Quantities::friction_energy));
+  json["largest_wear_rate_m_per_cycle"] = list(std::mem_fn(&Quantities::largest_wear_rate));
+  json["wear_volume_rate_m3_per_cycle"] = list(std::mem_fn(&Quantities::wear_volume_rate));
+  return json;
+}
 
- private:
-  static constexpr std::array<const char*, 3> kKeys{"dissipated_energy_j", "largest_wear_rate_m_per_cycle",
-                                                    "wear_volume_rate_m3_per_cycle"};
-  const std::vector<std::string>& outputs_;
-  Json json_;
-};
+/// A column with an entry for each point that has the analysis, and null for the others.
+template <class Analysis, class Get>
+auto column_of(const char* key, std::optional<Analysis> PointAnalysis::*analysis, Get get) {
+  return Column(key, [=](const PointAnalysis& point) {
+    return point.*analysis ? json_of(std::invoke(get, *(point.*analysis))) : Json(nullptr);
+  });
+}
 
 Json error_bars_json(const ResponseCurve& curve) {
+  using quality::ErrorBars;
   Json json;
-  json["status"] = Json::array();
-  const std::array<std::pair<const char*, Quantities quality::ErrorBars::*>, 4> parts{
-      {{"total", &quality::ErrorBars::total},
-       {"harmonics", &quality::ErrorBars::harmonics},
-       {"samples", &quality::ErrorBars::samples},
-       {"penalty", &quality::ErrorBars::penalty}}};
-  for (const PointAnalysis& point : curve.analyses)
-    json["status"].push_back(point.bars ? Json(std::string(to_string(point.bars->status))) : Json(nullptr));
-  for (const auto& [name, member] : parts) {
-    QuantityLists lists(curve.output_names);
-    for (const PointAnalysis& point : curve.analyses)
-      if (point.bars)
-        lists.add([&, part = member](const auto& get) { return number(get((*point.bars).*part)); });
-      else
-        lists.add_nothing();
-    json[name] = lists.json();
-  }
+  add_columns(json, curve.analyses, column_of("status", &PointAnalysis::bars, &ErrorBars::status));
+  const auto add = [&](const char* name, Quantities ErrorBars::*part) {
+    json[name] = quantity_lists(curve, [&](const PointAnalysis& point, const auto& get) {
+      return point.bars ? json_of(get((*point.bars).*part)) : Json(nullptr);
+    });
+  };
+  add("total", &ErrorBars::total);
+  add("harmonics", &ErrorBars::harmonics);
+  add("samples", &ErrorBars::samples);
+  add("penalty", &ErrorBars::penalty);
   return json;
 }
 
 Json sensitivity_json(const ResponseCurve& curve) {
   Json json;
   json["ratios"] = Json::array();
-  json["status"] = Json::array();
-  QuantityLists values(curve.output_names), slopes(curve.output_names);
-  for (const PointAnalysis& point : curve.analyses) {
-    if (!point.sensitivity) {
-      json["status"].push_back(nullptr);
-      values.add_nothing();
-      slopes.add_nothing();
-      continue;
-    }
-    const quality::PenaltySensitivity& found = *point.sensitivity;
-    json["ratios"] = numbers(found.ratios);
-    Json statuses = Json::array();
-    for (const Status status : found.statuses) statuses.push_back(std::string(to_string(status)));
-    json["status"].push_back(statuses);
-    values.add([&](const auto& get) {
-      Json list = Json::array();
-      for (const Quantities& value : found.values) list.push_back(number(get(value)));
-      return list;
-    });
-    slopes.add([&](const auto& get) { return number(get(found.slope)); });
-  }
-  json["values"] = values.json();
-  json["slope"] = slopes.json();
+  for (const PointAnalysis& point : curve.analyses)
+    if (point.sensitivity) json["ratios"] = json_of(point.sensitivity->ratios);
+  add_columns(json, curve.analyses,
+              column_of("status", &PointAnalysis::sensitivity, &quality::PenaltySensitivity::statuses));
+  json["values"] = quantity_lists(curve, [](const PointAnalysis& point, const auto& get) {
+    if (!point.sensitivity) return Json(nullptr);
+    Json list = Json::array();
+    for (const Quantities& value : point.sensitivity->values) list.push_back(json_of(get(value)));
+    return list;
+  });
+  json["slope"] = quantity_lists(curve, [](const PointAnalysis& point, const auto& get) {
+    return point.sensitivity ? json_of(get(point.sensitivity->slope)) : Json(nullptr);
+  });
   return json;
 }
 
 Json stability_json(const ResponseCurve& curve) {
+  using stability::Stability, stability::StabilityVerdict;
+  const auto column = [](const char* key, auto get) { return column_of(key, &PointAnalysis::stability, get); };
+  const auto filled = [](const Stability& found) {
+    return found.verdict != StabilityVerdict::not_meaningful && found.verdict != StabilityVerdict::undetermined;
+  };
+  const auto known = [&](double Stability::*value) {
+    return [=](const Stability& found) { return filled(found) ? found.*value : kUnknown; };
+  };
   Json json;
-  for (const char* key : {"verdict", "reason", "largest_modulus", "error", "multipliers", "neutral", "events"})
-    json[key] = Json::array();
-  for (const PointAnalysis& point : curve.analyses) {
-    if (!point.stability) {
-      for (auto& list : json) list.push_back(nullptr);
-      continue;
-    }
-    const stability::Stability& found = *point.stability;
-    const bool filled = found.verdict != stability::StabilityVerdict::not_meaningful &&
-                        found.verdict != stability::StabilityVerdict::undetermined;
-    json["verdict"].push_back(std::string(to_string(found.verdict)));
-    json["reason"].push_back(found.reason);
-    json["largest_modulus"].push_back(filled ? number(found.largest_modulus) : Json(nullptr));
-    json["error"].push_back(filled ? number(found.error) : Json(nullptr));
-    Json multipliers = Json::array();
-    if (filled)
-      for (const std::complex<double>& m : found.multipliers)
-        multipliers.push_back(Json::array({number(m.real()), number(m.imag())}));
-    json["multipliers"].push_back(multipliers);
-    json["neutral"].push_back(found.neutral);
-    json["events"].push_back(found.events);
-  }
+  add_columns(
+      json, curve.analyses, column("verdict", &Stability::verdict), column("reason", &Stability::reason),
+      column("largest_modulus", known(&Stability::largest_modulus)), column("error", known(&Stability::error)),
+      column("multipliers",
+             [&](const Stability& found) { return filled(found) ? json_of(found.multipliers) : Json::array(); }),
+      column("neutral", &Stability::neutral), column("events", &Stability::events));
   return json;
 }
 
 /// Lists minimum, maximum, status, reason, over the points, of the bounds that `get` reads.
 template <class Get>
 Json bounds_json(const ResponseCurve& curve, const Get& get) {
+  using tractions::TractionBounds;
+  const auto column = [&](const char* key, auto value) {
+    return column_of(key, &PointAnalysis::tractions,
+                     [=](const TractionRanges& ranges) { return std::invoke(value, std::invoke(get, ranges)); });
+  };
+  const auto known = [](auto TractionBounds::*end) {
+    return [=](const TractionBounds& bounds) {
+      const bool there = bounds.status == Status::converged || bounds.status == Status::iteration_limit;
+      return there ? (bounds.*end).value : kUnknown;
+    };
+  };
   Json json;
-  for (const char* key : {"minimum", "maximum", "status", "reason", "stuck_nodes"}) json[key] = Json::array();
-  for (const PointAnalysis& point : curve.analyses) {
-    if (!point.tractions) {
-      for (auto& list : json) list.push_back(nullptr);
-      continue;
-    }
-    const tractions::TractionBounds& bounds = get(*point.tractions);
-    const bool known = bounds.status == Status::converged || bounds.status == Status::iteration_limit;
-    json["minimum"].push_back(known ? number(bounds.minimum.value) : Json(nullptr));
-    json["maximum"].push_back(known ? number(bounds.maximum.value) : Json(nullptr));
-    json["status"].push_back(std::string(to_string(bounds.status)));
-    json["reason"].push_back(bounds.reason);
-    json["stuck_nodes"].push_back(bounds.stuck_nodes);
-  }
+  add_columns(json, curve.analyses, column("minimum", known(&TractionBounds::minimum)),
+              column("maximum", known(&TractionBounds::maximum)), column("status", &TractionBounds::status),
+              column("reason", &TractionBounds::reason), column("stuck_nodes", &TractionBounds::stuck_nodes));
   return json;
 }
 
@@ -156,82 +124,75 @@ Json traction_bounds_json(const ResponseCurve& curve) {
   Json json;
   json["outputs"] = Json::object();
   for (std::size_t i = 0; i < curve.output_names.size(); ++i)
-    json["outputs"][curve.output_names[i]] = bounds_json(
-        curve, [i](const TractionRanges& ranges) -> const auto& { return ranges.amplitudes[i]; });
-  json["dissipated_energy_j"] = bounds_json(
-      curve, [](const TractionRanges& ranges) -> const auto& { return ranges.friction_energy; });
-  json["wear_volume_rate_m3_per_cycle"] = bounds_json(
-      curve, [](const TractionRanges& ranges) -> const auto& { return ranges.wear_rate; });
+    json["outputs"][curve.output_names[i]] =
+        bounds_json(curve, [i](const TractionRanges& ranges) { return ranges.amplitudes[i]; });
+  json["dissipated_energy_j"] = bounds_json(curve, &TractionRanges::friction_energy);
+  json["wear_volume_rate_m3_per_cycle"] = bounds_json(curve, &TractionRanges::wear_rate);
   return json;
 }
 
 Json settings_json(const ResponseCurve& curve) {
-  Json json;
-  json["harmonics"] = curve.settings.harmonics;
-  json["samples"] = curve.settings.samples;
-  json["tolerance"] = number(curve.settings.tolerance);
-  json["solver"] = curve.settings.solver;
+  Json json = json_of(curve.settings);
   json["pseudo_penalty_n_per_m"] =
-      Json{{"normal", numbers(curve.penalty.normal)}, {"tangential", numbers(curve.penalty.tangential)}};
-  if (curve.automatic)
-    json["automatic"] = Json{{"status", std::string(to_string(*curve.automatic))}, {"accuracy", curve.accuracy}};
+      Json{{"normal", json_of(curve.penalty.normal)}, {"tangential", json_of(curve.penalty.tangential)}};
+  if (curve.automatic) json["automatic"] = Json{{"status", json_of(*curve.automatic)}, {"accuracy", curve.accuracy}};
   return json;
 }
 
 Json branch_json(const branches::Branch& branch) {
+  using branches::BranchPoint;
+  Json json{{"status", json_of(branch.status)},
+            {"turns", branch.turns()},
+            {"jacobians", branch.jacobians},
+            {"rejected", branch.rejected}};
+  add_columns(json, branch.points, Column("arc_length", &BranchPoint::arc_length),
+              Column("direction", &BranchPoint::direction), Column("is_turn", &BranchPoint::is_turn));
+  return json;
+}
+
+/// At a point that did not converge what it would have is not known.
+Json output_json(const ResponseCurve& curve, Eigen::Index output) {
+  using steady::State;
+  const Eigen::Index columns = 2 * curve.settings.harmonics + 1;
+  const auto coefficients = [=](const State& state) -> Eigen::RowVectorXd {
+    if (state.status != Status::converged) return Eigen::RowVectorXd::Constant(columns, kUnknown);
+    return output < state.outputs.rows() ? Eigen::RowVectorXd(state.outputs.row(output))
+                                         : Eigen::RowVectorXd::Zero(columns);
+  };
+  const auto amplitude = [=](const State& state) {
+    return state.status == Status::converged && output < state.outputs.rows() ? state.amplitudes[output] : kUnknown;
+  };
   Json json;
-  json["status"] = std::string(to_string(branch.status));
-  json["turns"] = branch.turns();
-  json["jacobians"] = branch.jacobians;
-  json["rejected"] = branch.rejected;
-  for (const char* key : {"arc_length", "direction", "is_turn"}) json[key] = Json::array();
-  for (const branches::BranchPoint& point : branch.points) {
-    json["arc_length"].push_back(number(point.arc_length));
-    json["direction"].push_back(number(point.direction));
-    json["is_turn"].push_back(point.is_turn);
-  }
+  add_columns(json, curve.states, Column("amplitude", amplitude),
+              Column("cosine", [=](const State& state) { return series(coefficients(state), false); }),
+              Column("sine", [=](const State& state) { return series(coefficients(state), true); }));
   return json;
 }
 
 }  // namespace
 
 std::string response_json(const ResponseCurve& curve) {
+  using steady::State;
+  const auto known = [](double State::*value) {
+    return [=](const State& state) { return state.status == Status::converged ? state.*value : kUnknown; };
+  };
+  const auto wear_rate = [&](const State& state) -> Eigen::VectorXd {
+    if (state.status == Status::converged) return state.wear_rate;
+    return Eigen::VectorXd::Constant(std::max(curve.penalty.normal.size(), state.wear_rate.size()), kUnknown);
+  };
   Json json;
-  for (const char* key : {"frequency_hz", "status", "iterations"}) json[key] = Json::array();
+  const auto points = static_cast<std::ptrdiff_t>(curve.states.size());  // fewer than asked for when interrupted
+  json["frequency_hz"] = json_of(std::vector(curve.frequency_hz.begin(), curve.frequency_hz.begin() + points));
+  add_columns(json, curve.states, Column("status", &State::status), Column("iterations", &State::iterations));
   json["outputs"] = Json::object();
-  for (const std::string& name : curve.output_names)
-    json["outputs"][name] = Json{{"amplitude", Json::array()}, {"cosine", Json::array()}, {"sine", Json::array()}};
-  for (const char* key :
-       {"dissipated_energy_j", "error_force", "error_energy", "wear_rate_m_per_cycle", "residual", "penalty_ratio"})
-    json[key] = Json::array();
-  const Eigen::Index columns = 2 * curve.settings.harmonics + 1;
-  for (std::size_t point = 0; point < curve.states.size(); ++point) {
-    const steady::State& state = curve.states[point];
-    const bool valid = state.status == Status::converged;
-    const auto known = [&](double value) { return valid ? number(value) : Json(nullptr); };
-    json["frequency_hz"].push_back(number(curve.frequency_hz[point]));
-    json["status"].push_back(std::string(to_string(state.status)));
-    json["iterations"].push_back(state.iterations);
-    for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(curve.output_names.size()); ++i) {
-      Json& output = json["outputs"][curve.output_names[static_cast<std::size_t>(i)]];
-      const bool filled = i < state.outputs.rows();
-      Eigen::RowVectorXd coefficients = Eigen::RowVectorXd::Zero(columns);
-      if (filled) coefficients = state.outputs.row(i);
-      const auto [cosine, sine] = cosine_and_sine(coefficients, valid);
-      output["amplitude"].push_back(known(filled ? state.amplitudes[i] : std::nan("")));
-      output["cosine"].push_back(numbers(cosine));
-      output["sine"].push_back(numbers(sine));
-    }
-    json["dissipated_energy_j"].push_back(known(state.friction_energy));
-    json["error_force"].push_back(known(state.error_force));
-    json["error_energy"].push_back(known(state.error_energy));
-    const Eigen::Index nodes = std::max(curve.penalty.normal.size(), state.wear_rate.size());
-    const Eigen::VectorXd rate = valid ? state.wear_rate : Eigen::VectorXd::Constant(nodes, std::nan(""));
-    json["wear_rate_m_per_cycle"].push_back(numbers(rate));
-    // A state that was never reached has no residual.
-    json["residual"].push_back(state.evaluations > 0 ? number(state.residual) : Json(nullptr));
-    json["penalty_ratio"].push_back(known(state.penalty_ratio));
-  }
+  for (std::size_t i = 0; i < curve.output_names.size(); ++i)
+    json["outputs"][curve.output_names[i]] = output_json(curve, static_cast<Eigen::Index>(i));
+  add_columns(json, curve.states, Column("dissipated_energy_j", known(&State::friction_energy)),
+              Column("error_force", known(&State::error_force)), Column("error_energy", known(&State::error_energy)),
+              Column("wear_rate_m_per_cycle", wear_rate),
+              // A state that was never reached has no residual.
+              Column("residual", [](const State& state) { return state.evaluations > 0 ? state.residual : kUnknown; }),
+              Column("penalty_ratio", known(&State::penalty_ratio)));
   json["settings"] = settings_json(curve);
   if (curve.branch) json["arclength"] = branch_json(*curve.branch);
   if (curve.choice.error_bars) json["error_bars"] = error_bars_json(curve);

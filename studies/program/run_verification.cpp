@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <limits>
 #include <ostream>
-#include <string_view>
 #include <system_error>
 
 #include "studies/program/json_values.hpp"
 #include "studies/program/run_output.hpp"
+#include "studies/report/record_tables.hpp"
 
 namespace dovetail::studies {
 namespace {
@@ -29,60 +28,15 @@ bool alike(const optimizer::DesignSpace& space, const std::vector<double>& a, co
   return true;
 }
 
-/// Every number of a record by its name, for both ways.
-template <class Record, class Visitor>
-void visit(Record& r, Visitor&& v) {
-  v("status", r.status);
-  v("follow", r.follow);
-  v("flank_elements", r.flank_elements);
-  v("harmonics", r.harmonics);
-  v("samples", r.samples);
-  v("direct_solves", r.direct_solves);
-  v("history_solves", r.history_solves);
-  v("frequency_hz", r.frequency_hz);
-  v("search_volume_m3", r.search_volume_m3);
-  v("search_bar_m3", r.search_bar_m3);
-  v("search_depth_m", r.search_depth_m);
-  v("direct_volume_m3", r.direct_volume_m3);
-  v("direct_depth_m", r.direct_depth_m);
-  v("history_volume_m3", r.history_volume_m3);
-  v("history_depth_m", r.history_depth_m);
-  v("history_bar_m3", r.history_bar_m3);
-  v("profile_difference", r.profile_difference);
-  v("cycles", r.cycles);
-  v("seconds", r.seconds);
-  v("flank_names", r.flank_names);
-  v("flank", r.flank);
-  v("along_m", r.along_m);
-  v("search_profile_m", r.search_profile_m);
-  v("direct_profile_m", r.direct_profile_m);
-  v("history_profile_m", r.history_profile_m);
-}
-
 struct Kept {
   std::vector<double> x;
   VerificationRecord record;
 };
 
-/// What is not known is no number in JSON, but null: an infinite bar, or a value that is none.
-template <class T>
-void read(std::string_view name, const Json& json, T& value) {
-  if constexpr (std::is_same_v<T, double>)
-    value = !json.is_null()                          ? json.get<double>()
-            : name.find("_bar") != std::string::npos ? kInfinity
-                                                     : std::numeric_limits<double>::quiet_NaN();
-  else
-    value = json.get<T>();
-}
-
 std::string line_of(const std::string& fingerprint, const Kept& kept) {
   Json json{{"fingerprint", fingerprint}, {"x", kept.x}};
-  visit(kept.record, [&](const char* name, const auto& value) {
-    if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>)
-      json[name] = number(value);
-    else
-      json[name] = value;
-  });
+  json.update(json_of(kept.record));
+  json.erase("evaluation");  // another one when the run is resumed
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -90,12 +44,16 @@ std::vector<Kept> kept_before(const fs::path& file, const std::string& fingerpri
   std::vector<Kept> all;
   std::ifstream stream(file);
   for (std::string line; std::getline(stream, line);) try {
-      const Json json = Json::parse(line);
+      Json json = Json::parse(line);
       if (json.at("fingerprint") != fingerprint) continue;
+      json["evaluation"] = 0;
       Kept kept{.x = json.at("x").get<std::vector<double>>(), .record = {}};
-      visit(kept.record, [&](const char* name, auto& value) { read(name, json.at(name), value); });
+      optimizer::read_json(json, kept.record);
+      // A bar that is not known is infinite.
+      for (double* bar : {&kept.record.search_bar_m3, &kept.record.history_bar_m3})
+        if (std::isnan(*bar)) *bar = kInfinity;
       all.push_back(std::move(kept));
-    } catch (const Json::exception&) {
+    } catch (const std::exception&) {
       // Cut short when the program was ended: it is computed again.
     }
   return all;

@@ -5,38 +5,28 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
-#include <limits>
 #include <numbers>
 #include <utility>
 
 #include "optimizer/fingerprint.hpp"
 #include "studies/program/json_values.hpp"
+#include "studies/program/refusal.hpp"
 
 namespace dovetail::studies {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-[[noreturn]] void refuse(const std::string& file, const std::string& why) {
-  throw InputError(Violation{.file = {}, .key = "--resume", .value = file, .allowed = why});
+[[noreturn]] void cannot_resume(const std::string& file, const std::string& why) {
+  refuse("--resume", why, file);
 }
 
-Eigen::VectorXd vector_of(const Json& list) {
-  Eigen::VectorXd values(static_cast<Eigen::Index>(list.size()));
-  for (std::size_t i = 0; i < list.size(); ++i)
-    values[static_cast<Eigen::Index>(i)] = list[i].is_null() ? kUnknown : list[i].get<double>();
-  return values;
-}
-
-Eigen::MatrixXd matrix_of(const Json& rows, Eigen::Index columns) {
-  Eigen::MatrixXd matrix(static_cast<Eigen::Index>(rows.size()), columns);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Eigen::VectorXd row = vector_of(rows[i]);
-    if (row.size() != columns) return {};
-    matrix.row(static_cast<Eigen::Index>(i)) = row.transpose();
-  }
-  return matrix;
+/// A list, a matrix or a record.
+template <class T>
+T value_of(const Json& json) {
+  T value;
+  optimizer::read_json(json, value);
+  return value;
 }
 
 /// The bytes of a matrix, its shape first; both zeros alike.
@@ -58,33 +48,18 @@ wear::HistoryEnd end_of(const std::string& word) {
   return interrupted;
 }
 
-Eigen::MatrixXd displacement_of(const Json& rows) {
-  return rows.empty() ? Eigen::MatrixXd() : matrix_of(rows, static_cast<Eigen::Index>(rows[0].size()));
-}
-
-wear::StepMemory memory_of(const Json& json) {
-  return {.step = json.at("next_step_cycles").get<double>(),
-          .penetration = json.at("penetration_m").get<double>(),
-          .no_wear = json.at("no_wear_m_per_cycle").get<double>(),
-          .finish_below = json.at("finish_below").get<double>(),
-          .recovering = json.at("recovering").get<int>(),
-          .jumps = json.at("jumps").get<int>(),
-          .factored_displacement = displacement_of(json.at("factored_displacement_m")),
-          .factored_depth = vector_of(json.at("factored_depth_m"))};
-}
-
 /// The finished state, which is the last entry, becomes the final depth.
 wear::History history_of(const Json& json, Eigen::Index nodes) {
   wear::History history;
   history.end = end_of(json.at("ended").get<std::string>());
   history.finished = json.at("finished").get<bool>();
   history.solves = json.at("solves").get<int>();
-  history.final_depth = vector_of(json.at("depth_m"));
-  history.final_rate = vector_of(json.at("final_wear_rate_m_per_cycle"));
+  history.final_depth = value_of<Eigen::VectorXd>(json.at("depth_m"));
+  history.final_rate = value_of<Eigen::VectorXd>(json.at("final_wear_rate_m_per_cycle"));
   history.final_volume = json.at("final_worn_volume_m3").get<double>();
   const Json& memory = json.at("history").at("memory");
-  history.memory = memory_of(memory);
-  history.steady.displacement = displacement_of(memory.at("displacement_m"));
+  history.memory = value_of<wear::StepMemory>(memory);
+  history.steady.displacement = value_of<Eigen::MatrixXd>(memory.at("displacement_m"));
 
   // Displacements only spare iterations: ones of another shape are none.
   const Eigen::MatrixXd& last = history.steady.displacement;
@@ -95,15 +70,15 @@ wear::History history_of(const Json& json, Eigen::Index nodes) {
   if (factored.rows() != last.rows() || factored.cols() != last.cols() || history.memory.factored_depth.size() != nodes)
     factored.resize(0, 0);
 
-  const Eigen::VectorXd cycles = vector_of(json.at("cycles"));
-  const Eigen::VectorXd volume = vector_of(json.at("worn_volume_m3"));
-  const Eigen::VectorXd amplitude = vector_of(json.at("amplitude_m"));
-  const Eigen::VectorXd hz = vector_of(json.at("frequencies_hz"));
-  const Eigen::MatrixXd depth = matrix_of(json.at("depths_m"), nodes);
-  const Eigen::MatrixXd rate = matrix_of(json.at("wear_rates_m_per_cycle"), nodes);
+  const auto cycles = value_of<Eigen::VectorXd>(json.at("cycles"));
+  const auto volume = value_of<Eigen::VectorXd>(json.at("worn_volume_m3"));
+  const auto amplitude = value_of<Eigen::VectorXd>(json.at("amplitude_m"));
+  const auto hz = value_of<Eigen::VectorXd>(json.at("frequencies_hz"));
+  const auto depth = value_of<Eigen::MatrixXd>(json.at("depths_m")),
+             rate = value_of<Eigen::MatrixXd>(json.at("wear_rates_m_per_cycle"));
   const Eigen::Index entries = cycles.size();
   if (volume.size() != entries || amplitude.size() != entries || hz.size() != entries || depth.rows() != entries ||
-      rate.rows() != entries)
+      rate.rows() != entries || depth.cols() != nodes || rate.cols() != nodes)
     return {};
   const Eigen::Index states = entries - (history.finished ? 1 : 0);
   if (states <= 0) return {};
@@ -159,12 +134,12 @@ std::vector<IdentityEntry> history_identity(const WearOptions& options, const Lo
 
 StoredHistory read_history(const std::string& file, Eigen::Index nodes) {
   std::ifstream stream(file);
-  if (!stream) refuse(file, "cannot be read");
+  if (!stream) cannot_resume(file, "cannot be read");
   const Json json = Json::parse(stream, nullptr, false);
   StoredHistory stored;
   try {
     if (!json.is_object() || json.value("method", "") != "history")
-      refuse(file, "is no answer of dovetail wear --method history --json");
+      cannot_resume(file, "is no answer of dovetail wear --method history --json");
     const Json& choice = json.at("history");
     for (const auto& [key, value] : choice.at("identity").items()) {
       if (value.is_string())
@@ -177,10 +152,10 @@ StoredHistory read_history(const std::string& file, Eigen::Index nodes) {
     stored.increment = choice.value("increment_m", 0.0);
     stored.depth_scale = choice.value("depth_scale_m", 0.0);
     stored.history = history_of(json, nodes);
-  } catch (const Json::exception& error) {
-    refuse(file, std::string("is incomplete: ") + error.what());
+  } catch (const std::exception& error) {
+    cannot_resume(file, std::string("is incomplete: ") + error.what());
   }
-  if (stored.history.cycles.size() == 0) refuse(file, "is a history of other contact nodes, or of none");
+  if (stored.history.cycles.size() == 0) cannot_resume(file, "is a history of other contact nodes, or of none");
   return stored;
 }
 
@@ -196,7 +171,7 @@ void check_identity(const StoredHistory& stored, const std::vector<IdentityEntry
                      .allowed = "must be " + words(entry) +
                                 (model ? ", the checksum of this model, to be resumed" : ", as here, to be resumed")});
   }
-  if (!found.empty()) throw InputError(std::move(found));
+  refuse(std::move(found));
 }
 
 }  // namespace dovetail::studies

@@ -5,9 +5,26 @@
 #include <variant>
 #include <vector>
 
+#include "optimizer/record_fields.hpp"
 #include "studies/program/commands.hpp"
 #include "studies/program/engine.hpp"
 #include "wear/history.hpp"
+
+namespace dovetail::optimizer {
+
+/// What --resume needs besides the states.
+template <>
+inline constexpr auto kFields<wear::StepMemory> =
+    std::tuple{RecordField{"next_step_cycles", &wear::StepMemory::step},
+               RecordField{"penetration_m", &wear::StepMemory::penetration},
+               RecordField{"no_wear_m_per_cycle", &wear::StepMemory::no_wear},
+               RecordField{"finish_below", &wear::StepMemory::finish_below},
+               RecordField{"recovering", &wear::StepMemory::recovering},
+               RecordField{"jumps", &wear::StepMemory::jumps},
+               RecordField{"factored_displacement_m", &wear::StepMemory::factored_displacement},
+               RecordField{"factored_depth_m", &wear::StepMemory::factored_depth}};
+
+}  // namespace dovetail::optimizer
 
 namespace dovetail::studies {
 

@@ -6,6 +6,7 @@
 
 #include "paths/resonance.hpp"
 #include "quality/automatic.hpp"
+#include "studies/program/refusal.hpp"
 
 namespace dovetail::studies {
 namespace {
@@ -20,12 +21,9 @@ double accuracy(const SolverOverrides& solver) {
 
 void check_accuracy(const SolverOverrides& solver) {
   if (!solver.accuracy) return;
-  const auto refuse = [&](const std::string& allowed) {
-    throw InputError(
-        Violation{.file = {}, .key = "--accuracy", .value = shortest(*solver.accuracy), .allowed = allowed});
-  };
-  if (!kAccuracies.contains(*solver.accuracy)) refuse(kAccuracies.phrase());
-  if (!solver.automatic()) refuse("only has a meaning with --harmonics auto or --samples auto");
+  const std::string given = shortest(*solver.accuracy);
+  if (!kAccuracies.contains(*solver.accuracy)) refuse("--accuracy", kAccuracies.phrase(), given);
+  if (!solver.automatic()) refuse("--accuracy", "only has a meaning with --harmonics auto or --samples auto", given);
 }
 
 std::optional<Status> choose_truncation(LoadedModel& loaded, const std::vector<double>& hz,

@@ -9,6 +9,7 @@
 #include "paths/frequency_response.hpp"
 #include "paths/resonance.hpp"
 #include "paths/steady_state.hpp"
+#include "studies/program/refusal.hpp"
 #include "studies/program/stored_history.hpp"
 #include "studies/program/wear_methods.hpp"
 #include "wear/depth_scale.hpp"
@@ -77,10 +78,8 @@ ComputedHistory compute_history(const WearOptions& options, const LoadedModel& l
     check_identity(*past, choice.identity, options.resume);
     const double done = past->history.cycles[past->history.cycles.size() - 1];
     if (options.cycles && *options.cycles <= done)
-      throw InputError(Violation{.file = {},
-                                 .key = "--cycles",
-                                 .value = shortest(*options.cycles),
-                                 .allowed = "must be > " + shortest(done) + ", the cycles done in " + options.resume});
+      refuse("--cycles", "must be > " + shortest(done) + ", the cycles done in " + options.resume,
+             shortest(*options.cycles));
     if (!options.history_tolerance && past->tolerance > 0) settings.tolerance = past->tolerance;
     choice.start_cycles = done;
     choice.depth_scale = past->depth_scale;

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "studies/program/json.hpp"
+#include "studies/program/refusal.hpp"
 #include "wear/follow.hpp"
 
 namespace dovetail::studies {
@@ -53,7 +54,7 @@ WearAnswer by_asymptote(const WearOptions& options, const LoadedModel& loaded, c
     answer.solves = answer.asymptote->solves;
   }
   if (at.resonance) answer.solves += at.resonance->solves;
-  answer.status = std::string(wear::to_string(answer.asymptote->verdict));
+  answer.status = answer.asymptote->verdict;
   answer.solver = answer.asymptote->status;
   answer.volume = answer.asymptote->worn_volume;
   answer.depth = answer.asymptote->depth;
@@ -68,14 +69,11 @@ WearStart wear_start_at(double hz) {
 
 WearStart wear_start(const WearOptions& options, const LoadedModel& loaded) {
   if (options.frequency_hz) return wear_start_at(*options.frequency_hz);
-  const auto refuse = [&](const std::string& why) {
-    throw InputError(
-        Violation{.file = {}, .key = options.input, .value = {}, .allowed = why + "; give --frequency HZ"});
-  };
   if (!options.resume.empty())
     return wear_start_at(read_history(options.resume, loaded.joint.model->nodes()).frequency_hz);
-  if (loaded.glued_omega <= 0) refuse("has no natural frequency to start from");
-  if (loaded.model.output_names.empty()) refuse("has no output whose resonance could be found");
+  if (loaded.glued_omega <= 0) refuse(options.input, "has no natural frequency to start from; give --frequency HZ");
+  if (loaded.model.output_names.empty())
+    refuse(options.input, "has no output whose resonance could be found; give --frequency HZ");
   WearStart at;
   at.resonance = paths::resonance(loaded.joint, loaded.glued_omega);
   at.omega = at.resonance->omega;
@@ -86,7 +84,6 @@ WearStart wear_start(const WearOptions& options, const LoadedModel& loaded) {
 WearAnswer unknown_answer(const WearOptions& options, Eigen::Index nodes, Status why) {
   const Eigen::VectorXd unknown = Eigen::VectorXd::Constant(nodes, std::numeric_limits<double>::quiet_NaN());
   WearAnswer answer;
-  answer.status = "not_converged";
   answer.solver = why;
   answer.depth = unknown;
   if (options.method == "history") {
@@ -124,11 +121,13 @@ WearBand wear_band(const WearOptions& options, const LoadedModel& loaded, const 
     band.status.push_back(answer.status);
     band.volume.push_back(answer.worn_out() ? answer.volume : kUnknown);
     band.largest_depth.push_back(answer.worn_out() ? answer.depth.maxCoeff() : kUnknown);
-    if (answer.status == "not_converged") ++band.failed;
+    if (answer.status == wear::Verdict::not_converged) ++band.failed;
     if (answer.worn_out())
       band.envelope = band.envelope.size() > 0 ? band.envelope.cwiseMax(answer.depth).eval() : answer.depth;
     // Endless wear is worse than any volume; a failed one is only shown when there is nothing else.
-    const double badness = answer.worn_out() ? answer.volume : answer.status == "no_asymptote" ? kInfinity : -0.5;
+    const double badness = answer.worn_out()                              ? answer.volume
+                           : answer.status == wear::Verdict::no_asymptote ? kInfinity
+                                                                          : -0.5;
     if (badness > worst) {
       worst = badness;
       band.worst = band.status.size() - 1;
@@ -137,7 +136,7 @@ WearBand wear_band(const WearOptions& options, const LoadedModel& loaded, const 
   }
   band.answer.solves = band.solves;
   // Where some frequencies are not known, which one is the worst is not known either.
-  if (band.failed > 0 && band.answer.worn_out()) band.answer.status = "not_converged";
+  if (band.failed > 0 && band.answer.worn_out()) band.answer.status = wear::Verdict::not_converged;
   return band;
 }
 

@@ -34,7 +34,7 @@ struct WearAnswer {
   std::optional<wear::History> history;
   HistoryChoice choice;           ///< of the history
   std::vector<WornCurve> curves;  ///< along the history, when asked for
-  std::string status;             ///< "asymptote" | "no_asymptote" | "not_converged"
+  wear::Verdict status = wear::Verdict::not_converged;
   Status solver = Status::converged;
   std::string reason;  ///< why it did not converge, where `solver` does not say it
   std::vector<double> frequencies_hz;
@@ -46,7 +46,7 @@ struct WearAnswer {
   [[nodiscard]] bool known() const {
     return history ? history->cycles.size() > 0 : asymptote && asymptote->verdict == wear::Verdict::asymptote;
   }
-  [[nodiscard]] bool worn_out() const { return status == "asymptote"; }
+  [[nodiscard]] bool worn_out() const { return status == wear::Verdict::asymptote; }
   [[nodiscard]] double largest_depth() const { return depth.size() > 0 ? depth.maxCoeff() : 0; }
 };
 
@@ -60,7 +60,7 @@ struct WearAnswer {
 /// Worn states over a band of held frequencies.
 struct WearBand {
   std::vector<double> frequencies_hz;
-  std::vector<std::string> status;
+  std::vector<wear::Verdict> status;
   std::vector<double> volume, largest_depth;  ///< with edges between nodes where placed; NaN where not known
   std::size_t worst = 0;                      ///< index of the largest volume; one that keeps wearing is worse than any
   Eigen::VectorXd envelope;                   ///< [Nc] m, largest depth of each node over the band

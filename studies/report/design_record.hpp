@@ -27,6 +27,10 @@ struct DesignRecordOptions {
 [[nodiscard]] DesignRecord make_design_record(const optimizer::Scene& scene, const optimizer::CandidateResult& result,
                                               const DesignRecordOptions& options = {});
 
+/// Its part on the response curves: adds them to the record, or a note that says why there are none.
+void add_curves(const optimizer::Scene& scene, const optimizer::CandidateResult& result,
+                const DesignRecordOptions& options, DesignRecord& record);
+
 /// A verification with the places of its nodes, for the record.
 [[nodiscard]] VerificationRecord make_verification_record(const optimizer::Verification& verification,
                                                           const optimizer::CandidateModel& model);

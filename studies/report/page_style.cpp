@@ -1,7 +1,13 @@
 #include "studies/report/page_style.hpp"
 
+#include "studies/report/html.hpp"
+#include "studies/report/svg_plot.hpp"
+
 namespace dovetail::report {
 
+namespace {
+
+/// Rules for text, tables and figures; the colours are those of plot_style().
 std::string page_style() {
   return R"(
 *{box-sizing:border-box}
@@ -45,6 +51,14 @@ main{padding:1.3rem .9rem 3rem}.lead{font-size:1.2rem}.shape{grid-template-colum
 .sector svg.drawing{max-height:20rem}figure{padding:.8rem .7rem .6rem}dl{grid-template-columns:1fr}dd{margin-bottom:.4rem}}
 @media print{figure,table{break-inside:avoid}details.numbers{display:none}}
 )";
+}
+
+}  // namespace
+
+std::string page_begin(const std::string& title, const std::string& rules) {
+  return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"/>\n"
+         "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"/>\n<title>" +
+         escape(title) + "</title>\n<style>" + plot_style() + page_style() + rules + "</style></head>\n<body><main>\n";
 }
 
 }  // namespace dovetail::report

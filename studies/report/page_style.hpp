@@ -4,7 +4,9 @@
 
 namespace dovetail::report {
 
-/// Rules for text, tables and figures of a page; its colours are those of plot_style().
-[[nodiscard]] std::string page_style();
+/// A page up to its first element: head with the title, the style of text, tables and figures and these rules besides,
+/// body and main opened.
+[[nodiscard]] std::string page_begin(const std::string& title, const std::string& rules = {});
+inline constexpr const char* kPageEnd = "</main></body></html>\n";
 
 }  // namespace dovetail::report

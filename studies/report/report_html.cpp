@@ -157,12 +157,7 @@ std::string limits(const Comparison& designs) {
 
 std::string report_html(const RunRecord& record) {
   const std::string name = record.title.empty() ? record.name : record.title;
-  std::string text =
-      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"/>\n"
-      "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"/>\n<title>" +
-      escape(name.empty() ? "dovetail" : name + " \u2013 dovetail") + "</title>\n<style>" + plot_style() +
-      page_style() + "</style></head>\n<body><main>\n";
-  text += opening(record);
+  std::string text = page_begin(name.empty() ? "dovetail" : name + " \u2013 dovetail") + opening(record);
   text += "<section><h2>Key figures</h2>\n" + key_figures(record) + "</section>\n";
   const Comparison designs = designs_of(record);
   if (designs.after) {
@@ -176,7 +171,7 @@ std::string report_html(const RunRecord& record) {
   text += verification_section(record) + search_section(record);
   text += "<section><h2>Limits of the model</h2>\n" + limits(designs) + "</section>\n";
   text += "<section><h2>Provenance</h2>\n" + provenance_section(record) + "</section>\n";
-  return text + "</main></body></html>\n";
+  return text + kPageEnd;
 }
 
 void write_report(const std::filesystem::path& file, const RunRecord& record) {

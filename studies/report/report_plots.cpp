@@ -75,20 +75,26 @@ Plot flank_plot(const Comparison& designs, Numbers ContactRecord::*quantity, con
 
 FlankMap flank_map(const ContactRecord& contact, const Numbers& values, const std::string& si_unit, FlankMap map) {
   map.unit = readable_unit(si_unit, largest(values));
+  map.panels = flank_panels(contact, values);
+  return map;
+}
+
+}  // namespace
+
+std::vector<FlankPanel> flank_panels(const ContactRecord& contact, const Numbers& values) {
+  std::vector<FlankPanel> panels;
   for (std::size_t f = 0; f < contact.flank_names.size(); ++f) {
-    FlankPanel panel{.name = contact.flank_names[f] + " flank"};
+    FlankPanel& panel = panels.emplace_back();
+    panel.name = contact.flank_names[f] + " flank";
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (contact.flank[i] != static_cast<std::int64_t>(f)) continue;
       panel.along.push_back(contact.along_m[i]);
       panel.across.push_back(contact.across_m[i]);
       panel.values.push_back(values[i]);
     }
-    map.panels.push_back(std::move(panel));
   }
-  return map;
+  return panels;
 }
-
-}  // namespace
 
 bool in_space(const ContactRecord& contact) {
   const auto [least, most] = std::minmax_element(contact.across_m.begin(), contact.across_m.end());

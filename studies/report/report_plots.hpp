@@ -19,6 +19,9 @@ struct Comparison {
   const DesignRecord* after = nullptr;
 };
 
+/// A quantity of the contact nodes, flank by flank, for a map.
+[[nodiscard]] std::vector<FlankPanel> flank_panels(const ContactRecord& contact, const Numbers& values);
+
 /// The contact nodes spread along the slot too.
 [[nodiscard]] bool in_space(const ContactRecord& contact);
 /// Wear depth and pressure over the flanks of a joint in space; none in the plane.

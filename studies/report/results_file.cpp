@@ -8,134 +8,94 @@ namespace {
 
 constexpr const char* kFormat = "dovetail-results";
 constexpr std::int64_t kVersion = 1;
-constexpr const char* kVerifications = "/verifications";
-constexpr const char* kFiner = "/finer";
 
-std::int64_t index_of(const std::optional<std::size_t>& index) {
-  return index ? static_cast<std::int64_t>(*index) : -1;
-}
-
-void write_options(Writer& writer, const std::string& path, const std::map<std::string, std::string>& named) {
-  std::vector<std::string> names, values;
-  for (const auto& [name, value] : named) {
-    names.push_back(name);
-    values.push_back(value);
-  }
-  writer.texts(path + "_names", names);
-  writer.texts(path + "_values", values);
-}
-
-void write_provenance(Writer& writer, const Provenance& p) {
-  writer.texts("/provenance/study_text", {p.study_text});
-  write_options(writer, "/provenance/library", p.libraries);
-  write_options(writer, "/provenance/option", p.options);
-  writer.text("/provenance", "program_version", p.program_version);
-  writer.text("/provenance", "date_utc", p.date_utc);
-  writer.text("/provenance", "compiler", p.compiler);
-  writer.text("/provenance", "study_file", p.study_file);
-}
-
-void read_options(const Reader& r, const std::string& path, std::map<std::string, std::string>& named) {
-  std::vector<std::string> names, values;
-  r.texts(path + "_names", names);
-  r.texts(path + "_values", values);
-  r.require_size(path + "_values", values.size(), names.size());
-  for (std::size_t i = 0; i < names.size(); ++i) named[names[i]] = values[i];
-}
-
-void read_provenance(const Reader& r, Provenance& p) {
-  std::vector<std::string> study;
-  r.texts("/provenance/study_text", study);
-  r.require_size("/provenance/study_text", study.size(), 1);
-  p.study_text = study.front();
-  read_options(r, "/provenance/library", p.libraries);
-  read_options(r, "/provenance/option", p.options);
-  r.text("/provenance", "program_version", p.program_version);
-  r.text("/provenance", "date_utc", p.date_utc);
-  r.text("/provenance", "compiler", p.compiler);
-  r.text("/provenance", "study_file", p.study_file);
-}
-
-void read_index(const Reader& r, const std::string& name, std::size_t count, std::optional<std::size_t>& index) {
-  std::int64_t value = -1;
-  r.whole("/", name, value);
-  if (value < -1 || value >= static_cast<std::int64_t>(count))
-    r.refuse(name, std::to_string(value), "must be the index of an evaluation, or -1");
-  if (value >= 0) index = static_cast<std::size_t>(value);
-}
-
-void require_format(const Reader& r) {
-  std::string format;
-  if (r.file().has_attribute("/", "format")) r.text("/", "format", format);
+void require_format(const hdf5::File& file, const Archive& archive) {
+  const std::string format = file.has_attribute("/", "format") ? file.string_attribute("/", "format") : "";
   if (format != kFormat)
-    r.refuse("format", format, "must be \"dovetail-results\": this is no results file of dovetail");
-  std::int64_t version = 0;
-  r.whole("/", "version", version);
+    archive.refuse("format", format, "must be \"dovetail-results\": this is no results file of dovetail");
+  const std::int64_t version = file.integer_attribute("/", "version");
   if (version < 1 || version > kVersion)
-    r.refuse("version", std::to_string(version),
-             "must be " + std::to_string(kVersion) + ": the file was written by another version of dovetail");
+    archive.refuse("version", std::to_string(version),
+                   "must be " + std::to_string(kVersion) + ": the file was written by another version of dovetail");
 }
 
 }  // namespace
 
+void Archive::require_nodes(const std::string& group, const Wholes& flank, const Texts& flank_names,
+                            std::initializer_list<const Numbers*> lists) const {
+  for (const Numbers* list : lists)
+    if (!list->empty()) require_size(group, list->size(), flank.size());
+  for (const std::int64_t index : flank)
+    if (index < 0 || index >= static_cast<std::int64_t>(flank_names.size()))
+      refuse(group + "/flank", std::to_string(index), "must be indices of flank_names");
+}
+
+void Archive::require_consistent(const std::string& group, const DesignRecord& design) const {
+  const ContactRecord& c = design.contact;
+  require_nodes(group + "/contact", c.flank, c.flank_names,
+                {&c.along_m, &c.across_m, &c.x_m, &c.y_m, &c.area_m2, &c.gap_m, &c.preload_pressure_pa,
+                 &c.wear_rate_m_per_cycle, &c.depth_m});
+  if (!c.flank.empty() && c.along_m.empty()) refuse(group + "/contact/along_m", {}, "must not be empty");
+  for (const ResponseCurve* curve : {&design.unworn, &design.worn, &design.glued}) {
+    require_size(group + " (response curves)", curve->amplitude_m.size(), curve->frequency_hz.size());
+    require_size(group + " (response curves)", curve->status.size(), curve->frequency_hz.size());
+  }
+  const NodalDiameterRecord& n = design.nodal_diameters;
+  require_size(group + "/nodal_diameters/status", n.status.size(), n.nodal_diameter.size());
+  require_size(group + "/nodal_diameters/frequency_hz", n.frequency_hz.size(),
+               static_cast<std::size_t>(n.modes) * n.nodal_diameter.size());
+  if (design.history)
+    require_size(group + "/history/profile_depth_m", design.history->profile_depth_m.size(),
+                 design.history->profile_states.size() * c.flank.size());
+  const FieldRecord& fields = design.fields;
+  const auto nodes = static_cast<std::size_t>(fields.mesh.node_count());
+  if (!fields.displacement_m.empty())
+    require_size(group + "/fields/displacement_m", fields.displacement_m.size(),
+                 static_cast<std::size_t>(fields.mesh.dimensions()) * nodes);
+  if (!fields.von_mises_pa.empty()) require_size(group + "/fields/von_mises_pa", fields.von_mises_pa.size(), nodes);
+}
+
+void Archive::require_consistent(const std::string& group, const VerificationRecord& record) const {
+  require_size(group + "/along_m", record.along_m.size(), record.flank.size());
+  require_nodes(group, record.flank, record.flank_names,
+                {&record.across_m, &record.search_profile_m, &record.direct_profile_m, &record.history_profile_m});
+}
+
+void Archive::require_consistent(const std::string& /*group*/, const RunRecord& record) const {
+  const std::size_t variables = record.problem.space.size(), limits = constraint_names(record.problem).size();
+  for (const EvaluationRecord& evaluation : record.evaluations) {
+    require_size("/evaluations/x", evaluation.x.size(), variables);
+    require_size("/evaluations/constraints", evaluation.constraints.size(), limits);
+  }
+  const auto require_index = [&](const std::string& name, std::int64_t index, const std::string& allowed) {
+    if (index < 0 || index >= static_cast<std::int64_t>(record.evaluations.size()))
+      refuse(name, std::to_string(index), allowed);
+  };
+  for (const auto& [name, index] :
+       {std::pair{"best", record.best}, {"least_broken", record.least_broken}, {"baseline", record.baseline}})
+    if (index) require_index(name, static_cast<std::int64_t>(*index), "must be the index of an evaluation, or -1");
+  for (const VerificationRecord& v : record.verifications)
+    require_index("/verifications, evaluation", v.evaluation, "must be the index of an evaluation");
+  for (const FinerRecord& check : record.finer)
+    require_index("/finer, evaluation", check.evaluation, "must be the index of an evaluation");
+}
+
 void write_results(const std::filesystem::path& path, const RunRecord& record) {
-  hdf5::write_and_rename(path.string(), [&](hdf5::File& file) {
-    Writer w(file);
-    w.text("/", "format", kFormat);
-    w.whole("/", "version", kVersion);
-    w.text("/", "name", record.name);
-    w.text("/", "title", record.title);
-    w.text("/", "status", record.status);
-    w.text("/", "message", record.message);
-    w.number("/", "seconds", record.seconds);
-    w.whole("/", "best", index_of(record.best));
-    w.whole("/", "least_broken", index_of(record.least_broken));
-    w.whole("/", "baseline", index_of(record.baseline));
-    write_provenance(w, record.provenance);
-    write_problem(w, record.problem);
-    write_evaluations(w, record);
-    w.optional("/best", record.best_design, [&](const DesignRecord& design) { exchange(w, "/best", design); });
-    w.optional("/baseline", record.baseline_design,
-               [&](const DesignRecord& design) { exchange(w, "/baseline", design); });
-    w.records(kVerifications, record.verifications,
-              [&](const std::string& group, const VerificationRecord& v) { exchange(w, group, v); });
-    w.records(kFiner, record.finer,
-              [&](const std::string& group, const FinerRecord& check) { exchange(w, group, check); });
+  hdf5::write_and_rename(path.string(), [copy = record](hdf5::File& file) mutable {
+    file.write_attribute("/", "format", std::string(kFormat));
+    file.write_attribute("/", "version", kVersion);
+    Archive archive(file);
+    archive.require_consistent("", copy);
+    archive.exchange("", "", copy);
   });
 }
 
 RunRecord read_results(const std::filesystem::path& path) {
   const hdf5::File file = hdf5::File::open(path.string());
-  const Reader r(file);
-  require_format(r);
+  Archive archive(file);
+  require_format(file, archive);
   RunRecord record;
-  r.text("/", "name", record.name);
-  r.text("/", "title", record.title);
-  r.text("/", "status", record.status);
-  r.text("/", "message", record.message);
-  r.number("/", "seconds", record.seconds);
-  read_provenance(r, record.provenance);
-  read_problem(r, record.problem);
-  read_evaluations(r, record);
-  read_index(r, "best", record.evaluations.size(), record.best);
-  read_index(r, "least_broken", record.evaluations.size(), record.least_broken);
-  read_index(r, "baseline", record.evaluations.size(), record.baseline);
-  r.optional("/best", record.best_design, [&](DesignRecord& design) { exchange(r, "/best", design); });
-  r.optional("/baseline", record.baseline_design, [&](DesignRecord& design) { exchange(r, "/baseline", design); });
-  // Files of runs without verification, and of versions before it, have none.
-  if (file.exists(kVerifications))
-    r.records(kVerifications, record.verifications,
-              [&](const std::string& group, VerificationRecord& v) { exchange(r, group, v); });
-  if (file.exists(kFiner))
-    r.records(kFiner, record.finer, [&](const std::string& group, FinerRecord& check) { exchange(r, group, check); });
-  for (const FinerRecord& check : record.finer)
-    if (check.evaluation < 0 || check.evaluation >= static_cast<std::int64_t>(record.evaluations.size()))
-      r.refuse(std::string(kFiner) + ", evaluation", std::to_string(check.evaluation),
-               "must be the index of an evaluation");
-  for (const VerificationRecord& v : record.verifications)
-    if (v.evaluation < 0 || v.evaluation >= static_cast<std::int64_t>(record.evaluations.size()))
-      r.refuse(std::string(kVerifications) + ", evaluation", std::to_string(v.evaluation),
-               "must be the index of an evaluation");
+  archive.exchange("", "", record);
   return record;
 }
 

@@ -13,10 +13,24 @@ namespace dovetail::report {
 
 namespace {
 
-std::string title_of(std::size_t index, const EvaluationRecord& e, double shown, const std::string& unit) {
-  return fmt::format("candidate {} ({}): {}{}{}", index + 1, e.phase, significant(shown),
-                     unit.empty() ? "" : " " + unit, e.feasible ? "" : ", not feasible");
-}
+/// The candidates that have a value, with the best on top.
+struct CandidateMarks {
+  PlotPoints broken{.name = "breaks a limit", .role = Role::bad, .shape = Shape::cross};
+  PlotPoints feasible{.name = "feasible"};
+  PlotPoints best{.name = "best", .shape = Shape::star};
+
+  void add(const RunRecord& record, std::size_t i, double shown, const std::string& unit) {
+    const EvaluationRecord& e = record.evaluations[i];
+    PlotPoints& group = record.best == i ? best : e.feasible ? feasible : broken;
+    group.x.push_back(static_cast<double>(i + 1));
+    group.y.push_back(shown);
+    group.titles.push_back(fmt::format("candidate {} ({}): {}{}{}", i + 1, e.phase, significant(shown),
+                                       unit.empty() ? "" : " " + unit, e.feasible ? "" : ", not feasible"));
+  }
+  void add_to(Plot& plot) {
+    for (PlotPoints* points : {&broken, &feasible, &best}) plot.points.push_back(std::move(*points));
+  }
+};
 
 }  // namespace
 
@@ -30,11 +44,7 @@ Plot objective_plot(const RunRecord& record) {
       .x = {.label = "candidate", .whole = true},
       .y = {.label = scale.label, .unit = scale.unit},
   };
-  PlotPoints feasible{
-      .name = "feasible",
-  };
-  PlotPoints broken{.name = "breaks a limit", .role = Role::bad, .shape = Shape::cross};
-  PlotPoints best{.name = "best", .role = Role::after, .shape = Shape::star};
+  CandidateMarks marks;
   PlotPoints failed{.name = "not computed", .role = Role::muted, .shape = Shape::triangle};
   PlotLine so_far{.name = "best so far", .role = Role::before};
   so_far.steps = true;
@@ -47,10 +57,7 @@ Plot objective_plot(const RunRecord& record) {
       lowest = std::min(lowest, shown);
       highest = std::max(highest, shown);
       positive = positive && shown > 0;
-      PlotPoints& group = record.best == i ? best : e.feasible ? feasible : broken;
-      group.x.push_back(at);
-      group.y.push_back(shown);
-      group.titles.push_back(title_of(i, e, shown, scale.unit));
+      marks.add(record, i, shown, scale.unit);
       if (e.feasible) least = std::min(least, e.objective);
     }
     so_far.x.push_back(at);
@@ -70,7 +77,8 @@ Plot objective_plot(const RunRecord& record) {
   }
   if (failed.x.empty()) plot.description = "Every candidate in the order it was evaluated.";
   if (std::isfinite(least)) plot.lines.push_back(std::move(so_far));
-  for (PlotPoints* points : {&failed, &broken, &feasible, &best}) plot.points.push_back(std::move(*points));
+  plot.points.push_back(std::move(failed));
+  marks.add_to(plot);
   return plot;
 }
 
@@ -96,19 +104,12 @@ std::vector<Plot> limit_plots(const RunRecord& record) {
       if (c.lower) plot.levels.push_back({.name = "at least " + plain(*c.lower, unit) + of, .y = *c.lower / unit.si});
       if (c.absolute && c.upper) plot.levels.push_back({.name = {}, .y = -*c.upper / unit.si});
     }
-    PlotPoints kept{.name = "feasible"};
-    PlotPoints broken{.name = "breaks a limit", .role = Role::bad, .shape = Shape::cross};
-    PlotPoints best{.name = "best", .shape = Shape::star};
+    CandidateMarks marks;
     for (std::size_t i = 0; i < record.evaluations.size(); ++i) {
-      const EvaluationRecord& e = record.evaluations[i];
-      const double shown = response(e, limited.response) / unit.si;
-      if (!std::isfinite(shown)) continue;
-      PlotPoints& group = record.best == i ? best : e.feasible ? kept : broken;
-      group.x.push_back(static_cast<double>(i + 1));
-      group.y.push_back(shown);
-      group.titles.push_back(title_of(i, e, shown, unit.symbol));
+      const double shown = response(record.evaluations[i], limited.response) / unit.si;
+      if (std::isfinite(shown)) marks.add(record, i, shown, unit.symbol);
     }
-    for (PlotPoints* points : {&broken, &kept, &best}) plot.points.push_back(std::move(*points));
+    marks.add_to(plot);
     plots.push_back(std::move(plot));
   }
   return plots;

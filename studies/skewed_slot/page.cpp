@@ -34,21 +34,10 @@ std::string degrees(double angle) {
 }
 
 FlankMap map_of(const Joint& joint, const Numbers& values, report::Unit unit, std::string title, std::string quantity) {
-  FlankMap map{.title = std::move(title) + ", " + degrees(joint.skew_deg),
-               .quantity = std::move(quantity),
-               .unit = std::move(unit)};
-  const report::ContactRecord& contact = joint.contact;
-  for (std::size_t f = 0; f < contact.flank_names.size(); ++f) {
-    report::FlankPanel panel{.name = contact.flank_names[f] + " flank"};
-    for (std::size_t i = 0; i < contact.flank.size(); ++i) {
-      if (contact.flank[i] != static_cast<std::int64_t>(f)) continue;
-      panel.along.push_back(contact.along_m[i]);
-      panel.across.push_back(contact.across_m[i]);
-      panel.values.push_back(values[i]);
-    }
-    map.panels.push_back(std::move(panel));
-  }
-  return map;
+  return {.title = std::move(title) + ", " + degrees(joint.skew_deg),
+          .quantity = std::move(quantity),
+          .unit = std::move(unit),
+          .panels = report::flank_panels(joint.contact, values)};
 }
 
 Plot over_angle(const Results& r, Plot plot, const std::vector<std::pair<std::string, double Joint::*>>& quantities,
@@ -173,13 +162,9 @@ std::string provenance(const Results& r) {
 }
 
 std::string page_html(const Results& r) {
-  std::string text =
-      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"/>\n<meta name=\"viewport\" "
-      "content=\"width=device-width,initial-scale=1\"/>\n<title>A skewed slot \u2013 dovetail</title>\n<style>" +
-      report::plot_style() + report::page_style() +
-      "</style></head>\n<body><main>\n<header><h1>A straight slot against a "
-      "skewed one</h1>\n<p class=\"lead\">" +
-      escape(lead(r)) + "</p>\n";
+  std::string text = report::page_begin("A skewed slot \u2013 dovetail") +
+                     "<header><h1>A straight slot against a skewed one</h1>\n<p class=\"lead\">" + escape(lead(r)) +
+                     "</p>\n";
   if (r.quick) text += "<p class=\"flag\">A quick look on a coarse mesh: no evidence.</p>\n";
   text +=
       "<p>Broached slots often run at an angle to the axis of rotation, so that the foot suits the aerofoil's stagger. "
@@ -189,7 +174,7 @@ std::string page_html(const Results& r) {
       "spin-up</h2>\n" +
       joint_table(r) + "<div class=\"grid2\" style=\"margin-top:1rem\">\n" + report::plot_figure(pressure_plot(r)) +
       report::plot_figure(slip_plot(r)) + "</div>\n" + maps(r) + "</section>\n" + wear_table(r);
-  return text + provenance(r) + "</main></body></html>\n";
+  return text + provenance(r) + report::kPageEnd;
 }
 
 Json json_of(const Results& r) {

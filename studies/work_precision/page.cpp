@@ -166,11 +166,7 @@ std::string provenance(const Circumstances& made) {
 }  // namespace
 
 std::string page_html(const Results& results) {
-  std::string text =
-      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"/>\n"
-      "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"/>\n<title>Speed against error \u2013 "
-      "dovetail</title>\n<style>" +
-      report::plot_style() + report::page_style() + kStyle + "</style></head>\n<body><main>\n";
+  std::string text = report::page_begin("Speed against error \u2013 dovetail", kStyle);
   text +=
       "<header>\n<h1>Speed against error</h1>\n<p class=\"lead\">What each setting of the contact engine costs and "
       "errs, and where its defaults stand</p>\n";
@@ -185,7 +181,7 @@ std::string page_html(const Results& results) {
       "edge is a run that failed, at the time it took to fail.</p>\n</header>\n";
   for (const Diagram& diagram : results.diagrams) text += diagram_section(diagram);
   text += growth_section(results.growth) + provenance(results.made);
-  return text + "</main></body></html>\n";
+  return text + report::kPageEnd;
 }
 
 void write(const std::filesystem::path& folder, const Results& results) {

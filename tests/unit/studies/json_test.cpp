@@ -65,10 +65,10 @@ TEST(WearJson, AHistoryEndsWithItsLastState) {
 }
 
 TEST(WearJson, OnlyRestIsAnAsymptote) {
-  EXPECT_EQ(wear_status(history(wear::HistoryEnd::steady_rate)), "no_asymptote");
+  EXPECT_EQ(wear_status(history(wear::HistoryEnd::steady_rate)), wear::Verdict::no_asymptote);
   for (const wear::HistoryEnd end :
        {wear::HistoryEnd::cycles, wear::HistoryEnd::steps, wear::HistoryEnd::failed, wear::HistoryEnd::interrupted})
-    EXPECT_EQ(wear_status(history(end)), "not_converged");
+    EXPECT_EQ(wear_status(history(end)), wear::Verdict::not_converged);
 }
 
 TEST(WearJson, AnAsymptoteHasOneStateAndNoNumberOfCycles) {
@@ -80,7 +80,7 @@ TEST(WearJson, AnAsymptoteHasOneStateAndNoNumberOfCycles) {
   asymptote.other_states = {
       {.found_by = wear::FoundBy::release, .depth = Eigen::Vector2d(5e-7, 0), .worn_volume = 2e-10}};
   WearAnswer answer;
-  answer.status = "asymptote";
+  answer.status = wear::Verdict::asymptote;
   answer.asymptote = asymptote;
   answer.solves = 9;
   const Json json = Json::parse(wear_json({.frequency_hz = 490}, answer));
@@ -97,12 +97,12 @@ TEST(WearJson, AnAsymptoteHasOneStateAndNoNumberOfCycles) {
 
 TEST(WearJson, WearWithoutEndHasRatesAndNoVolume) {
   WearAnswer answer;
-  answer.status = "no_asymptote";
-  answer.asymptote = wear::Asymptote{};
-  answer.asymptote->verdict = wear::Verdict::no_asymptote;
-  answer.asymptote->depth = Eigen::Vector2d(1e-3, 1e-3);  // where the history was left
-  answer.asymptote->rate = Eigen::Vector2d(2e-12, 2e-12);
-  answer.asymptote->worn_volume = 3e-10;
+  answer.status = wear::Verdict::no_asymptote;
+  wear::Asymptote& asymptote = answer.asymptote.emplace();
+  asymptote.verdict = wear::Verdict::no_asymptote;
+  asymptote.depth = Eigen::Vector2d(1e-3, 1e-3);  // where the history was left
+  asymptote.rate = Eigen::Vector2d(2e-12, 2e-12);
+  asymptote.worn_volume = 3e-10;
   const Json json = Json::parse(wear_json({.frequency_hz = 490}, answer));
   EXPECT_EQ(json["status"], "no_asymptote");
   EXPECT_EQ(json["worn_volume_m3"], Json({nullptr}));
@@ -130,7 +130,7 @@ TEST(WearJson, ASpreadNamesEveryMemberEvenTheFailedOnes) {
                     .members = 2,
                     .failed = 1}};
   WearAnswer answer;
-  answer.status = "asymptote";
+  answer.status = wear::Verdict::asymptote;
   WearQuestion question{.frequency_hz = 490};
   question.spread = spread;
   const Json json = Json::parse(wear_json(question, answer))["spread"]["friction"];
@@ -146,13 +146,13 @@ TEST(WearJson, ASpreadNamesEveryMemberEvenTheFailedOnes) {
 TEST(WearJson, ABandSaysWhichFrequencyIsTheWorst) {
   WearBand band;
   band.frequencies_hz = {480, 490};
-  band.status = {"asymptote", "asymptote"};
+  band.status = {wear::Verdict::asymptote, wear::Verdict::asymptote};
   band.volume = {1, 2};
   band.largest_depth = {1, 2};
   band.worst = 1;
   band.envelope = Eigen::Vector2d(2, 1);
   WearAnswer answer;
-  answer.status = "asymptote";
+  answer.status = wear::Verdict::asymptote;
   WearQuestion question{.frequency_hz = 490, .follow = "band"};
   question.band = &band;
   const Json json = Json::parse(wear_json(question, answer));
