@@ -152,6 +152,8 @@ StoredHistory read_history(const std::string& file, Eigen::Index nodes) {
     stored.increment = choice.value("increment_m", 0.0);
     stored.depth_scale = choice.value("depth_scale_m", 0.0);
     stored.history = history_of(json, nodes);
+  } catch (const InputError&) {
+    throw;
   } catch (const std::exception& error) {
     cannot_resume(file, std::string("is incomplete: ") + error.what());
   }
