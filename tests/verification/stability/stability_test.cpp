@@ -207,7 +207,7 @@ TEST(Stability, FindsTheMiddleBranchOfAClearanceUnstable) {
     steady::State state;
     for (const double sign : {1.0, -1.0}) {
       state = paths::steady_state({reduced, {}, {.harmonics = harmonics, .samples = 1024}}, omega,
-                                   clearance_guess(sign * starts[i], omega, harmonics));
+                                  clearance_guess(sign * starts[i], omega, harmonics));
       if (state.status == Status::converged && std::abs(state.amplitudes(0) - starts[i]) < 0.3 * starts[i]) break;
     }
     ASSERT_EQ(state.status, Status::converged);
