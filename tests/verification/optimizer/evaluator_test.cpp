@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "optimizer/problem.hpp"
-#include "reduction/accuracy.hpp"
+#include "tests/unit/reduction/stiffness_error.hpp"
 #include "tests/verification/optimizer/coarse_scene.hpp"
 #include "wear/history.hpp"
 #include "wear/measures.hpp"
