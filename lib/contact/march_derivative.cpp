@@ -14,13 +14,17 @@ struct Tangent {
   Eigen::MatrixXd slip_force;  // S = d lambda_x,T, column r, [m, d-1]
   Eigen::MatrixXd previous;    // S of the sample before
   Eigen::VectorXd angle;       // d angle [m]
+  Eigen::VectorXd load = {};   // d of the sum of lambda_N |d lambda_x,T| [m]
 };
+
+/// The basis functions at a sample.
+using Row = Eigen::Ref<const Eigen::VectorXd>;
 
 // d lambda_x,T after a slip: d lambda_u,T - limit n d(angle) - mu t d lambda_u,N.
 template <int Directions>
-void slip_tangent(const Step& step, const Memory& before, const Memory& after, double friction, const double* row,
-                  Eigen::Index coefficients, Tangent<Directions>& tangent) {
-  const Eigen::Index k = coefficients;
+void slip_tangent(const Step& step, const Memory& before, const Memory& after, double friction, const Row& row,
+                  Tangent<Directions>& tangent) {
+  const Eigen::Index k = row.size();
   if constexpr (Directions == 1) {
     const double sign = std::copysign(1.0, step.trial[0]);
     for (Eigen::Index j = 0; j < k; ++j) {
@@ -71,7 +75,8 @@ void slip_tangent(const Step& step, const Memory& before, const Memory& after, d
 }
 
 template <int Directions>
-void separation_tangent(const double* row, Eigen::Index k, Tangent<Directions>& tangent) {
+void separation_tangent(const Row& row, Tangent<Directions>& tangent) {
+  const Eigen::Index k = row.size();
   tangent.slip_force.setZero();
   for (int r = 0; r < Directions; ++r)
     for (Eigen::Index j = 0; j < k; ++j) tangent.slip_force((1 + r) * k + j, r) = row[j];
@@ -79,8 +84,9 @@ void separation_tangent(const double* row, Eigen::Index k, Tangent<Directions>& 
 
 // d lambda_x,T where contact begins or ends: lambda_u,T there, with the place itself moving.
 template <int Directions>
-void crossing_tangent(const double* previous, const double* prediction, const Step& step, const double* row_before,
-                      const double* row, Eigen::Index k, Eigen::MatrixXd& slope) {
+void crossing_tangent(const double* previous, const double* prediction, const Step& step, const Row& row_before,
+                      const Row& row, Eigen::MatrixXd& slope) {
+  const Eigen::Index k = row.size();
   slope.setZero();
   const double jump = prediction[0] - previous[0];
   for (int r = 0; r < Directions; ++r) {
@@ -105,14 +111,13 @@ bool orbit_tangent(const double* prediction, const NodeLaw& law, const Eigen::Ma
     const Memory before = memory;
     const Eigen::Index earlier = (n + rows.cols() - 1) % rows.cols();
     const Step step = sample_step<2>(prediction + 3 * earlier, prediction + 3 * n, law.friction, rule, memory);
-    const double* row = rows.col(n).data();
     if (step.touched)
-      crossing_tangent<2>(prediction + 3 * earlier, prediction + 3 * n, step, rows.col(earlier).data(), row, k,
+      crossing_tangent<2>(prediction + 3 * earlier, prediction + 3 * n, step, rows.col(earlier), rows.col(n),
                           wide.slip_force);
     if (step.state == SampleState::separated)
-      separation_tangent<2>(row, k, wide);
+      separation_tangent<2>(rows.col(n), wide);
     else if (step.state == SampleState::slipping)
-      slip_tangent<2>(step, before, memory, law.friction, row, k, wide);
+      slip_tangent<2>(step, before, memory, law.friction, rows.col(n), wide);
   }
   // The angle only matters when the first sample goes on rotating from the last.
   if (!memory.slipped) wide.angle.setZero();
@@ -139,10 +144,101 @@ void reorder(const Eigen::MatrixXd& by_direction, Eigen::Index k, Eigen::Index d
         for (Eigen::Index j = 0; j < k; ++j) result(j * d + r, l * d + s) = by_direction(r * k + j, s * k + l);
 }
 
+/// Where the derivative of a march begins.
+struct Beginning {
+  Memory memory = {};
+  long sample = 0;  ///< the first to march, counted from the beginning of the march
+};
+
+/// Begins where the march forgot its history last; after an extrapolation on the periodic orbit reached. `tangent` is
+/// that of the state there.
+template <int Directions>
+Beginning beginning_of(const double* prediction, const NodeLaw& law, const Eigen::MatrixXd& rows, SlipReturn rule,
+                       const MarchResult& result, Tangent<Directions>& tangent) {
+  const DerivativeStart& start = result.start;
+  const long samples = rows.cols();
+  if constexpr (Directions == 2)
+    if (result.extrapolated && result.status == Status::converged &&
+        orbit_tangent(prediction, law, rows, rule, start.orbit, tangent))
+      return {.memory = start.orbit, .sample = (result.periods - 1) * samples};
+  Beginning beginning{.memory = start.memory, .sample = start.sample + 1};
+  if (start.sample < 0) {
+    beginning.memory = {};
+    for (int r = 0; r < Directions; ++r) beginning.memory.slip_force[r] = law.tangential_penalty * law.slip_origin(r);
+    return beginning;
+  }
+  const long n = start.sample % samples;
+  const double* here = prediction + (1 + Directions) * n;
+  if (!(here[0] > 0)) {
+    separation_tangent<Directions>(rows.col(n), tangent);
+  } else if constexpr (Directions == 1) {
+    Step step;
+    step.state = SampleState::slipping;
+    // lambda_T = lambda_u,T - lambda_x,T points along the slip.
+    step.trial[0] = here[1] - beginning.memory.slip_force[0];
+    slip_tangent<Directions>(step, beginning.memory, beginning.memory, law.friction, rows.col(n), tangent);
+  }
+  return beginning;
+}
+
+/// lambda_T = lambda_u,T - lambda_x,T: D_T = I - sum_n a_n S_n, with S constant while the node sticks, so one product
+/// over the runs of constant S is enough.
+template <int Directions>
+class Runs {
+ public:
+  Runs(Eigen::Index k, Eigen::Index m, Eigen::Index samples)
+      : weights_(k, samples + 1), slopes_(m * Directions, samples + 1), weight_(Eigen::VectorXd::Zero(k)) {}
+
+  template <class Column>
+  void add(const Column& analysis) {
+    weight_ += analysis;
+  }
+  void close(const Eigen::MatrixXd& slope) {
+    weights_.col(count_) = weight_;
+    Eigen::Map<Eigen::MatrixXd>(slopes_.col(count_).data(), slope.rows(), Directions) = slope;
+    ++count_;
+    weight_.setZero();
+  }
+  [[nodiscard]] Eigen::MatrixXd product() const {
+    return weights_.leftCols(count_) * slopes_.leftCols(count_).transpose();
+  }
+
+ private:
+  Eigen::MatrixXd weights_, slopes_;
+  Eigen::VectorXd weight_;
+  Eigen::Index count_ = 0;
+};
+
+/// Adds to `tangent.load` what the step to sample n does.
+template <int Directions>
+void add_load_slope(const double* prediction, const Step& step, Eigen::Index n, const Eigen::MatrixXd& rows,
+                    const MarchResult& result, Tangent<Directions>& tangent) {
+  constexpr Eigen::Index d = 1 + Directions;
+  const Eigen::Index earlier = (n + rows.cols() - 1) % rows.cols(), k = rows.rows();
+  const double load = (result.force(n, 0) + result.force(earlier, 0)) / 2;
+  double delta[2] = {0, 0}, square = 0;
+  for (int r = 0; r < Directions; ++r) {
+    delta[r] = step.end[r] - step.origin[r];
+    square += delta[r] * delta[r];
+  }
+  if (load <= 0 || square <= 0) return;
+  const double length = std::sqrt(square);
+  Eigen::MatrixXd end;  // d lambda_x,T where contact ends
+  if (step.opened) {
+    end.resize(tangent.load.size(), Directions);
+    crossing_tangent<Directions>(prediction + d * earlier, prediction + d * n, step, rows.col(earlier), rows.col(n),
+                                 end);
+  }
+  for (int r = 0; r < Directions; ++r)
+    tangent.load +=
+        (load * delta[r] / length) * ((step.opened ? end : tangent.slip_force).col(r) - tangent.previous.col(r));
+  if (prediction[d * n] > 0) tangent.load.head(k) += (length / 2) * rows.col(n);
+  if (prediction[d * earlier] > 0) tangent.load.head(k) += (length / 2) * rows.col(earlier);
+}
+
 template <int Directions>
 void differentiate_node(const double* prediction, const NodeLaw& law, const numerics::FourierBasis& basis,
                         SlipReturn rule, MarchResult& result) {
-  const DerivativeStart& start = result.start;
   constexpr Eigen::Index d = 1 + Directions;
   const Eigen::Index k = basis.coefficients(), m = d * k;
   const int samples = basis.samples();
@@ -156,104 +252,45 @@ void differentiate_node(const double* prediction, const NodeLaw& law, const nume
   const Eigen::MatrixXd& analysis = basis.analysis_table();
   Tangent<Directions> tangent{.slip_force = Eigen::MatrixXd::Zero(m, Directions),
                               .previous = Eigen::MatrixXd::Zero(m, Directions),
-                              .angle = Eigen::VectorXd::Zero(m)};
-  Eigen::MatrixXd end(m, Directions);  // d lambda_x,T where contact ends
-  Memory memory = start.memory;
+                              .angle = Eigen::VectorXd::Zero(m),
+                              .load = Eigen::VectorXd::Zero(m)};
+  auto [memory, first] = beginning_of<Directions>(prediction, law, rows, rule, result, tangent);
   const long last = static_cast<long>(result.periods) * samples;
-  const long last_period = last - samples;
-  long first = start.sample + 1;
-  bool on_orbit = false;
-  if constexpr (Directions == 2)
-    on_orbit = result.extrapolated && result.status == Status::converged &&
-               orbit_tangent(prediction, law, rows, rule, start.orbit, tangent);
-  if (on_orbit) {
-    memory = start.orbit;
-    first = last_period;
-  } else if (start.sample < 0) {
-    memory = {};
-    for (int r = 0; r < Directions; ++r) memory.slip_force[r] = law.tangential_penalty * law.slip_origin(r);
-  } else {
-    const auto n = static_cast<int>(start.sample % samples);
-    const double* row = rows.col(n).data();
-    if (prediction[d * n] > 0) {
-      if constexpr (Directions == 1) {
-        Step step;
-        step.state = SampleState::slipping;
-        // lambda_T = lambda_u,T - lambda_x,T points along the slip.
-        step.trial[0] = prediction[d * n + 1] - memory.slip_force[0];
-        slip_tangent<Directions>(step, memory, memory, law.friction, row, k, tangent);
-      }
-    } else {
-      separation_tangent<Directions>(row, k, tangent);
-    }
-  }
-
-  // lambda_T = lambda_u,T - lambda_x,T: D_T = I - sum_n a_n S_n, with S constant while the node sticks, so one product
-  // over the runs of constant S is enough.
-  Eigen::MatrixXd run_weights(k, samples + 1), run_slopes(m * Directions, samples + 1);
-  Eigen::Index runs = 0;
-  Eigen::VectorXd weight = Eigen::VectorXd::Zero(k);
-  const auto close_run = [&] {
-    run_weights.col(runs) = weight;
-    Eigen::Map<Eigen::MatrixXd>(run_slopes.col(runs).data(), m, Directions) = tangent.slip_force;
-    ++runs;
-    weight.setZero();
-  };
+  Runs<Directions> runs(k, m, samples);
   Eigen::MatrixXd derivative = Eigen::MatrixXd::Identity(m, m);
-  Eigen::VectorXd load_slope = Eigen::VectorXd::Zero(m);
   for (long i = first; i < last; ++i) {
     const auto n = static_cast<int>(i % samples);
-    const bool counts = i >= last_period;
-    const double* row = rows.col(n).data();
+    const bool counts = i >= last - samples;
     const Memory before = memory;
     const int earlier = (n + samples - 1) % samples;
     const Step step = sample_step<Directions>(prediction + d * earlier, prediction + d * n, law.friction, rule, memory);
-    const bool changes = step.state != SampleState::stuck || step.touched;
-    if (changes) {
-      if (counts) close_run();
+    if (step.state != SampleState::stuck || step.touched) {
+      if (counts) runs.close(tangent.slip_force);
       if (step.touched)
-        crossing_tangent<Directions>(prediction + d * earlier, prediction + d * n, step, rows.col(earlier).data(), row,
-                                     k, tangent.slip_force);
+        crossing_tangent<Directions>(prediction + d * earlier, prediction + d * n, step, rows.col(earlier), rows.col(n),
+                                     tangent.slip_force);
       tangent.previous = tangent.slip_force;
       if (step.state == SampleState::separated)
-        separation_tangent<Directions>(row, k, tangent);
+        separation_tangent<Directions>(rows.col(n), tangent);
       else if (step.state == SampleState::slipping)
-        slip_tangent<Directions>(step, before, memory, law.friction, row, k, tangent);
+        slip_tangent<Directions>(step, before, memory, law.friction, rows.col(n), tangent);
     }
     if (!counts) continue;
-    weight += analysis.col(n);
+    runs.add(analysis.col(n));
     if (step.state == SampleState::separated)
       derivative.topLeftCorner(k, k).noalias() -= analysis.col(n) * rows.col(n).transpose();
-    const bool separates = step.state == SampleState::separated;
-    if (!(step.state == SampleState::slipping || separates)) continue;
-    const bool loaded_before = prediction[d * earlier] > 0, loaded = prediction[d * n] > 0;
-    const double load = (result.force(n, 0) + result.force(earlier, 0)) / 2;
-    double delta[2] = {0, 0}, square = 0;
-    for (int r = 0; r < Directions; ++r) {
-      delta[r] = step.end[r] - step.origin[r];
-      square += delta[r] * delta[r];
-    }
-    if (load <= 0 || square <= 0) continue;
-    const double length = std::sqrt(square);
-    if (step.opened)
-      crossing_tangent<Directions>(prediction + d * earlier, prediction + d * n, step, rows.col(earlier).data(), row, k,
-                                   end);
-    for (int r = 0; r < Directions; ++r)
-      load_slope +=
-          (load * delta[r] / length) * ((step.opened ? end : tangent.slip_force).col(r) - tangent.previous.col(r));
-    if (loaded) load_slope.head(k) += (length / 2) * rows.col(n);
-    if (loaded_before) load_slope.head(k) += (length / 2) * rows.col(earlier);
+    if (step.state != SampleState::stuck) add_load_slope<Directions>(prediction, step, n, rows, result, tangent);
   }
-  close_run();
+  runs.close(tangent.slip_force);
 
-  const Eigen::MatrixXd product = run_weights.leftCols(runs) * run_slopes.leftCols(runs).transpose();
+  const Eigen::MatrixXd product = runs.product();
   for (int r = 0; r < Directions; ++r) derivative.middleRows((1 + r) * k, k) -= product.middleCols(r * m, m);
   // Analysis times synthesis is the identity only to rounding: where nothing separates, say so exactly.
   if (result.always_separated) derivative.setZero();
   reorder(derivative, k, d, result.force_derivative);
   for (Eigen::Index r = 0; r < d; ++r)
     for (Eigen::Index j = 0; j < k; ++j)
-      result.slip_load_derivative(j * d + r) = load_slope(r * k + j) / law.tangential_penalty;
+      result.slip_load_derivative(j * d + r) = tangent.load(r * k + j) / law.tangential_penalty;
 }
 
 template <int Directions>
