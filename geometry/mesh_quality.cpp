@@ -82,10 +82,7 @@ void assess_element(const fem::Mesh& mesh, int e, MeshQuality& quality) {
   const double scaled = smallest / ideal<Element>(x, triangles);
   // Written so that a NaN counts as inverted.
   if (!(smallest > 0)) ++quality.inverted_elements;
-  if (!(scaled >= quality.minimum_scaled_jacobian)) {
-    quality.minimum_scaled_jacobian = scaled;
-    quality.worst_element = e;
-  }
+  if (!(scaled >= quality.minimum_scaled_jacobian)) quality.minimum_scaled_jacobian = scaled;
   for (const Sides& sides : triangles) add_angles(sides, quality);
 }
 

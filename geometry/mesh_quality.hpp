@@ -15,7 +15,6 @@ struct MeshQuality {
   double minimum_angle = 0;   ///< smallest angle of the straight triangles through the corners, rad
   double maximum_angle = 0;   ///< largest such angle, rad
   int inverted_elements = 0;  ///< elements with det J <= 0 at a sample point
-  int worst_element = -1;     ///< where minimum_scaled_jacobian occurs
 };
 
 /// Below these a moved plane mesh is given up and the design is meshed afresh.

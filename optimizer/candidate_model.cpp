@@ -105,6 +105,20 @@ double jacobian_operations(const SolverSettings& solver, const CandidateModel& c
                                      solver.samples);
 }
 
+std::map<std::string, double> sizes_of(const Scene& scene, const CandidateModel& candidate) {
+  const fem::Mesh& mesh = candidate.mesh.sector.mesh;
+  return {{"nodes", mesh.node_count()},
+          {"elements", mesh.element_count()},
+          {"dofs", static_cast<double>(candidate.system.size())},
+          {"contact_nodes", static_cast<double>(candidate.cells.count())},
+          {"modes", scene.solver.modes},
+          {"reduced_size", static_cast<double>(candidate.model.size())},
+          {"harmonics", scene.solver.harmonics},
+          {"samples", scene.solver.samples},
+          {"remeshed", candidate.mesh.remeshed ? 1.0 : 0.0},
+          {"minimum_scaled_jacobian", candidate.mesh.quality.minimum_scaled_jacobian}};
+}
+
 }  // namespace
 
 std::vector<fem::Material> materials(const Scene& scene) {
@@ -195,8 +209,7 @@ CandidateModel ModelBuilder::build(const Scene& scene) const {
   const std::vector<fem::FlankCells> cells = cell_grid(scene, candidate.mesh.sector, cell_lengths(scene));
   candidate.cells = fem::contact_cells(candidate.mesh.sector, cells);
   const std::vector<fem::Material> bodies = materials(scene);
-  const fem::Mesh& mesh = candidate.mesh.sector.mesh;
-  const fem::Assembler assembler(mesh);
+  const fem::Assembler assembler(candidate.mesh.sector.mesh);
   candidate.system = fem::build_sector_system(candidate.mesh.sector, bodies, assembler);
   candidate.timings_s["assembly"] = watch.lap();
   renew_budget(scene.solver, candidate);
@@ -221,16 +234,7 @@ CandidateModel ModelBuilder::build(const Scene& scene) const {
   candidate.timings_s["preload"] = watch.lap();
   if (!candidate.converged()) return candidate;
 
-  candidate.sizes = {{"nodes", mesh.node_count()},
-                     {"elements", mesh.element_count()},
-                     {"dofs", static_cast<double>(candidate.system.size())},
-                     {"contact_nodes", static_cast<double>(candidate.cells.count())},
-                     {"modes", scene.solver.modes},
-                     {"reduced_size", static_cast<double>(candidate.model.size())},
-                     {"harmonics", scene.solver.harmonics},
-                     {"samples", scene.solver.samples},
-                     {"remeshed", candidate.mesh.remeshed ? 1.0 : 0.0},
-                     {"minimum_scaled_jacobian", candidate.mesh.quality.minimum_scaled_jacobian}};
+  candidate.sizes = sizes_of(scene, candidate);
   return candidate;
 }
 

@@ -86,9 +86,7 @@ std::string dynamics(const Scene& scene, const Computation& how, const ContactFi
   Evaluation& evaluation = result.evaluation;
   std::map<std::string, double>& responses = evaluation.responses;
   const CandidateModel& model = result.model;
-  steady::Joint joint{.model = model.condensed, .options = steady_options(scene.solver)};
-  joint.options.budget = model.budget;
-  joint.options.penalty_scale = how.penalty_scale;
+  const steady::Joint joint = joint_of(scene, model, how.penalty_scale);
   Stopwatch watch;
 
   const double start =
@@ -150,6 +148,13 @@ steady::Options steady_options(const SolverSettings& settings) {
       .solver = settings.solver,
       .normal_penalty = settings.pseudo_penalty_normal > 0 ? settings.pseudo_penalty_normal : settings.pseudo_penalty,
       .tangential_penalty = settings.pseudo_penalty};
+}
+
+steady::Joint joint_of(const Scene& scene, const CandidateModel& model, double penalty_scale) {
+  steady::Joint joint{.model = model.condensed, .options = steady_options(scene.solver)};
+  joint.options.budget = model.budget;
+  joint.options.penalty_scale = penalty_scale;
+  return joint;
 }
 
 CandidateResult computed(const Scene& scene, CandidateModel model, const Computation& how) {

@@ -6,9 +6,9 @@
 
 #include "optimizer/candidate_model.hpp"
 #include "optimizer/contact_fit.hpp"
-#include "optimizer/error_bars.hpp"
 #include "optimizer/evaluation.hpp"
 #include "optimizer/fillet_stress.hpp"
+#include "optimizer/other_meshes.hpp"
 #include "paths/resonance.hpp"
 #include "wear/asymptote.hpp"
 #include "wear/drift.hpp"
@@ -62,5 +62,8 @@ class SceneEvaluator {
 
 /// Options of every steady state of a scene.
 [[nodiscard]] steady::Options steady_options(const SolverSettings& settings);
+
+/// The joint of a candidate with these options, on its budget.
+[[nodiscard]] steady::Joint joint_of(const Scene& scene, const CandidateModel& model, double penalty_scale = 1);
 
 }  // namespace dovetail::optimizer

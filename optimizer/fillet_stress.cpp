@@ -40,8 +40,7 @@ Eigen::VectorXd largest_von_mises(const Eigen::MatrixXd& coefficients, Eigen::In
   return largest;
 }
 
-}  // namespace
-
+/// Fourier coefficients of the reduced coordinates, [n, 2H+1], of a converged steady state with linearisation.
 Eigen::MatrixXd reduced_coordinates(const steady::State& state) {
   assert(state.status == Status::converged && state.tangent);
   const steady::Problem& residual = state.tangent->problem();
@@ -59,6 +58,8 @@ Eigen::MatrixXd reduced_coordinates(const steady::State& state) {
   }
   return result;
 }
+
+}  // namespace
 
 FilletStress fillet_stress(const Scene& scene, const CandidateModel& candidate, const steady::State& state,
                            std::span<const int> nodes, const Eigen::VectorXd& share, double poisson_ratio) {

@@ -8,9 +8,6 @@
 
 namespace dovetail::optimizer {
 
-/// Fourier coefficients of the reduced coordinates, [n, 2H+1], of a converged steady state with linearisation.
-[[nodiscard]] Eigen::MatrixXd reduced_coordinates(const steady::State& state);
-
 /// Stress on a fillet while the blade vibrates.
 struct FilletStress {
   double aggregate = 0;  ///< Kreisselmeier-Steinhauser aggregate along the fillets, weighted by the nodes' share, Pa

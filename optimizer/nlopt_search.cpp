@@ -174,10 +174,6 @@ SearchOutcome augmented_lagrangian(const Algorithm& algorithm, SearchFunctions& 
 
 }  // namespace
 
-bool is_nlopt_algorithm(const std::string& name) {
-  return find(name) != nullptr;
-}
-
 bool is_global(const std::string& name) {
   return find(name) != nullptr && find(name)->global;
 }

@@ -23,8 +23,7 @@ namespace dovetail::optimizer {
 [[nodiscard]] SearchOutcome nlopt_search(const std::string& name, SearchFunctions& functions,
                                          const std::vector<double>& start, double step, std::uint64_t seed);
 
-/// Whether nlopt_search knows the name, and whether the algorithm searches the whole box (no restarts then).
-[[nodiscard]] bool is_nlopt_algorithm(const std::string& name);
+/// Whether the algorithm searches the whole box (no restarts then).
 [[nodiscard]] bool is_global(const std::string& name);
 
 }  // namespace dovetail::optimizer

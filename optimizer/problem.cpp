@@ -201,29 +201,4 @@ void require_responses(const Problem& problem, const Evaluation& evaluation) {
   if (!found.empty()) throw InputError(std::move(found));
 }
 
-std::optional<ProblemGradient> gradient(const Problem& problem, const Evaluation& evaluation) {
-  const std::size_t n = problem.space.size();
-  // Adds factor times the derivative of r (or |r|, whose kink at 0 takes the right-hand side).
-  const auto add = [&](const std::string& name, bool absolute, double factor, std::vector<double>& sum) {
-    const auto found = evaluation.derivatives.find(name);
-    if (found == evaluation.derivatives.end() || found->second.size() != n) return false;
-    if (absolute && response(evaluation, name, false) < 0) factor = -factor;
-    for (std::size_t i = 0; i < n; ++i) {
-      if (!std::isfinite(found->second[i])) return false;
-      sum[i] += factor * found->second[i];
-    }
-    return true;
-  };
-  ProblemGradient result;
-  result.objective.assign(n, 0.0);
-  for (const ObjectiveTerm& term : problem.objective)
-    if (!add(term.response, term.absolute, term.weight / scale_of(term), result.objective)) return std::nullopt;
-  for (const Limit& limit : limits(problem)) {
-    result.constraints.emplace_back(n, 0.0);
-    if (!add(limit.of->response, limit.of->absolute, limit.sign / limit.scale, result.constraints.back()))
-      return std::nullopt;
-  }
-  return result;
-}
-
 }  // namespace dovetail::optimizer

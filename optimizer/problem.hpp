@@ -85,11 +85,4 @@ void annotate(const Problem& problem, double tolerance, Evaluation& evaluation);
 /// A response the problem names is absent from a converged evaluation: InputError with the nearest name there is.
 void require_responses(const Problem& problem, const Evaluation& evaluation);
 
-/// Gradients by file-unit design variables assembled from Evaluation::derivatives; empty optional when one is missing.
-struct ProblemGradient {
-  std::vector<double> objective;                 ///< [n]
-  std::vector<std::vector<double>> constraints;  ///< [constraint][n], order of constraint_names
-};
-[[nodiscard]] std::optional<ProblemGradient> gradient(const Problem& problem, const Evaluation& evaluation);
-
 }  // namespace dovetail::optimizer

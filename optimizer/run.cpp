@@ -9,7 +9,6 @@
 #include "optimizer/finer_limits.hpp"
 #include "optimizer/ipopt_search.hpp"
 #include "optimizer/nlopt_search.hpp"
-#include "optimizer/random_stream.hpp"
 #include "optimizer/session.hpp"
 #include "optimizer/space_filling.hpp"
 
@@ -31,7 +30,6 @@ SearchOutcome search_once(EvaluationSession& session, double step, int run) {
   const OptimizerOptions& options = session.options();
   SearchFunctions functions(session, options.algorithm);
   const std::vector<double> start = session.unit(functions.reference());
-  ++session.statistics().local_runs;
   try {
     if (options.algorithm == "ipopt") return ipopt_search(functions, start);
     const auto seed = static_cast<std::uint64_t>(options.seed) + static_cast<std::uint64_t>(run) * 1000003U;
@@ -204,32 +202,6 @@ OptimizationResult run_optimization(const Problem& problem, const Evaluator& eva
   }
   result.finer = finer.checks();
   return result;
-}
-
-OptimizationResult random_search(const Problem& problem, const Evaluator& evaluator, int feasible_designs,
-                                 const OptimizerOptions& options, const RunHooks& hooks) {
-  constexpr int kDrawsPerDesign = 20;
-  OptimizerOptions budget = options;
-  budget.max_evaluations = kDrawsPerDesign * std::max(1, feasible_designs);
-  check(problem, budget);
-  EvaluationSession session(problem, evaluator, budget, hooks);
-  RandomStream random(static_cast<std::uint64_t>(options.seed));
-  int feasible = 0;
-  try {
-    while (feasible < feasible_designs) {
-      // As many as are missing for sure, so that the number of threads does not change what is drawn.
-      std::vector<std::vector<double>> points(static_cast<std::size_t>(feasible_designs - feasible));
-      for (std::vector<double>& point : points)
-        for (std::size_t i = 0; i < problem.space.size(); ++i) point.push_back(random.uniform());
-      for (const std::size_t index : session.evaluate_all(points, "random"))
-        feasible += session[index].judgement.feasible ? 1 : 0;
-    }
-    return result_of(session, Status::converged, "random search: complete");
-  } catch (const StopSearch& stop) {
-    const std::string drawn = std::to_string(session.candidates().size()) + " random candidates hold only " +
-                              std::to_string(feasible) + " feasible ones";
-    return result_of(session, stop.reason, drawn);
-  }
 }
 
 }  // namespace dovetail::optimizer

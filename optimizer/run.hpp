@@ -19,7 +19,7 @@ struct Candidate {
   std::vector<double> x;  ///< design-space order, file units
   Evaluation evaluation;
   Judgement judgement;
-  std::string phase;      ///< start | scan | NAME of the algorithm | random
+  std::string phase;      ///< start | scan | NAME of the algorithm
   bool replayed = false;  ///< answered by the journal
 };
 
@@ -65,9 +65,7 @@ struct SearchStatistics {
   int infeasible = 0;          ///< geometric rule broken
   int failed = 0;              ///< not converged
   int gradients = 0;           ///< gradients asked for
-  int gradients_supplied = 0;  ///< of these, from Evaluation::derivatives
   int gradient_fallbacks = 0;  ///< components set to 0 because no neighbour could be computed
-  int local_runs = 0;          ///< runs of the algorithm, restarts included
   int unused_records = 0;      ///< journal records the run did not come back to (0 when the replay is exact)
 };
 
@@ -100,10 +98,5 @@ struct OptimizationResult {
 /// Throws InputError for a wrong problem or options. Cost: max_evaluations evaluations; the rest is negligible.
 [[nodiscard]] OptimizationResult run_optimization(const Problem& problem, const Evaluator& evaluator,
                                                   const OptimizerOptions& options, const RunHooks& hooks = {});
-
-/// The yardstick: uniformly random candidates until `feasible_designs` of them are feasible (at most 20 times as many
-/// are drawn). options: seed, threads, constraint_tolerance.
-[[nodiscard]] OptimizationResult random_search(const Problem& problem, const Evaluator& evaluator, int feasible_designs,
-                                               const OptimizerOptions& options, const RunHooks& hooks = {});
 
 }  // namespace dovetail::optimizer

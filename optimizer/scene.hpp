@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <span>
 #include <string>
@@ -61,6 +62,10 @@ struct Scene {
   SolverSettings solver;
 
   [[nodiscard]] bool in_space() const { return type == "sector"; }
+  /// Of the flank with this index in meshes and contact cells.
+  [[nodiscard]] const geometry::FlankParameters& flank(std::size_t index) const {
+    return index == 0 ? geometry.left : geometry.right;
+  }
 };
 
 }  // namespace dovetail::optimizer

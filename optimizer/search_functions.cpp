@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string_view>
 #include <utility>
 
 namespace dovetail::optimizer {
 
 namespace {
 constexpr double kUnknownRules = -0.01;  ///< c of the rules when a computed candidate reports none
-constexpr double kRulesMatter = -0.05;   ///< rules closer than this to breaking need a gradient
 constexpr double kFailed = 2.0;          ///< scaled objective of a failed candidate above the level
 constexpr double kMostViolation = 1e3;   ///< keeps sums finite whatever a rule reports
 }  // namespace
@@ -80,34 +78,7 @@ SearchValue SearchFunctions::value(std::span<const double> unit) {
 SearchGradient SearchFunctions::gradient(std::span<const double> unit) {
   const std::size_t base = session_.evaluate(unit, phase_);
   ++session_.statistics().gradients;
-  if (std::optional<SearchGradient> known = supplied(session_[base])) {
-    ++session_.statistics().gradients_supplied;
-    return std::move(*known);
-  }
   return differences(base);
-}
-
-std::optional<SearchGradient> SearchFunctions::supplied(const Candidate& candidate) const {
-  if (!candidate.judgement.computed) return std::nullopt;
-  const std::optional<ProblemGradient> known = optimizer::gradient(session_.problem(), candidate.evaluation);
-  if (!known) return std::nullopt;
-  SearchGradient result{.objective = known->objective, .constraints = known->constraints};
-  result.constraints.emplace_back(size(), 0.0);
-  if (candidate.judgement.rules.value_or(-1.0) > kRulesMatter) {
-    std::string sharpest;
-    for (const auto& [name, c] : candidate.evaluation.constraints)
-      if (std::string_view(name).starts_with(kRulePrefix) && c == *candidate.judgement.rules) sharpest = name;
-    const auto found = candidate.evaluation.derivatives.find(sharpest);
-    if (found == candidate.evaluation.derivatives.end() || found->second.size() != size()) return std::nullopt;
-    result.constraints.back() = found->second;
-  }
-  const std::vector<DesignVariable>& variables = session_.problem().space.variables();
-  for (std::size_t i = 0; i < size(); ++i) {
-    const double range = variables[i].upper - variables[i].lower;
-    result.objective[i] *= range / scale_;
-    for (std::vector<double>& c : result.constraints) c[i] *= range;
-  }
-  return result;
 }
 
 SearchGradient SearchFunctions::differences(std::size_t base) {

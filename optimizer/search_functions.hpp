@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -32,8 +31,7 @@ struct SearchGradient {
 ///   So the way back into the geometry is downhill.
 /// - failed: level + 2, response constraints as at the best, and 1 for the rules.
 ///
-/// Gradients come from Evaluation::derivatives when those hold every response (and the rules when one is within 0.05 of
-/// breaking), else from finite differences of difference_step(): forward, turned round at the upper bound, or central.
+/// Gradients come from finite differences of difference_step(): forward, turned round at the upper bound, or central.
 /// A neighbour without physics is replaced by the one on the other side; when that has none either, the component is 0
 /// (the algorithm then moves along the other variables) and counted as a fall-back.
 class SearchFunctions {
@@ -52,7 +50,6 @@ class SearchFunctions {
   /// c of a limit as algorithms see it.
   [[nodiscard]] double aimed(const Judgement& judgement, std::size_t j) const;
   [[nodiscard]] SearchValue seen(const Candidate& candidate) const;
-  [[nodiscard]] std::optional<SearchGradient> supplied(const Candidate& candidate) const;
   [[nodiscard]] SearchGradient differences(std::size_t base);
 
   EvaluationSession& session_;

@@ -19,22 +19,19 @@ constexpr double kMost = 0.2;
 /// least.
 bool ends_differ(const fem::ContactCells& cells, const std::vector<bool>& one, const std::vector<bool>& other) {
   bool apart = false;
-  std::ptrdiff_t first = 0;
-  for (const fem::FlankCells& flank : cells.flanks)
-    for (const std::vector<double>& ends : flank.across) {
-      const auto count = static_cast<std::ptrdiff_t>(ends.size()) - 1;
-      const auto in = [&](const std::vector<bool>& nodes, std::ptrdiff_t k) {
-        return k >= 0 && k < count && nodes[static_cast<std::size_t>(first + k)];
-      };
-      const auto differs = [&](std::ptrdiff_t k) { return in(one, k) != in(other, k); };
-      const auto worn = [&](std::ptrdiff_t k) { return in(one, k) && in(other, k); };
-      for (std::ptrdiff_t k = 0; k < count; ++k) {
-        if (!differs(k)) continue;
-        if (differs(k + 1) || worn(k - 1) == worn(k + 1)) return false;
-        apart = true;
-      }
-      first += count;
+  for (const fem::CellStrip& strip : cells.strips()) {
+    const auto first = static_cast<std::ptrdiff_t>(strip.first), count = static_cast<std::ptrdiff_t>(strip.count());
+    const auto in = [&](const std::vector<bool>& nodes, std::ptrdiff_t k) {
+      return k >= 0 && k < count && nodes[static_cast<std::size_t>(first + k)];
+    };
+    const auto differs = [&](std::ptrdiff_t k) { return in(one, k) != in(other, k); };
+    const auto worn = [&](std::ptrdiff_t k) { return in(one, k) && in(other, k); };
+    for (std::ptrdiff_t k = 0; k < count; ++k) {
+      if (!differs(k)) continue;
+      if (differs(k + 1) || worn(k - 1) == worn(k + 1)) return false;
+      apart = true;
     }
+  }
   return apart;
 }
 
@@ -43,30 +40,27 @@ bool ends_differ(const fem::ContactCells& cells, const std::vector<bool>& one, c
 WornChange ends_moved_by(double part, const fem::ContactCells& cells, const std::vector<bool>& worn,
                          const Eigen::VectorXd& depth) {
   WornChange moved;
-  std::size_t first = 0;
-  for (const fem::FlankCells& flank : cells.flanks)
-    for (const std::vector<double>& ends : flank.across) {
-      const std::size_t count = ends.size() - 1;
-      for (std::size_t from = 0, to = 0; from < count; from = to + 1) {
-        to = from;
-        if (!worn[first + from]) continue;
-        while (to + 1 < count && worn[first + to + 1]) ++to;
-        double open = 0;
-        if (from > 0) open += ends[from + 1] - ends[from];
-        if (to + 1 < count) open += ends[to + 1] - ends[to];
-        const double share = part * open / (ends[to + 1] - ends[from]);
-        double volume = 0, deepest = 0;
-        for (std::size_t k = first + from; k <= first + to; ++k) {
-          const auto node = static_cast<Eigen::Index>(k);
-          volume += cells.area[node] * depth[node];
-          deepest = std::max(deepest, depth[node]);
-        }
-        // Of a zone of width w the depth grows like its power 3/2, the volume like 5/2.
-        moved.volume += std::min(1.0, 2.5 * share) * volume;
-        moved.depth = std::max(moved.depth, std::min(1.0, 1.5 * share) * deepest);
+  for (const fem::CellStrip& strip : cells.strips()) {
+    const std::size_t first = strip.first, count = strip.count();
+    for (std::size_t from = 0, to = 0; from < count; from = to + 1) {
+      to = from;
+      if (!worn[first + from]) continue;
+      while (to + 1 < count && worn[first + to + 1]) ++to;
+      double open = 0;
+      if (from > 0) open += strip.length(from);
+      if (to + 1 < count) open += strip.length(to);
+      const double share = part * open / (strip.ends[to + 1] - strip.ends[from]);
+      double volume = 0, deepest = 0;
+      for (std::size_t k = first + from; k <= first + to; ++k) {
+        const auto node = static_cast<Eigen::Index>(k);
+        volume += cells.area[node] * depth[node];
+        deepest = std::max(deepest, depth[node]);
       }
-      first += count;
+      // Of a zone of width w the depth grows like its power 3/2, the volume like 5/2.
+      moved.volume += std::min(1.0, 2.5 * share) * volume;
+      moved.depth = std::max(moved.depth, std::min(1.0, 1.5 * share) * deepest);
     }
+  }
   return moved;
 }
 
@@ -97,24 +91,22 @@ double energy_left_open(const fem::ContactCells& cells, const Eigen::VectorXd& e
   constexpr double kSticks = 0.01;  // of the energy per area of its neighbour: creep of nodes that all but stick
   const auto density = [&](std::ptrdiff_t k) { return energy[k] / cells.area[k]; };
   double open = 0;
-  std::ptrdiff_t first = 0;
-  for (const fem::FlankCells& flank : cells.flanks)
-    for (const std::vector<double>& ends : flank.across) {
-      const std::ptrdiff_t last = first + static_cast<std::ptrdiff_t>(ends.size()) - 2;
-      const auto in = [&](std::ptrdiff_t k) { return k >= first && k <= last; };
-      for (std::ptrdiff_t k = first; k <= last; ++k)
-        for (const std::ptrdiff_t way : {-1, 1}) {
-          const std::ptrdiff_t next = k + way;
-          if (energy[k] <= 0 || !in(next) || !loaded[static_cast<std::size_t>(next)] ||
-              density(next) >= kSticks * density(k))
-            continue;
-          double zone = 0;
-          for (std::ptrdiff_t i = k; in(i) && density(i) > kSticks * density(k); i -= way) zone += energy[i];
-          const double end = density(k) * (cells.area[k] + cells.area[next]) / 2;
-          open += kPart * end * std::pow(std::min(1.0, end / zone), 2);
-        }
-      first = last + 1;
-    }
+  for (const fem::CellStrip& strip : cells.strips()) {
+    const auto first = static_cast<std::ptrdiff_t>(strip.first);
+    const std::ptrdiff_t last = first + static_cast<std::ptrdiff_t>(strip.count()) - 1;
+    const auto in = [&](std::ptrdiff_t k) { return k >= first && k <= last; };
+    for (std::ptrdiff_t k = first; k <= last; ++k)
+      for (const std::ptrdiff_t way : {-1, 1}) {
+        const std::ptrdiff_t next = k + way;
+        if (energy[k] <= 0 || !in(next) || !loaded[static_cast<std::size_t>(next)] ||
+            density(next) >= kSticks * density(k))
+          continue;
+        double zone = 0;
+        for (std::ptrdiff_t i = k; in(i) && density(i) > kSticks * density(k); i -= way) zone += energy[i];
+        const double end = density(k) * (cells.area[k] + cells.area[next]) / 2;
+        open += kPart * end * std::pow(std::min(1.0, end / zone), 2);
+      }
+  }
   return open;
 }
 

@@ -211,7 +211,7 @@ class Deck {
 
   void static_step() {
     const bool contact = options_.joint == FlankJoint::contact;
-    line("*STEP{}{}", options_.large_displacements ? ",NLGEOM" : "", contact ? ",INC=10000" : "");
+    line("*STEP{}", contact ? ",INC=10000" : "");
     line("*STATIC");
     if (contact) line("{:.12g},1", 1.0 / options_.increments);
     line("*DLOAD\nALL,CENTRIF,{:.12g},0,0,0,0,0,1", options_.speed * options_.speed);

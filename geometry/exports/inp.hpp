@@ -26,7 +26,6 @@ struct InpOptions {
   bool cyclic_symmetry = true;      ///< false: the cuts are free
   fem::BoreSupport bore = fem::BoreSupport::tangential;
   double speed = 0;                     ///< Omega, rad/s, >= 0; 0: no static step, modes at rest
-  bool large_displacements = false;     ///< NLGEOM of the static step
   int increments = 10;                  ///< of the static step with contact, >= 1
   std::vector<int> nodal_diameters{0};  ///< 0 ... sectors / 2 each; empty: no frequency step
   int modes = 10;                       ///< per nodal diameter, >= 1
@@ -46,7 +45,7 @@ struct InpOptions {
 /// CUT_RIGHT, BORE, TIP, FILLETS, AXIAL, FLANK_LEFT_BLADE, FLANK_LEFT_DISK, FLANK_RIGHT_BLADE, FLANK_RIGHT_DISK;
 /// element faces FLANK_LEFT_BLADE_FACES and so on.
 ///
-/// Steps: at speed a static one with the centrifugal load (geometrically linear by default), then one of natural
+/// Steps: at speed a static one with the centrifugal load (geometrically linear), then one of natural
 /// frequencies per nodal diameter, as a perturbation of the former with its geometric stiffness, its deformed shape
 /// and spin softening. CalculiX counts every mode of a model with cyclic symmetry twice, so twice as many are asked
 /// for.

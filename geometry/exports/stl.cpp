@@ -6,7 +6,6 @@
 #include <cstring>
 
 #include "core/errors.hpp"
-#include "core/replace_file.hpp"
 #include "geometry/surface.hpp"
 
 namespace dovetail::geometry {
@@ -28,10 +27,14 @@ void append(std::string& bytes, const Eigen::Vector3d& vector) {
 
 }  // namespace
 
-std::string stl(const fem::Mesh& mesh, int body) {
+std::string stl(const fem::Mesh& mesh, const std::vector<int>& bodies) {
   if (mesh.kind != fem::ElementKind::wedge18)
     throw InputError({.file = {}, .key = "mesh", .value = "plane", .allowed = "must be in space for an STL file"});
-  const std::vector<std::array<int, 3>> triangles = surface(mesh, body);
+  std::vector<std::array<int, 3>> triangles;
+  for (const int body : bodies) {
+    const std::vector<std::array<int, 3>> of_body = surface(mesh, body);
+    triangles.insert(triangles.end(), of_body.begin(), of_body.end());
+  }
   std::string bytes = "dovetail, lengths in mm";  // not "solid": that would mean text
   bytes.resize(80, ' ');
   append(bytes, static_cast<std::uint32_t>(triangles.size()));
@@ -46,10 +49,6 @@ std::string stl(const fem::Mesh& mesh, int body) {
     append(bytes, std::uint16_t{0});
   }
   return bytes;
-}
-
-void write_stl(const std::filesystem::path& file, const fem::Mesh& mesh, int body) {
-  replace_file(file, stl(mesh, body));
 }
 
 }  // namespace dovetail::geometry

@@ -3,117 +3,32 @@
 #include <cassert>
 #include <cmath>
 
-#include "contact/sample_step.hpp"
+#include "contact/sample_tangent.hpp"
 
 namespace dovetail::contact {
 namespace {
-
-// Derivatives are rows over the coefficients of lambda_u, direction by direction while marching: index r K + k.
-template <int Directions>
-struct Tangent {
-  Eigen::MatrixXd slip_force;  // S = d lambda_x,T, column r, [m, d-1]
-  Eigen::MatrixXd previous;    // S of the sample before
-  Eigen::VectorXd angle;       // d angle [m]
-};
-
-// d lambda_x,T after a slip: d lambda_u,T - limit n d(angle) - limit' t d lambda_u,N.
-template <int Directions>
-void slip_tangent(const Step& step, const Memory& before, const Memory& after, const double* row,
-                  Eigen::Index coefficients, Tangent<Directions>& tangent) {
-  const Eigen::Index k = coefficients;
-  const double limit = step.limit.force, friction = step.limit.by_normal;
-  if constexpr (Directions == 1) {
-    const double sign = std::copysign(1.0, step.trial[0]);
-    for (Eigen::Index j = 0; j < k; ++j) {
-      tangent.slip_force(j, 0) = -sign * friction * row[j];
-      tangent.slip_force(k + j, 0) = row[j];
-    }
-  } else {
-    double* s0 = tangent.slip_force.col(0).data();
-    double* s1 = tangent.slip_force.col(1).data();
-    double* angle = tangent.angle.data();
-    const Eigen::Index m = tangent.slip_force.rows();
-    // d(angle) = weight_0 d pre_0 + weight_1 d pre_1 + weight_N d lambda_N + keep d(angle before)
-    double w0 = 0, w1 = 0, wn = 0, keep = 0;
-    if (step.rotated) {
-      const double c = before.direction[0], s = before.direction[1];
-      const double along = c * step.trial[0] + s * step.trial[1], across = c * step.trial[1] - s * step.trial[0];
-      const double sum = limit + along, scale = 2 / (sum * sum + across * across);
-      w0 = scale * (-sum * s - across * c);
-      w1 = scale * (sum * c - across * s);
-      wn = -scale * across * friction;
-      keep = 1 + scale * (-sum * along - across * across);
-    } else {
-      const double square = step.trial[0] * step.trial[0] + step.trial[1] * step.trial[1];
-      if (square > 0) {
-        w0 = -step.trial[1] / square;
-        w1 = step.trial[0] / square;
-      }
-    }
-    for (Eigen::Index j = 0; j < m; ++j) angle[j] = keep * angle[j] - w0 * s0[j] - w1 * s1[j];
-    for (Eigen::Index j = 0; j < k; ++j) {
-      angle[j] += wn * row[j];
-      angle[k + j] += w0 * row[j];
-      angle[2 * k + j] += w1 * row[j];
-    }
-    const double t0 = after.direction[0], t1 = after.direction[1];
-    const double a0 = limit * t1, a1 = -limit * t0;
-    for (Eigen::Index j = 0; j < m; ++j) {
-      s0[j] = a0 * angle[j];
-      s1[j] = a1 * angle[j];
-    }
-    for (Eigen::Index j = 0; j < k; ++j) {
-      s0[j] -= friction * t0 * row[j];
-      s1[j] -= friction * t1 * row[j];
-      s0[k + j] += row[j];
-      s1[2 * k + j] += row[j];
-    }
-  }
-}
-
-template <int Directions>
-void separation_tangent(const double* row, Eigen::Index k, Tangent<Directions>& tangent) {
-  tangent.slip_force.setZero();
-  for (int r = 0; r < Directions; ++r)
-    for (Eigen::Index j = 0; j < k; ++j) tangent.slip_force((1 + r) * k + j, r) = row[j];
-}
-
-// d lambda_x,T where contact begins or ends: lambda_u,T there, with the place itself moving.
-template <int Directions>
-void crossing_tangent(const double* previous, const double* prediction, const Step& step, const double* row_before,
-                      const double* row, Eigen::Index k, Eigen::MatrixXd& slope) {
-  slope.setZero();
-  const double jump = prediction[0] - previous[0];
-  for (int r = 0; r < Directions; ++r) {
-    const double rise = (prediction[1 + r] - previous[1 + r]) / (jump * jump);
-    for (Eigen::Index j = 0; j < k; ++j) {
-      slope((1 + r) * k + j, r) = (1 - step.crossing) * row_before[j] + step.crossing * row[j];
-      slope(j, r) = rise * (previous[0] * row[j] - prediction[0] * row_before[j]);
-    }
-  }
-}
 
 // Derivative of the state at the start of a periodic orbit: the march over one period maps it to M s + B with
 // s = (lambda_x,T, angle), so s = (I - M)^-1 B. M comes from three more columns beside the coefficients. False when the
 // orbit does not determine its state (a node that only sticks).
 bool orbit_tangent(const double* prediction, const NodeLaw& law, const Eigen::MatrixXd& rows, SlipReturn rule,
-                   const Memory& orbit, Tangent<2>& tangent) {
+                   const Memory& orbit, SampleTangent<2>& tangent) {
   const Eigen::Index k = rows.rows(), m = 3 * k;
-  Tangent<2> wide{.slip_force = Eigen::MatrixXd::Zero(m + 3, 2), .previous = {}, .angle = Eigen::VectorXd::Zero(m + 3)};
+  SampleTangent<2> wide{
+      .slip_force = Eigen::MatrixXd::Zero(m + 3, 2), .previous = {}, .angle = Eigen::VectorXd::Zero(m + 3)};
   wide.slip_force(m, 0) = wide.slip_force(m + 1, 1) = wide.angle(m + 2) = 1;
   Memory memory = orbit;
   for (Eigen::Index n = 0; n < rows.cols(); ++n) {
     const Memory before = memory;
     const Eigen::Index earlier = (n + rows.cols() - 1) % rows.cols();
     const Step step = sample_step<2>(prediction + 3 * earlier, prediction + 3 * n, law, rule, memory);
-    const double* row = rows.col(n).data();
     if (step.touched)
-      crossing_tangent<2>(prediction + 3 * earlier, prediction + 3 * n, step, rows.col(earlier).data(), row, k,
+      crossing_tangent<2>(prediction + 3 * earlier, prediction + 3 * n, step, rows.col(earlier), rows.col(n),
                           wide.slip_force);
     if (step.state == SampleState::separated)
-      separation_tangent<2>(row, k, wide);
+      separation_tangent<2>(rows.col(n), wide);
     else if (step.state == SampleState::slipping)
-      slip_tangent<2>(step, before, memory, row, k, wide);
+      slip_tangent<2>(step, before, memory, rows.col(n), wide);
   }
   // The angle only matters when the first sample goes on rotating from the last.
   if (!memory.slipped) wide.angle.setZero();
@@ -140,10 +55,108 @@ void reorder(const Eigen::MatrixXd& by_direction, Eigen::Index k, Eigen::Index d
         for (Eigen::Index j = 0; j < k; ++j) result(j * d + r, l * d + s) = by_direction(r * k + j, s * k + l);
 }
 
+/// Where the derivative of a march begins.
+struct Beginning {
+  Memory memory = {};
+  long sample = 0;  ///< the first to march, counted from the beginning of the march
+};
+
+/// Begins where the march forgot its history last; after an extrapolation on the periodic orbit reached. `tangent` is
+/// that of the state there.
+template <int Directions>
+Beginning beginning_of(const double* prediction, const NodeLaw& law, const Eigen::MatrixXd& rows, SlipReturn rule,
+                       const MarchResult& result, SampleTangent<Directions>& tangent) {
+  const DerivativeStart& start = result.start;
+  const long samples = rows.cols();
+  if constexpr (Directions == 2)
+    if (result.extrapolated && result.status == Status::converged &&
+        orbit_tangent(prediction, law, rows, rule, start.orbit, tangent))
+      return {.memory = start.orbit, .sample = (result.periods - 1) * samples};
+  Beginning beginning{.memory = start.memory, .sample = start.sample + 1};
+  if (start.sample < 0) {
+    beginning.memory = {};
+    for (int r = 0; r < Directions; ++r) beginning.memory.slip_force[r] = law.tangential_penalty * law.slip_origin(r);
+    return beginning;
+  }
+  const long n = start.sample % samples;
+  const double* here = prediction + (1 + Directions) * n;
+  if (!(here[0] > 0)) {
+    separation_tangent<Directions>(rows.col(n), tangent);
+  } else if constexpr (Directions == 1) {
+    Step step;
+    step.state = SampleState::slipping;
+    step.limit = law.limit(here[0]);
+    // lambda_T = lambda_u,T - lambda_x,T points along the slip.
+    step.trial[0] = here[1] - beginning.memory.slip_force[0];
+    slip_tangent<Directions>(step, beginning.memory, beginning.memory, rows.col(n), tangent);
+  }
+  return beginning;
+}
+
+/// lambda_T = lambda_u,T - lambda_x,T: D_T = I - sum_n a_n S_n, with S constant while the node sticks, so one product
+/// over the runs of constant S is enough.
+template <int Directions>
+class Runs {
+ public:
+  Runs(Eigen::Index k, Eigen::Index m, Eigen::Index samples)
+      : weights_(k, samples + 1), slopes_(m * Directions, samples + 1), weight_(Eigen::VectorXd::Zero(k)) {}
+
+  template <class Column>
+  void add(const Column& analysis) {
+    weight_ += analysis;
+  }
+  void close(const Eigen::MatrixXd& slope) {
+    weights_.col(count_) = weight_;
+    Eigen::Map<Eigen::MatrixXd>(slopes_.col(count_).data(), slope.rows(), Directions) = slope;
+    ++count_;
+    weight_.setZero();
+  }
+  [[nodiscard]] Eigen::MatrixXd product() const {
+    return weights_.leftCols(count_) * slopes_.leftCols(count_).transpose();
+  }
+
+ private:
+  Eigen::MatrixXd weights_, slopes_;
+  Eigen::VectorXd weight_;
+  Eigen::Index count_ = 0;
+};
+
+/// Adds to `tangent.load` and `tangent.energy` what the step to sample n does.
+template <int Directions>
+void add_slip_slopes(const double* prediction, const NodeLaw& law, const Step& step, Eigen::Index n,
+                     const Eigen::MatrixXd& rows, const MarchResult& result, SampleTangent<Directions>& tangent) {
+  constexpr Eigen::Index d = 1 + Directions;
+  const Eigen::Index earlier = (n + rows.cols() - 1) % rows.cols(), k = rows.rows();
+  const double load = (result.force(n, 0) + result.force(earlier, 0)) / 2;
+  double delta[2] = {0, 0}, square = 0;
+  for (int r = 0; r < Directions; ++r) {
+    delta[r] = step.end[r] - step.origin[r];
+    square += delta[r] * delta[r];
+  }
+  if (load <= 0 || square <= 0) return;
+  const double length = std::sqrt(square);
+  Eigen::MatrixXd end;  // d lambda_x,T where contact ends
+  if (step.opened) {
+    end.resize(tangent.load.size(), Directions);
+    crossing_tangent<Directions>(prediction + d * earlier, prediction + d * n, step, rows.col(earlier), rows.col(n),
+                                 end);
+  }
+  tangent.path.setZero();
+  for (int r = 0; r < Directions; ++r)
+    tangent.path += (delta[r] / length) * ((step.opened ? end : tangent.slip_force).col(r) - tangent.previous.col(r));
+  tangent.load += load * tangent.path;
+  for (const Eigen::Index at : {n, earlier}) {
+    const FrictionLimit limit = law.limit(result.force(at, 0));
+    tangent.energy += (limit.force / 2) * tangent.path;
+    if (!(prediction[d * at] > 0)) continue;
+    tangent.load.head(k) += (length / 2) * rows.col(at);
+    tangent.energy.head(k) += (length / 2 * limit.by_normal) * rows.col(at);
+  }
+}
+
 template <int Directions>
 void differentiate_node(const double* prediction, const NodeLaw& law, const numerics::FourierBasis& basis,
                         SlipReturn rule, MarchResult& result) {
-  const DerivativeStart& start = result.start;
   constexpr Eigen::Index d = 1 + Directions;
   const Eigen::Index k = basis.coefficients(), m = d * k;
   const int samples = basis.samples();
@@ -153,118 +166,53 @@ void differentiate_node(const double* prediction, const NodeLaw& law, const nume
     result.force_derivative.setIdentity(m, m);
     return;
   }
-  // Row n of the table, contiguous: columns of the transposed one.
+  // BasisRow n of the table, contiguous: columns of the transposed one.
   const Eigen::MatrixXd rows = basis.synthesis_table().transpose();
   const Eigen::MatrixXd& analysis = basis.analysis_table();
-  Tangent<Directions> tangent{.slip_force = Eigen::MatrixXd::Zero(m, Directions),
-                              .previous = Eigen::MatrixXd::Zero(m, Directions),
-                              .angle = Eigen::VectorXd::Zero(m)};
-  Eigen::MatrixXd end(m, Directions);  // d lambda_x,T where contact ends
-  Memory memory = start.memory;
+  SampleTangent<Directions> tangent{.slip_force = Eigen::MatrixXd::Zero(m, Directions),
+                                    .previous = Eigen::MatrixXd::Zero(m, Directions),
+                                    .angle = Eigen::VectorXd::Zero(m),
+                                    .load = Eigen::VectorXd::Zero(m),
+                                    .energy = Eigen::VectorXd::Zero(m),
+                                    .path = Eigen::VectorXd::Zero(m)};
+  auto [memory, first] = beginning_of<Directions>(prediction, law, rows, rule, result, tangent);
   const long last = static_cast<long>(result.periods) * samples;
-  const long last_period = last - samples;
-  long first = start.sample + 1;
-  bool on_orbit = false;
-  if constexpr (Directions == 2)
-    on_orbit = result.extrapolated && result.status == Status::converged &&
-               orbit_tangent(prediction, law, rows, rule, start.orbit, tangent);
-  if (on_orbit) {
-    memory = start.orbit;
-    first = last_period;
-  } else if (start.sample < 0) {
-    memory = {};
-    for (int r = 0; r < Directions; ++r) memory.slip_force[r] = law.tangential_penalty * law.slip_origin(r);
-  } else {
-    const auto n = static_cast<int>(start.sample % samples);
-    const double* row = rows.col(n).data();
-    if (prediction[d * n] > 0) {
-      if constexpr (Directions == 1) {
-        Step step;
-        step.state = SampleState::slipping;
-        step.limit = law.limit(prediction[d * n]);
-        // lambda_T = lambda_u,T - lambda_x,T points along the slip.
-        step.trial[0] = prediction[d * n + 1] - memory.slip_force[0];
-        slip_tangent<Directions>(step, memory, memory, row, k, tangent);
-      }
-    } else {
-      separation_tangent<Directions>(row, k, tangent);
-    }
-  }
-
-  // lambda_T = lambda_u,T - lambda_x,T: D_T = I - sum_n a_n S_n, with S constant while the node sticks, so one product
-  // over the runs of constant S is enough.
-  Eigen::MatrixXd run_weights(k, samples + 1), run_slopes(m * Directions, samples + 1);
-  Eigen::Index runs = 0;
-  Eigen::VectorXd weight = Eigen::VectorXd::Zero(k);
-  const auto close_run = [&] {
-    run_weights.col(runs) = weight;
-    Eigen::Map<Eigen::MatrixXd>(run_slopes.col(runs).data(), m, Directions) = tangent.slip_force;
-    ++runs;
-    weight.setZero();
-  };
+  Runs<Directions> runs(k, m, samples);
   Eigen::MatrixXd derivative = Eigen::MatrixXd::Identity(m, m);
-  Eigen::VectorXd load_slope = Eigen::VectorXd::Zero(m), energy_slope = load_slope, path(m);
   for (long i = first; i < last; ++i) {
     const auto n = static_cast<int>(i % samples);
-    const bool counts = i >= last_period;
-    const double* row = rows.col(n).data();
+    const bool counts = i >= last - samples;
     const Memory before = memory;
     const int earlier = (n + samples - 1) % samples;
     const Step step = sample_step<Directions>(prediction + d * earlier, prediction + d * n, law, rule, memory);
-    const bool changes = step.state != SampleState::stuck || step.touched;
-    if (changes) {
-      if (counts) close_run();
+    if (step.state != SampleState::stuck || step.touched) {
+      if (counts) runs.close(tangent.slip_force);
       if (step.touched)
-        crossing_tangent<Directions>(prediction + d * earlier, prediction + d * n, step, rows.col(earlier).data(), row,
-                                     k, tangent.slip_force);
+        crossing_tangent<Directions>(prediction + d * earlier, prediction + d * n, step, rows.col(earlier), rows.col(n),
+                                     tangent.slip_force);
       tangent.previous = tangent.slip_force;
       if (step.state == SampleState::separated)
-        separation_tangent<Directions>(row, k, tangent);
+        separation_tangent<Directions>(rows.col(n), tangent);
       else if (step.state == SampleState::slipping)
-        slip_tangent<Directions>(step, before, memory, row, k, tangent);
+        slip_tangent<Directions>(step, before, memory, rows.col(n), tangent);
     }
     if (!counts) continue;
-    weight += analysis.col(n);
+    runs.add(analysis.col(n));
     if (step.state == SampleState::separated)
       derivative.topLeftCorner(k, k).noalias() -= analysis.col(n) * rows.col(n).transpose();
-    const bool separates = step.state == SampleState::separated;
-    if (!(step.state == SampleState::slipping || separates)) continue;
-    const bool loaded_before = prediction[d * earlier] > 0, loaded = prediction[d * n] > 0;
-    const double load = (result.force(n, 0) + result.force(earlier, 0)) / 2;
-    double delta[2] = {0, 0}, square = 0;
-    for (int r = 0; r < Directions; ++r) {
-      delta[r] = step.end[r] - step.origin[r];
-      square += delta[r] * delta[r];
-    }
-    if (load <= 0 || square <= 0) continue;
-    const double length = std::sqrt(square);
-    if (step.opened)
-      crossing_tangent<Directions>(prediction + d * earlier, prediction + d * n, step, rows.col(earlier).data(), row, k,
-                                   end);
-    const FrictionLimit limit = law.limit(result.force(n, 0)), limit_before = law.limit(result.force(earlier, 0));
-    path.setZero();
-    for (int r = 0; r < Directions; ++r)
-      path += (delta[r] / length) * ((step.opened ? end : tangent.slip_force).col(r) - tangent.previous.col(r));
-    load_slope += load * path;
-    energy_slope += (limit.force + limit_before.force) / 2 * path;
-    const auto by_normal = [&](int sample, double by_force) {
-      load_slope.head(k) += (length / 2) * rows.col(sample);
-      energy_slope.head(k) += (by_force * length / 2) * rows.col(sample);
-    };
-    if (loaded) by_normal(n, limit.by_normal);
-    if (loaded_before) by_normal(earlier, limit_before.by_normal);
+    if (step.state != SampleState::stuck) add_slip_slopes<Directions>(prediction, law, step, n, rows, result, tangent);
   }
-  close_run();
+  runs.close(tangent.slip_force);
 
-  const Eigen::MatrixXd product = run_weights.leftCols(runs) * run_slopes.leftCols(runs).transpose();
+  const Eigen::MatrixXd product = runs.product();
   for (int r = 0; r < Directions; ++r) derivative.middleRows((1 + r) * k, k) -= product.middleCols(r * m, m);
   // Analysis times synthesis is the identity only to rounding: where nothing separates, say so exactly.
   if (result.always_separated) derivative.setZero();
   reorder(derivative, k, d, result.force_derivative);
   for (Eigen::Index r = 0; r < d; ++r)
     for (Eigen::Index j = 0; j < k; ++j) {
-      result.slip_load_derivative(j * d + r) = load_slope(r * k + j) / law.tangential_penalty;
-      result.dissipation_derivative(j * d + r) = energy_slope(r * k + j) / law.tangential_penalty;
+      result.slip_load_derivative(j * d + r) = tangent.load(r * k + j) / law.tangential_penalty;
+      result.dissipation_derivative(j * d + r) = tangent.energy(r * k + j) / law.tangential_penalty;
     }
 }
 

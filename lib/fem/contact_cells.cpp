@@ -61,6 +61,17 @@ double flank_area(const SectorMesh& sector, const Flank& trace) {
 
 }  // namespace
 
+std::vector<CellStrip> ContactCells::strips() const {
+  std::vector<CellStrip> found;
+  std::size_t first = 0;
+  for (std::size_t f = 0; f < flanks.size(); ++f)
+    for (const std::vector<double>& ends : flanks[f].across) {
+      found.push_back({.flank = f, .first = first, .ends = ends});
+      first += ends.size() - 1;
+    }
+  return found;
+}
+
 ContactCells contact_cells(const SectorMesh& trace, const std::vector<FlankCells>& flanks) {
   ContactCells cells{.flanks = flanks, .average = {}, .area = {}, .position = {}, .gap = {}, .flank = {}, .strip = {}};
   if (flanks.size() != trace.flanks.size())

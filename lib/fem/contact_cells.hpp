@@ -15,6 +15,17 @@ struct FlankCells {
   std::vector<std::vector<double>> across;  ///< [strips][cells + 1], neck to root side
 };
 
+/// Cells that lie side by side across the slot.
+struct CellStrip {
+  std::size_t flank = 0;     ///< index of its flank
+  std::size_t first = 0;     ///< its first cell, neck side
+  std::vector<double> ends;  ///< [cells + 1] of the flank, rising from 0 to 1
+
+  [[nodiscard]] std::size_t count() const { return ends.size() - 1; }
+  [[nodiscard]] double length(std::size_t k) const { return ends[k + 1] - ends[k]; }  ///< of the flank
+  [[nodiscard]] double middle(std::size_t k) const { return (ends[k] + ends[k + 1]) / 2; }
+};
+
 /// Contact nodes that are cells of the flanks. A cell presses with a uniform pressure, and its relative displacement is
 /// the mean over the cell of the trace's:
 ///
@@ -32,6 +43,8 @@ struct ContactCells {
   Eigen::VectorXi strip;                ///< [cells] number of the strip over all flanks
 
   [[nodiscard]] Eigen::Index count() const { return area.size(); }
+  /// All strips in the order of the cells.
+  [[nodiscard]] std::vector<CellStrip> strips() const;
 };
 
 /// Cells in the order flank, strip, neck to root side. `trace`: from with_trace. Throws InputError when ends do not

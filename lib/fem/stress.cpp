@@ -154,28 +154,4 @@ double von_mises(const StressVector& stress, double poisson_ratio) {
   return von_mises_in_space(in_space(stress, poisson_ratio));
 }
 
-Eigen::VectorXd von_mises_gradient(const StressVector& stress, double poisson_ratio) {
-  const Eigen::Matrix<double, 6, 1> s = in_space(stress, poisson_ratio);
-  const double value = von_mises_in_space(s);
-  if (value == 0) return Eigen::VectorXd::Zero(stress.size());
-  // d/ds of sqrt(3/2 dev:dev) is 3/2 dev / value, shear components twice.
-  const Eigen::Vector3d deviator = s.head<3>().array() - s.head<3>().sum() / 3;
-  Eigen::VectorXd gradient(stress.size());
-  if (stress.size() == 3) {
-    // sigma_zz follows sxx and syy.
-    gradient << deviator[0] + poisson_ratio * deviator[2], deviator[1] + poisson_ratio * deviator[2], 2 * s[3];
-  } else {
-    gradient << deviator, 2 * s.tail<3>();
-  }
-  return gradient * (1.5 / value);
-}
-
-double max_principal(const StressVector& stress) {
-  if (stress.size() == 3) return 0.5 * (stress[0] + stress[1]) + std::hypot(0.5 * (stress[0] - stress[1]), stress[2]);
-  assert(stress.size() == 6);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(stress_tensor<Wedge18>(stress),
-                                                                 Eigen::EigenvaluesOnly);
-  return principal.eigenvalues()[2];
-}
-
 }  // namespace dovetail::fem

@@ -31,10 +31,4 @@ namespace dovetail::fem {
 using StressVector = Eigen::Ref<const Eigen::VectorXd>;
 [[nodiscard]] double von_mises(const StressVector& stress, double poisson_ratio);
 
-/// d von_mises / d stress [3] or [6]; zero where the stress vanishes.
-[[nodiscard]] Eigen::VectorXd von_mises_gradient(const StressVector& stress, double poisson_ratio);
-
-/// The largest principal stress, Pa; of a plane state the larger one in the plane.
-[[nodiscard]] double max_principal(const StressVector& stress);
-
 }  // namespace dovetail::fem

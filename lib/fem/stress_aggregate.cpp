@@ -121,7 +121,6 @@ Aggregate kreisselmeier_steinhauser(const Eigen::Ref<const Eigen::VectorXd>& str
   const double sum = result.gradient.sum();
   result.gradient /= sum;
   result.value = result.maximum + std::log(sum / (options.peak_fraction * weights.sum())) / options.sharpness;
-  result.overestimate = -std::log(options.peak_fraction) / options.sharpness;
   return result;
 }
 

@@ -27,7 +27,6 @@ struct AggregateOptions {
 struct Aggregate {
   double value = 0;          ///< Pa
   double maximum = 0;        ///< the largest nodal value, Pa
-  double overestimate = 0;   ///< value <= maximum + overestimate = maximum + ln(1/l)/p
   Eigen::VectorXd gradient;  ///< d value / d stress_k, non-negative, sums to 1
 };
 

@@ -3,7 +3,6 @@
 #include <memory>
 #include <vector>
 
-#include "paths/resonance.hpp"
 #include "quality/quantities.hpp"
 
 namespace dovetail::quality {
@@ -28,18 +27,5 @@ struct PenaltySensitivity {
 /// Both penalties of all nodes are scaled together.
 [[nodiscard]] PenaltySensitivity penalty_sensitivity(const steady::Joint& joint, const steady::State& state,
                                                      const PenaltySensitivityOptions& sensitivity = {});
-
-/// The same for a resonance: its frequency and amplitude for each ratio, by new searches from the one found.
-struct ResonanceSensitivity {
-  Status status = Status::iteration_limit;
-  std::vector<double> ratios;
-  std::vector<Status> statuses;
-  std::vector<double> omega, amplitude;         ///< one per ratio, rad/s and m; NaN where not converged
-  double omega_slope = 0, amplitude_slope = 0;  ///< d ln / d ln eps
-  int jacobians = 0;
-};
-[[nodiscard]] ResonanceSensitivity penalty_sensitivity(const steady::Joint& joint, const paths::Resonance& resonance,
-                                                       const paths::ResonanceOptions& resonance_options,
-                                                       const PenaltySensitivityOptions& sensitivity = {});
 
 }  // namespace dovetail::quality

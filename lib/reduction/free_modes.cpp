@@ -68,6 +68,17 @@ Eigen::MatrixXd FloatingInverse::apply(const Eigen::Ref<const Eigen::MatrixXd>& 
   return x;
 }
 
+namespace {
+
+std::vector<Eigen::Index> by_distance_from_zero(const Eigen::VectorXd& values) {
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(values.size()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::ranges::sort(order, {}, [&](Eigen::Index k) { return std::abs(values(k)); });
+  return order;
+}
+
+}  // namespace
+
 FreeModes free_modes(const FloatingInverse& inverse, int count, Eigen::Index limit, double tolerance) {
   const Eigen::SparseMatrix<double>& mass = inverse.mass();
   const Eigen::Index n = mass.rows();
@@ -83,7 +94,7 @@ FreeModes free_modes(const FloatingInverse& inverse, int count, Eigen::Index lim
   const Eigen::Index most = std::max(kSearchRange * (wanted + 1), kSearchAlways);
   FreeModes result;
   numerics::Modes<double> modes;
-  std::vector<Eigen::Index> order;  // of the modes by distance from zero
+  std::vector<Eigen::Index> order;
   for (Eigen::Index asked = wanted + 1;; asked *= 2) {
     asked = std::min(asked, n);
     modes = numerics::nearest_modes(
@@ -91,11 +102,7 @@ FreeModes free_modes(const FloatingInverse& inverse, int count, Eigen::Index lim
         {.count = static_cast<int>(asked), .tolerance = tolerance, .vector_limit = 20, .block = kBlock});
     result.status = modes.status;
     if (modes.status != Status::converged) return result;
-    order.resize(static_cast<std::size_t>(modes.eigenvalues.size()));
-    std::iota(order.begin(), order.end(), Eigen::Index{0});
-    std::sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
-      return std::abs(modes.eigenvalues(a)) < std::abs(modes.eigenvalues(b));
-    });
+    order = by_distance_from_zero(modes.eigenvalues);
     // Elastic modes may lie closer to zero than the negative ones; each of those must be in the basis, or
     // the residual flexibility would not be positive definite. The inertia of S tells how many there are.
     Eigen::Index last_negative = 0, negatives = 0;

@@ -32,22 +32,14 @@ struct Reduction {
   Status status = Status::converged;
   std::string message;  ///< why, when not converged
 
-  ReducedModel model;  ///< coordinates [contact r (node by node: N, T1[, T2]); glued modes q]
-  Recovery recovery;   ///< u = Phi q + Psi lambda
-  std::shared_ptr<const Eigen::SparseMatrix<double>> full_mass;  ///< [n, n] kg
+  ReducedModel model;                     ///< coordinates [contact r (node by node: N, T1[, T2]); glued modes q]
+  Recovery recovery;                      ///< u = Phi q + Psi lambda
   Eigen::VectorXd free_eigenvalues;       ///< [m] Lambda of the basis, (rad/s)^2, ascending; may be negative
   Eigen::VectorXd glued_frequencies;      ///< [m] angular frequencies of the glued modes, rad/s, ascending
   double first_neglected_eigenvalue = 0;  ///< (rad/s)^2, infinite when no mode is neglected
   int rigid_modes = 0;                    ///< eigenvalues that are zero to rounding
   int negative_modes = 0;                 ///< negative eigenvalues of the full stiffness (spin softening)
-  double seconds_factorisation = 0, seconds_contact_solves = 0, seconds_modes = 0, seconds_total = 0;
-
-  /// P^T (U^T M U - diag(0, I)) P with P `coordinates` [n_red, k] and U the field to unit reduced coordinates:
-  /// first-order inertia of what the reduction left massless. Source of all error estimates; never part of the model.
-  /// Cost: k back-solves.
-  [[nodiscard]] Eigen::MatrixXd neglected_inertia(const Eigen::Ref<const Eigen::MatrixXd>& coordinates) const;
-  /// Estimated relative error (reduced / full - 1) of a glued frequency, 0 <= mode < m. Cost: a back-solve.
-  [[nodiscard]] double frequency_error(Eigen::Index mode) const;
+  double seconds_factorisation = 0, seconds_contact_solves = 0, seconds_modes = 0;
 };
 
 /// What a structure is at the trace of its contact, before contact nodes are laid on it: free-interface modes and the
@@ -57,16 +49,15 @@ struct TraceModel {
   Status status = Status::converged;
   std::string message;  ///< why, when not converged
 
-  std::shared_ptr<const ResidualFlexibility> structure;     ///< Phi [n, m], Lambda [m] and X [n, nt], n the full size
-  std::shared_ptr<const Eigen::SparseMatrix<double>> mass;  ///< [n, n]
-  Eigen::MatrixXd static_force, cosine_force, sine_force;   ///< Phi^T f [m, 1], [m, H_f], [m, H_f]
-  Eigen::MatrixXd outputs;                                  ///< Phi^T c [m, n_out]
+  std::shared_ptr<const ResidualFlexibility> structure;    ///< Phi [n, m], Lambda [m] and X [n, nt], n the full size
+  Eigen::MatrixXd static_force, cosine_force, sine_force;  ///< Phi^T f [m, 1], [m, H_f], [m, H_f]
+  Eigen::MatrixXd outputs;                                 ///< Phi^T c [m, n_out]
   std::vector<std::string> output_names;
   ContactNodes contact;  ///< the trace's own nodes
 
   double first_neglected_eigenvalue = 0;
   int rigid_modes = 0, negative_modes = 0;
-  double seconds_factorisation = 0, seconds_contact_solves = 0, seconds_modes = 0, seconds_total = 0;
+  double seconds_factorisation = 0, seconds_contact_solves = 0, seconds_modes = 0;
 };
 
 /// First half of `reduce`, for `full` with its trace as contact. Cost and statuses as there.
@@ -93,14 +84,6 @@ struct TraceModel {
 /// (modes), `not_finite`.
 /// Cost: one sparse factorisation and about 5 modes back-solves.
 [[nodiscard]] Reduction reduce(const FullModel& full, const ReductionOptions& options = {});
-
-/// The same with `modes` raised from its given value until, by estimate, the relative errors of Z^-1 at all
-/// `angular_frequencies` (every harmonic used, rad/s) and of the glued frequencies up to the highest of them
-/// (the first at least) are below `tolerance`. The error of Z itself is no criterion: in norm it is that of the
-/// stiffest local motions, whose inertia a massless boundary drops whatever the number of modes; ask `estimate`.
-/// Status `iteration_limit` when the model has no more modes to give; the best reduction is then returned.
-[[nodiscard]] Reduction reduce_to_tolerance(const FullModel& full, std::span<const double> angular_frequencies,
-                                            double tolerance, const ReductionOptions& options = {});
 
 }  // namespace dovetail::reduction
 

@@ -1,7 +1,6 @@
 #include "reduction/static_condensation.hpp"
 
 #include <Eigen/Dense>
-#include <chrono>
 #include <memory>
 #include <utility>
 
@@ -11,23 +10,12 @@
 
 namespace dovetail::reduction {
 
-namespace {
-
-using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-}  // namespace
-
 StaticCondensation condense_statically(const FullModel& full) {
-  const Clock::time_point start = Clock::now();
   if (const std::vector<Violation> found = violations(full); !found.empty()) throw InputError(found);
   StaticCondensation result;
   const auto factor = std::make_shared<numerics::PartialCholesky>();
   const Eigen::Index contact = full.contact_size();
   result.status = factor->factorise(full.stiffness, contact);
-  result.seconds_factorisation = seconds_since(start);
   if (result.status != Status::converged) return result;
 
   Eigen::MatrixXd loads(full.size(), 1 + full.cosine_force.cols() + full.sine_force.cols() + full.outputs.cols());
@@ -53,7 +41,6 @@ StaticCondensation condense_statically(const FullModel& full) {
     field.bottomRows(r.rows()) = r;
     return factor->substitute(field);
   };
-  result.seconds_total = seconds_since(start);
   return result;
 }
 

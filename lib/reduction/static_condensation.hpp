@@ -14,7 +14,6 @@ struct StaticCondensation {
   Status status = Status::converged;  ///< `singular`: stiffness with fixed contact is not positive definite
   ReducedModel model;                 ///< contact dofs only (node by node: N, T1[, T2]); mass and damping zero
   Recovery recovery;                  ///< T r, offset u_0 [n] (response to the static force at r = 0)
-  double seconds_factorisation = 0, seconds_total = 0;
 };
 
 /// S = K_rr - K_ri K_ii^-1 K_ir, f_r - K_ri K_ii^-1 f_i (exact, for all loads). An output y = c^T u becomes

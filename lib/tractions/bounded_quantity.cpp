@@ -8,9 +8,8 @@
 
 namespace dovetail::tractions {
 
-FamilyQuantity::FamilyQuantity(steady::Joint joint, BoundedQuantity quantity, Eigen::Index output, double omega,
-                               double search_range)
-    : joint_(std::move(joint)), quantity_(quantity), output_(output), omega_(omega), search_range_(search_range) {
+FamilyQuantity::FamilyQuantity(steady::Joint joint, BoundedQuantity quantity, Eigen::Index output, double omega)
+    : joint_(std::move(joint)), quantity_(quantity), output_(output), omega_(omega) {
   joint_.options.linearise = true;
 }
 
@@ -18,14 +17,7 @@ steady::State FamilyQuantity::solve(const Eigen::MatrixXd& origin, const Eigen::
   ++solves_;
   steady::Joint member = joint_;
   if (origin.size() > 0) member.condition.slip_origin = origin;
-  if (quantity_ != BoundedQuantity::resonance_amplitude && quantity_ != BoundedQuantity::resonance_frequency)
-    return paths::steady_state(member, omega_, guess);
-  // Members are tracked from the nominal resonance: another peak is no answer.
-  const paths::ResonanceOptions near{
-      .output = static_cast<int>(output_), .search_range = search_range_, .sweep_range = 0};
-  paths::Resonance found = paths::resonance(member, omega_, near, guess);
-  found.state.status = found.status;
-  return std::move(found.state);
+  return paths::steady_state(member, omega_, guess);
 }
 
 // Of slip loads and energies in the quantity.
@@ -59,45 +51,22 @@ double FamilyQuantity::value(const steady::State& member) const {
       return member.friction_energy;
     case BoundedQuantity::wear_rate:
       return joint_.model->contact().area.dot(member.wear_rate);
-    case BoundedQuantity::resonance_frequency:
-      return member.omega;
     case BoundedQuantity::amplitude:
-    case BoundedQuantity::resonance_amplitude:
       break;
   }
   return member.amplitudes(output_);
 }
 
-// dq/dX_T. The amplitude at a resonance is stationary in frequency, so its gradient is that at constant frequency.
-Eigen::MatrixXd FamilyQuantity::gradient(const steady::State& member) {
+// dq/dX_T.
+Eigen::MatrixXd FamilyQuantity::gradient(const steady::State& member) const {
   switch (quantity_) {
     case BoundedQuantity::friction_energy:
     case BoundedQuantity::wear_rate:
       return slip_to_slip_origin(member, weights(member));
-    case BoundedQuantity::resonance_frequency:
-      return frequency_gradient(member);
     case BoundedQuantity::amplitude:
-    case BoundedQuantity::resonance_amplitude:
       break;
   }
   return amplitude_to_slip_origin(member, output_);
-}
-
-// dw/dX = -(d2A/dw dX) / (d2A/dw2), both by central differences of exact first derivatives.
-Eigen::MatrixXd FamilyQuantity::frequency_gradient(const steady::State& member) {
-  Eigen::MatrixXd mixed = Eigen::MatrixXd::Zero(joint_.model->nodes(), joint_.model->directions() - 1);
-  double curvature = 0;
-  constexpr double kStep = 1e-5;
-  for (const double side : {-1.0, 1.0}) {
-    steady::Joint beside = joint_;
-    beside.condition.slip_origin = member.tangent->problem().condition().slip_origin;
-    const steady::State near = paths::steady_state(beside, member.omega * (1 + side * kStep), member.displacement);
-    ++solves_;
-    if (near.status != Status::converged) return Eigen::MatrixXd::Zero(mixed.rows(), mixed.cols());
-    mixed += side * amplitude_to_slip_origin(near, output_);
-    curvature += side * paths::amplitude_slope(near, output_).slope;
-  }
-  return curvature < 0 ? Eigen::MatrixXd(mixed / -curvature) : Eigen::MatrixXd::Zero(mixed.rows(), mixed.cols());
 }
 
 std::string_view to_string(BoundedQuantity quantity) {
@@ -108,10 +77,6 @@ std::string_view to_string(BoundedQuantity quantity) {
       return "friction_energy";
     case BoundedQuantity::wear_rate:
       return "wear_rate";
-    case BoundedQuantity::resonance_amplitude:
-      return "resonance_amplitude";
-    case BoundedQuantity::resonance_frequency:
-      return "resonance_frequency";
   }
   return "unknown";
 }

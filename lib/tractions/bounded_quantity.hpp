@@ -4,7 +4,6 @@
 #include <memory>
 #include <string_view>
 
-#include "paths/resonance.hpp"
 #include "steady/state.hpp"
 #include "tractions/slip_origin_sensitivity.hpp"
 
@@ -12,11 +11,9 @@ namespace dovetail::tractions {
 
 /// What is bounded over the residual tractions.
 enum class BoundedQuantity {
-  amplitude,            ///< half peak-to-peak of one output at the frequency given
-  friction_energy,      ///< J per cycle
-  wear_rate,            ///< sum over nodes of area times depth per cycle, m^3
-  resonance_amplitude,  ///< amplitude at the maximum of the response curve near the frequency given
-  resonance_frequency,  ///< rad/s
+  amplitude,        ///< half peak-to-peak of one output at the frequency given
+  friction_energy,  ///< J per cycle
+  wear_rate,        ///< sum over nodes of area times depth per cycle, m^3
 };
 
 [[nodiscard]] std::string_view to_string(BoundedQuantity quantity);
@@ -25,8 +22,8 @@ enum class BoundedQuantity {
 /// d value / d X_T. Counts the solves.
 class FamilyQuantity {
  public:
-  /// `omega` rad/s: of all members, or the start of their resonances, which move by `search_range` of it at most.
-  FamilyQuantity(steady::Joint joint, BoundedQuantity quantity, Eigen::Index output, double omega, double search_range);
+  /// `omega` rad/s: of all members.
+  FamilyQuantity(steady::Joint joint, BoundedQuantity quantity, Eigen::Index output, double omega);
 
   [[nodiscard]] const dynamics::CondensedModel& model() const { return *joint_.model; }
   [[nodiscard]] int solves() const { return solves_; }
@@ -36,19 +33,16 @@ class FamilyQuantity {
   [[nodiscard]] double value(const steady::State& member) const;
   /// Below a fraction of this a change of the value is none, however small the value.
   [[nodiscard]] double scale(const steady::State& member) const;
-  /// [Nc, d-1]; zero for nodes that forgot where they started. Two solves for a resonance frequency.
-  [[nodiscard]] Eigen::MatrixXd gradient(const steady::State& member);
-  /// Looks for resonances near this one from now on.
-  void follow(double omega) { omega_ = omega; }
+  /// [Nc, d-1]; zero for nodes that forgot where they started.
+  [[nodiscard]] Eigen::MatrixXd gradient(const steady::State& member) const;
 
  private:
   [[nodiscard]] SlipWeights weights(const steady::State& member) const;
-  [[nodiscard]] Eigen::MatrixXd frequency_gradient(const steady::State& member);
 
   steady::Joint joint_;
   BoundedQuantity quantity_;
   Eigen::Index output_;
-  double omega_, search_range_;
+  double omega_;
   int solves_ = 0;
 };
 

@@ -21,9 +21,6 @@ std::span<const Field<TractionBoundsOptions>> option_table<TractionBoundsOptions
       {.key = "starts", .member = &O::starts, .range = {.lower = 0}},
       {.key = "max_solves", .member = &O::max_solves, .range = {.lower = 2}},
       {.key = "tolerance", .member = &O::tolerance, .range = kPositive},
-      {.key = "resonance_search_range",
-       .member = &O::resonance_search_range,
-       .range = {.lower = 0, .upper = 1, .lower_open = true, .upper_open = true}},
   };
   return fields;
 }
@@ -56,7 +53,6 @@ class BoundSearch {
     }
     nominal.value = quantity_.value(nominal.state);
     scale_ = quantity_.scale(nominal.state);
-    quantity_.follow(nominal.state.omega);
     family_.emplace(nominal.state);
     nominal.traction = family_->nominal();
     result.nominal = result.minimum = result.maximum = attained(nominal);
@@ -268,15 +264,14 @@ class BoundSearch {
 TractionBounds traction_bounds(const steady::Joint& joint, double omega, BoundedQuantity quantity,
                                const TractionBoundsOptions& bounds, const Eigen::MatrixXd& guess) {
   std::vector<Violation> found = violations(bounds);
-  const bool needs_output = quantity != BoundedQuantity::friction_energy && quantity != BoundedQuantity::wear_rate;
   const auto outputs = static_cast<Eigen::Index>(joint.model->output_names().size());
-  if (needs_output && bounds.output >= outputs)
+  if (quantity == BoundedQuantity::amplitude && bounds.output >= outputs)
     found.push_back({.file = {},
                      .key = "output",
                      .value = std::to_string(bounds.output),
                      .allowed = "must be < " + std::to_string(outputs)});
   if (!found.empty()) throw InputError(std::move(found));
-  return BoundSearch({joint, quantity, bounds.output, omega, bounds.resonance_search_range}, bounds).run(guess);
+  return BoundSearch({joint, quantity, bounds.output, omega}, bounds).run(guess);
 }
 
 }  // namespace dovetail::tractions

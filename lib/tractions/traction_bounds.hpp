@@ -11,17 +11,16 @@
 namespace dovetail::tractions {
 
 struct TractionBoundsOptions {
-  int output = 0;           ///< of the amplitudes and the resonance, [0, n_out)
+  int output = 0;           ///< of the amplitudes, [0, n_out)
   int starts = 24;          ///< admissible tractions tried besides the given ones: corners and points inside, >= 0
-  int max_solves = 1000;    ///< steady states (or resonances) in all, >= 2
+  int max_solves = 1000;    ///< steady states in all, >= 2
   double tolerance = 1e-8;  ///< relative gain below which a climb ends, > 0
-  double resonance_search_range = 0.2;  ///< of omega, for the resonance quantities, (0, 1)
 };
 
 /// One attained value and the state it belongs to.
 struct AttainedValue {
   double value = 0;
-  double omega = 0;             ///< rad/s: the frequency given, or the resonance
+  double omega = 0;             ///< rad/s
   Eigen::MatrixXd slip_origin;  ///< X_T [Nc, d-1] that gives it, m: pass it on as steady::Condition::slip_origin
   Eigen::MatrixXd traction;     ///< m = mean lambda_T / (mu mean lambda_N) there [Nc, d-1]; 0 where nothing is carried
 };
@@ -34,7 +33,7 @@ struct TractionBounds {
   AttainedValue nominal;                    ///< at the slip origin given
   AttainedValue minimum, maximum;           ///< smallest and largest value found, nominal included
   int stuck_nodes = 0;                      ///< that stayed stuck in the nominal state: only their tractions are free
-  int solves = 0;                           ///< steady states (or resonances) asked for
+  int solves = 0;                           ///< steady states asked for
   int failed = 0;                           ///< of them, not converged: they count for nothing
 };
 
@@ -47,7 +46,7 @@ struct TractionBounds {
 /// change normal forces; otherwise they shift means, and minimum and maximum agree.
 ///
 /// Without stuck nodes in the given state there is nothing to search from: minimum, maximum and nominal are equal.
-/// `omega` rad/s; near the resonance for the resonance quantities. `guess` is U of a nearby state or empty.
+/// `omega` rad/s. `guess` is U of a nearby state or empty.
 [[nodiscard]] TractionBounds traction_bounds(const steady::Joint& joint, double omega, BoundedQuantity quantity,
                                              const TractionBoundsOptions& bounds = {},
                                              const Eigen::MatrixXd& guess = {});

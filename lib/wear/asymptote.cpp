@@ -4,10 +4,10 @@
 #include <limits>
 #include <utility>
 
-#include "wear/friction_reserve.hpp"
 #include "wear/history.hpp"
 #include "wear/measures.hpp"
 #include "wear/passes.hpp"
+#include "wear/signs_of_doubt.hpp"
 #include "wear/start.hpp"
 
 namespace dovetail::wear {
@@ -21,20 +21,6 @@ void set_depth(const reduction::ContactNodes& contact, const VectorXd& depth, As
   result.depth = depth;
   result.worn_volume = worn_volume(contact, depth);
   result.largest_depth = depth.size() == 0 ? 0.0 : depth.maxCoeff();
-}
-
-/// A node that an earlier pass wore deeper than the last one needs lost contact on the way; a history may have worn it
-/// before the load came back to others, and ends deeper.
-bool reloads(const VectorXd& deepest, const VectorXd& depth, double tolerance) {
-  return deepest.size() > 0 && (deepest - depth).maxCoeff() > tolerance * depth.maxCoeff();
-}
-
-/// A node that touches at times only may wear to where it touches without slip, well before it touches nothing.
-bool lifts_off(const Passes& passes, const VectorXd& depth, double tolerance) {
-  const double least = tolerance * depth.maxCoeff();
-  for (std::size_t i = 0; i < passes.touching.size(); ++i)
-    if (passes.touching[i] && depth[static_cast<Index>(i)] > least) return true;
-  return false;
 }
 
 /// What rates are held against, m per cycle.
@@ -52,28 +38,11 @@ struct Rates {
   }
 };
 
-/// A node that sticks with little to spare may slip while its neighbours wear, and the history wears it, too.
-bool near_slip(const dynamics::CondensedModel& model, const steady::State& state, const std::vector<bool>& released) {
-  // Half-plane punches whose histories took one node more ended with 0.015 to 0.03, others with 0.04 and above.
-  constexpr double kMargin = 0.05;
-  for (std::size_t i = 0; i < released.size(); ++i) {
-    const auto node = static_cast<Index>(i);
-    if (!released[i] && state.nodes[i].carries_load && friction_margin(state, node, model.contact_law(node)) < kMargin)
-      return true;
-  }
-  return false;
-}
-
 OtherState other_state(FoundBy found_by, const reduction::ContactNodes& contact, const VectorXd& depth) {
   return {.found_by = found_by,
           .depth = depth,
           .worn_volume = worn_volume(contact, depth),
           .largest_depth = depth.size() == 0 ? 0.0 : depth.maxCoeff()};
-}
-
-bool same_depth(const VectorXd& a, const VectorXd& b, double tolerance) {
-  if (a.size() == 0) return true;
-  return (a - b).cwiseAbs().maxCoeff() <= tolerance * std::max(a.maxCoeff(), b.maxCoeff());
 }
 
 /// The direct answer, what is in doubt about it, and who settles that.
@@ -89,15 +58,12 @@ class WornStateSearch {
 
   [[nodiscard]] Asymptote run(const steady::State* unworn) {
     if (begin(unworn) && release()) {
-      const int solves = wearing_.solves(), jacobians = wearing_.jacobians();
       const bool asked = options_.arbitration == "always";
       if ((asked || options_.arbitration == "auto") && settled_ && passes_.count > 0 &&
           (doubt() == Doubt::none || asked))
         look_further();
       if (doubt() == Doubt::none && asked) result_.doubt = Doubt::always;
       if (history_decides()) arbitrate();
-      result_.arbitration_solves = wearing_.solves() - solves;
-      result_.arbitration_jacobians = wearing_.jacobians() - jacobians;
       certify_finer();
     }
     refuse_gross_sliding();
@@ -190,27 +156,10 @@ class WornStateSearch {
     if (doubt() != Doubt::none) return;
     if (!slow.settled || elsewhere || reloads(slow.deepest, slow.depth, options_.state_tolerance))
       result_.doubt = Doubt::worst_first;
-    else if (slips_on_the_way())
+    else if (slips_on_the_way(wearing_, result_.unworn, result_.depth, passes_.released))
       result_.doubt = Doubt::on_the_way;
     else if (near_slip(model_, result_.steady, passes_.released))
       result_.doubt = Doubt::near_slip;
-  }
-
-  /// Worn nodes unload the others little by little: one that sticks before and after may slip, and wear, in between.
-  /// Where that cannot be seen the doubt stays.
-  [[nodiscard]] bool slips_on_the_way() {
-    // Of the fastest rate there. Dovetails and labelled scenes whose histories end in the direct state have less than
-    // 7e-4 of it, those whose histories took a node more (rough flanks, 1e13 to 1e14 N/m^3) 0.06 to 0.66.
-    constexpr double kSlips = 0.01;
-    const VectorXd& start = wearing_.start();
-    steady::State state = result_.unworn;
-    for (const double share : {0.5, 0.75}) {
-      state = wearing_.worn(start + share * (result_.depth - start), state.displacement);
-      if (state.status != Status::converged) return true;
-      for (std::size_t i = 0; i < passes_.released.size(); ++i)
-        if (!passes_.released[i] && state.nodes[i].wear_rate > kSlips * state.wear_rate.maxCoeff()) return true;
-    }
-    return false;
   }
 
   [[nodiscard]] bool history_decides() const {

@@ -86,8 +86,6 @@ struct Asymptote {
   FoundBy decided_by = FoundBy::release;  ///< release | history: what `depth` and `verdict` are from
   bool confirmed_by_history = false;      ///< the history was run to an end and has decided
   std::vector<OtherState> other_states;   ///< states at rest where the history does not go
-  int arbitration_solves = 0;             ///< of `solves`: looking for doubt and the history
-  int arbitration_jacobians = 0;          ///< of `jacobians`
   steady::State unworn;                   ///< steady state before wear
   steady::State steady;                   ///< at the limit (no asymptote: the last one computed)
   int passes = 0;                         ///< of release

@@ -8,6 +8,19 @@ namespace dovetail::wear {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
+namespace {
+
+/// Overload relieved by the slip of a node, in units of mu lambda_N: k_T (slip distance) / (4 mu max lambda_N) with the
+/// node's own stiffness k_T (two reversals per cycle, each sliding by twice the overload over k_T).
+double slip_excess(const dynamics::CondensedModel& model, const steady::State& state, Index node) {
+  const steady::NodeSummary& summary = state.nodes[static_cast<std::size_t>(node)];
+  const double limit = model.contact_law(node).limit(summary.max_normal_force).force;
+  return limit > 0.0 ? summary.slip_distance * model.local_stiffness()[node * model.directions() + 1] / (4.0 * limit)
+                     : 0.0;
+}
+
+}  // namespace
+
 double friction_margin(const steady::State& state, Index node, const contact::NodeLaw& law) {
   // Samples close to separation carry next to nothing: their ratio of forces is noise.
   constexpr double kLightLoad = 1e-3;
@@ -24,13 +37,6 @@ double friction_margin(const steady::State& state, Index node, const contact::No
                                             (law.limit(force(n, 0)).force + law.limit(force(m, 0)).force));
   }
   return margin;
-}
-
-double slip_excess(const dynamics::CondensedModel& model, const steady::State& state, Index node) {
-  const steady::NodeSummary& summary = state.nodes[static_cast<std::size_t>(node)];
-  const double limit = model.contact_law(node).limit(summary.max_normal_force).force;
-  return limit > 0.0 ? summary.slip_distance * model.local_stiffness()[node * model.directions() + 1] / (4.0 * limit)
-                     : 0.0;
 }
 
 Eigen::VectorXd friction_reserve(const dynamics::CondensedModel& model, const steady::State& state,

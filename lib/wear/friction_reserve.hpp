@@ -13,12 +13,9 @@ namespace dovetail::wear {
 /// there.) Negative for a node held beyond its friction; infinite without load or friction. O(samples^2).
 [[nodiscard]] double friction_margin(const steady::State& state, Eigen::Index node, const contact::NodeLaw& law);
 
-/// Overload relieved by the slip of a node, in units of mu lambda_N: k_T (slip distance) / (4 mu max lambda_N) with the
-/// node's own stiffness k_T (two reversals per cycle, each sliding by twice the overload over k_T).
-[[nodiscard]] double slip_excess(const dynamics::CondensedModel& model, const steady::State& state, Eigen::Index node);
-
-/// What a node has left of its friction: the margin of one that sticks (friction_margin), minus the excess of one that
-/// slips (slip_excess), both in units of mu lambda_N and zero at the edge between the two; NaN of one without load.
+/// What a node has left of its friction: the margin of one that sticks (friction_margin), minus the overload that one
+/// that slips relieves by slipping, both in units of mu lambda_N and zero at the edge between the two; NaN of one
+/// without load.
 [[nodiscard]] Eigen::VectorXd friction_reserve(const dynamics::CondensedModel& model, const steady::State& state,
                                                const std::vector<bool>& slips);
 

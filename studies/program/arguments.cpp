@@ -78,6 +78,7 @@ void define_file_commands(CLI::App& app, Arguments& a) {
   std::string formats;
   for (const std::string_view format : export_formats()) formats += std::string(format) + ", ";
   geometry->footer(
+      "stl writes the surfaces of blade and disk (binary, mm) of a study in space.\n"
       "inp writes the sector's finite elements for CalculiX (units mm, tonne, s): centrifugal load at the study's "
       "speed,\n"
       "then natural frequencies; --nodal-diameter, --modes and --contact choose what is asked for.\n"

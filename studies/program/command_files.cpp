@@ -87,10 +87,8 @@ int run_export(const ExportOptions& options, const Streams& streams) {
     refuse(options.input, "is a reduced model: it has matrices (--format matrix-market), no geometry");
   if (is_field_format(options.format))
     export_fields(fields_of(options, of_run), options.file);
-  else if (is_deck_format(options.format))
-    export_deck(load_study(design(), options.overrides).scene, options.deck, options.file);
   else
-    export_section(load_study(design(), options.overrides).scene, options.format, options.file);
+    export_geometry(load_study(design(), options.overrides).scene, options.format, options.deck, options.file);
   streams.out << options.file << ": written\n";
   return kDone;
 }

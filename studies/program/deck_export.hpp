@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "geometry/mesh_motion.hpp"
 #include "optimizer/scene.hpp"
 
 namespace dovetail::studies {
@@ -15,6 +16,9 @@ struct DeckOptions {
 
   bool operator==(const DeckOptions&) const = default;
 };
+
+/// The mesh of a scene. Throws InputError when the design cannot be meshed.
+[[nodiscard]] geometry::MeshedSector meshed(const optimizer::Scene& scene);
 
 /// Writes the finite elements of a scene with its materials, speed and friction as an input deck of CalculiX
 /// (geometry/exports/inp.hpp). Throws InputError when the design cannot be meshed, an option is out of range or the

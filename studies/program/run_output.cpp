@@ -8,7 +8,6 @@
 
 #include "core/replace_file.hpp"
 #include "studies/program/best_file.hpp"
-#include "studies/program/deck_export.hpp"
 #include "studies/program/export.hpp"
 #include "studies/program/field_export.hpp"
 #include "studies/program/version.hpp"
@@ -102,10 +101,8 @@ report::RunRecord write_run(const Study& study, const OptimizationResult& result
   const Scene best = scene_of(study, result.evaluations[*result.best]);
   for (const std::string& format : study.exports) {
     const std::filesystem::path file = directory / ("best." + format);
-    if (is_deck_format(format))
-      export_deck(best, {}, file);
-    else if (!is_field_format(format))
-      export_section(best, format, file);
+    if (!is_field_format(format))
+      export_geometry(best, format, {}, file);
     else if (record.best_design && record.best_design->fields.mesh.element_count() > 0)
       export_fields(record.best_design->fields, file);
     else

@@ -104,6 +104,8 @@ void read_exports(SectionReader& root, Study& study, Problems& problems) {
     for (const Node& item : formats->items) {
       if (item.kind != Node::Kind::text || !is_export_format(item.text))
         problems.add(item, "export.formats", allowed);
+      else if (needs_space(item.text) && !study.scene.in_space())
+        problems.add(item, "export.formats", "is a surface in space: scene.type must be \"sector\"");
       else if (std::find(study.exports.begin(), study.exports.end(), item.text) == study.exports.end())
         study.exports.push_back(item.text);
     }

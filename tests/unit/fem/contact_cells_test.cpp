@@ -60,6 +60,25 @@ TEST(ContactCells, ShareTheFlankAmongThem) {
   EXPECT_LT((force - surface.area).norm(), 1e-12 * surface.area.norm());
 }
 
+TEST(ContactCells, LieInStripsInTheirOrder) {
+  const SectorMesh trace = traced();
+  const ContactCells cells = contact_cells(trace, cells_of(trace, {0, 0.3, 0.45, 1}));
+  const std::vector<CellStrip> strips = cells.strips();
+  ASSERT_EQ(strips.size(), trace.flanks.size());
+  std::size_t first = 0;
+  for (std::size_t s = 0; s < strips.size(); ++s) {
+    EXPECT_EQ(strips[s].first, first);
+    for (std::size_t k = 0; k < strips[s].count(); ++k, ++first) {
+      const auto cell = static_cast<Eigen::Index>(first);
+      EXPECT_EQ(cells.strip(cell), static_cast<int>(s));
+      EXPECT_EQ(cells.flank(cell), static_cast<int>(strips[s].flank));
+    }
+    EXPECT_NEAR(strips[s].length(1), 0.15, 1e-15);
+    EXPECT_NEAR(strips[s].middle(0), 0.15, 1e-15);
+  }
+  EXPECT_EQ(static_cast<Eigen::Index>(first), cells.count());
+}
+
 TEST(ContactCells, RefuseEndsThatDoNotRiseFromZeroToOne) {
   const SectorMesh trace = traced();
   for (const std::vector<double>& wrong : {std::vector<double>{0, 0.5}, std::vector<double>{0.1, 1},

@@ -64,26 +64,6 @@ TEST(VonMises, KnowsUniaxialShearAndHydrostaticStates) {
   EXPECT_DOUBLE_EQ(von_mises(Eigen::Vector3d(2, 0, 0), 0.3), 2 * std::sqrt(1 - 0.3 + 0.09));
 }
 
-TEST(VonMises, GradientMatchesDifferences) {
-  const Eigen::Vector3d s(3.0, -1.0, 2.0);
-  const Eigen::Vector3d gradient = von_mises_gradient(s, 0.3);
-  const double step = 1e-5;  // error step^2 of the third derivative plus 1e-16 / step
-  for (int k = 0; k < 3; ++k) {
-    const Eigen::Vector3d up = s + step * Eigen::Vector3d::Unit(k), down = s - step * Eigen::Vector3d::Unit(k);
-    const double difference = (von_mises(up, 0.3) - von_mises(down, 0.3)) / (2 * step);
-    EXPECT_NEAR(gradient[k], difference, 1e-9);
-  }
-  EXPECT_EQ(von_mises_gradient(Eigen::Vector3d::Zero(), 0.3), Eigen::VectorXd(Eigen::Vector3d::Zero()));
-}
-
-TEST(MaxPrincipal, IsTheLargestEigenvalue) {
-  Eigen::Matrix2d sigma;
-  sigma << -4, 3, 3, 1;
-  EXPECT_NEAR(max_principal(Eigen::Vector3d(-4, 1, 3)),
-              Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(sigma).eigenvalues()[1], 1e-14);
-  EXPECT_DOUBLE_EQ(max_principal(Eigen::Vector3d(-4, -4, 0)), -4);
-}
-
 std::vector<int> outer_arc(const Grid& grid) {
   std::vector<int> nodes;
   for (int j = 0; j <= 2 * grid.rows; ++j) nodes.push_back(grid.node(2 * grid.columns, j));
@@ -180,7 +160,7 @@ TEST_F(AggregateOfAPeak, ConvergesToItsIntegralWithTheMesh) {
 TEST_F(AggregateOfAPeak, StaysBelowItsBound) {
   for (double fraction : {0.02, 0.1, 1.0}) {
     const Aggregate aggregate = on(32, {.sharpness = 1e-7, .peak_fraction = fraction});
-    EXPECT_LE(aggregate.value, aggregate.maximum + aggregate.overestimate);
+    EXPECT_LE(aggregate.value, aggregate.maximum - std::log(fraction) / 1e-7);
     EXPECT_NEAR(aggregate.gradient.sum(), 1, 1e-14);
     EXPECT_GE(aggregate.gradient.minCoeff(), 0);
   }

@@ -91,7 +91,7 @@ TEST(Stl, IsTheClosedSurfaceOfABodySeenFromOutside) {
       EXPECT_TRUE(edges.contains({edge.second, edge.first}));
     }
 
-    const std::string bytes = stl(meshed.sector.mesh, body);
+    const std::string bytes = stl(meshed.sector.mesh, {body});
     std::uint32_t count = 0;
     std::memcpy(&count, bytes.data() + 80, sizeof(count));
     ASSERT_EQ(count, triangles.size());
@@ -109,7 +109,7 @@ TEST(Stl, IsTheClosedSurfaceOfABodySeenFromOutside) {
 }
 
 TEST(Stl, RefusesAPlaneMesh) {
-  EXPECT_THROW((void)stl(mesh_sector({}, coarse_section()).sector.mesh, 0), InputError);
+  EXPECT_THROW((void)stl(mesh_sector({}, coarse_section()).sector.mesh, {0}), InputError);
 }
 
 }  // namespace

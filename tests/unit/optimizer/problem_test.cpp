@@ -140,24 +140,5 @@ TEST(Problem, ReportsEverythingWrong) {
   EXPECT_NO_THROW(check(two_terms()));
 }
 
-TEST(Problem, AssemblesGradients) {
-  Evaluation e = typical();
-  e.derivatives = {{"asymptotic_wear_volume_m3", {1e-10, 2e-10}},
-                   {"resonance_drift", {1e-3, 0}},
-                   {"peak_amplitude_m", {8e-3, 4e-3}}};
-  const auto found = gradient(two_terms(), e);
-  ASSERT_TRUE(found);
-  // The drift is negative: d|r| = -dr.
-  EXPECT_DOUBLE_EQ(found->objective[0], 2 * 1 - 1);
-  EXPECT_DOUBLE_EQ(found->objective[1], 4);
-  EXPECT_DOUBLE_EQ(found->constraints[0][0], 1);
-  EXPECT_DOUBLE_EQ(found->constraints[1][0], -4);
-  EXPECT_DOUBLE_EQ(found->constraints[2][0], 1);
-  e.derivatives["peak_amplitude_m"][1] = std::nan("");
-  EXPECT_FALSE(gradient(two_terms(), e));
-  e.derivatives.erase("peak_amplitude_m");
-  EXPECT_FALSE(gradient(two_terms(), e));
-}
-
 }  // namespace
 }  // namespace dovetail::optimizer

@@ -166,25 +166,5 @@ TEST_F(Run, ReportsEveryWrongInputAtOnce) {
   }
 }
 
-TEST_F(Run, DrawsRandomDesignsUntilEnoughAreFeasible) {
-  OptimizerOptions options;
-  options.seed = 4;
-  const OptimizationResult one = random_search(bowl_problem(), bowl, 15, options);
-  options.threads = 2;
-  const OptimizationResult two = random_search(bowl_problem(), bowl, 15, options);
-  ASSERT_EQ(one.evaluations.size(), two.evaluations.size());
-  int feasible = 0;
-  for (std::size_t i = 0; i < one.evaluations.size(); ++i) {
-    EXPECT_EQ(one.evaluations[i].x, two.evaluations[i].x);
-    feasible += one.evaluations[i].judgement.feasible ? 1 : 0;
-  }
-  EXPECT_EQ(feasible, 15);
-  EXPECT_GT(one.evaluations.size(), 15U);
-  const OptimizationResult hopeless = random_search(
-      bowl_problem(), [](std::span<const double>) { return broken(1); }, 3, options);
-  EXPECT_EQ(hopeless.evaluations.size(), 60U);
-  EXPECT_EQ(hopeless.status, Status::iteration_limit);
-}
-
 }  // namespace
 }  // namespace dovetail::optimizer

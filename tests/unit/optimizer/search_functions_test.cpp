@@ -74,21 +74,6 @@ TEST_F(SearchView, DifferencesAgreeWithTheDerivative) {
   EXPECT_EQ(session->statistics().gradient_fallbacks, 0);
 }
 
-TEST_F(SearchView, ScalesSuppliedDerivativesToUnitCoordinates) {
-  SearchFunctions& seen = functions([](std::span<const double> x) {
-    Evaluation e = bowl(x);
-    e.derivatives["bowl"] = {2 * (x[0] - 1), 2 * (x[1] - 4) / 9};
-    e.derivatives["height"] = {0, 1};
-    return e;
-  });
-  const SearchGradient supplied = seen.gradient(std::vector{0.3, 0.6});
-  EXPECT_EQ(session->statistics().gradients_supplied, 1);
-  EXPECT_EQ(session->candidates().size(), 2U);
-  EXPECT_NEAR(supplied.objective[0], 4 * 2 * (0.2 - 1) / kScale, 1e-10);
-  EXPECT_NEAR(supplied.objective[1], 10 * 2 * (6.0 - 4) / 9 / kScale, 1e-10);
-  EXPECT_NEAR(supplied.constraints[0][1], 10.0 / 6, 1e-10);
-}
-
 TEST_F(SearchView, TurnsRoundAtAFailingNeighbourAndGivesUpBetweenTwo) {
   const double x = -1 + 4 * 0.5;
   SearchFunctions& above =

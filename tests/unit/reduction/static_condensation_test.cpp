@@ -4,8 +4,8 @@
 
 #include <Eigen/Dense>
 
-#include "reduction/accuracy.hpp"
 #include "reduction/validation.hpp"
+#include "tests/unit/reduction/stiffness_error.hpp"
 #include "tests/unit/reduction/truss_model.hpp"
 
 namespace dovetail::reduction {

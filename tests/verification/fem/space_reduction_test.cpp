@@ -3,10 +3,10 @@
 #include <array>
 
 #include "fem/glued_modes.hpp"
-#include "reduction/accuracy.hpp"
 #include "reduction/massless_boundary.hpp"
 #include "tests/unit/fem/extruded_mesh.hpp"
 #include "tests/unit/fem/structured_mesh.hpp"
+#include "tests/unit/reduction/stiffness_error.hpp"
 #include "tests/verification/fem/sector_model.hpp"
 
 namespace dovetail::fem {

@@ -85,35 +85,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Expectation{"scan", 1000, 0.5, 0.5}),
     [](const auto& parameter) { return parameter.param.algorithm; });
 
-class EveryGradientMethod : public ::testing::TestWithParam<std::string> {};
-
-TEST_P(EveryGradientMethod, UsesDerivativesThatTheEvaluationBrings) {
-  const KnownProblem known = hock_schittkowski_22();
-  const Evaluator with_derivatives = [&](std::span<const double> x) {
-    Evaluation e = known.evaluator(x);
-    e.derivatives["f"] = {2 * (x[0] - 2), 2 * (x[1] - 1)};
-    e.derivatives["sum"] = {1, 1};
-    e.derivatives["parabola"] = {2 * x[0], -1};
-    return e;
-  };
-  OptimizerOptions options;
-  options.algorithm = GetParam();
-  options.max_evaluations = 1000;
-  options.noise = 1e-12;
-  options.tolerance = 1e-9;
-  options.step_tolerance = 1e-6;
-  options.constraint_margin = 1e-6;
-  const OptimizationResult exact = run_optimization(known.problem, with_derivatives, options);
-  const OptimizationResult differences = run_optimization(known.problem, known.evaluator, options);
-  ASSERT_TRUE(exact.best);
-  EXPECT_LE(exact.evaluations[*exact.best].judgement.objective, 1 + 1e-5) << exact.message;
-  EXPECT_GT(exact.statistics.gradients, 0);
-  EXPECT_EQ(exact.statistics.gradients_supplied, exact.statistics.gradients);
-  EXPECT_LT(exact.evaluations.size(), differences.evaluations.size());
-}
-
 /// Without mma, whose separable models creep along a curved valley whatever the gradient.
-class EveryCurvatureMethod : public EveryGradientMethod {};
+class EveryCurvatureMethod : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(EveryCurvatureMethod, IsMoreAccurateWithCentralDifferences) {
   const KnownProblem known = rosenbrock();
@@ -131,8 +104,6 @@ TEST_P(EveryCurvatureMethod, IsMoreAccurateWithCentralDifferences) {
   EXPECT_LE(result.evaluations[*result.best].judgement.objective, 5e-8) << result.message;
 }
 
-INSTANTIATE_TEST_SUITE_P(Optimizer, EveryGradientMethod, ::testing::Values("mma", "slsqp", "ipopt"),
-                         [](const auto& parameter) { return parameter.param; });
 INSTANTIATE_TEST_SUITE_P(Optimizer, EveryCurvatureMethod, ::testing::Values("slsqp", "ipopt"),
                          [](const auto& parameter) { return parameter.param; });
 

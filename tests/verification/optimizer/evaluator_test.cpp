@@ -13,7 +13,7 @@
 
 #include "optimizer/problem.hpp"
 #include "paths/steady_state.hpp"
-#include "reduction/accuracy.hpp"
+#include "tests/unit/reduction/stiffness_error.hpp"
 #include "tests/verification/optimizer/coarse_scene.hpp"
 #include "wear/history.hpp"
 #include "wear/measures.hpp"

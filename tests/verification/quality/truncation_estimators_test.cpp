@@ -37,22 +37,6 @@ TEST(PenaltySensitivity, VanishesWithMoreHarmonics) {
   }
 }
 
-TEST(PenaltySensitivity, OfAResonanceIsThatOfItsCurve) {
-  const RandomContact contact = random_contact(1009);
-  const auto model = condensed(contact.model);
-  const paths::ResonanceOptions search;
-  const steady::Options options{.samples = 1024};
-  const paths::Resonance peak = paths::resonance({model, {}, options}, contact.omega, search);
-  ASSERT_EQ(peak.status, Status::converged);
-  const quality::ResonanceSensitivity found = quality::penalty_sensitivity({model, {}, options}, peak, search);
-  ASSERT_EQ(found.status, Status::converged);
-  EXPECT_NEAR(found.omega[1], peak.omega, 1e-6 * peak.omega);
-  EXPECT_NEAR(found.amplitude[1], peak.amplitude, 1e-6 * peak.amplitude);
-  // At a maximum a change of settings acts on the amplitude as at fixed frequency, to first order.
-  const quality::PenaltySensitivity fixed = quality::penalty_sensitivity({model, {}, options}, peak.state);
-  EXPECT_NEAR(found.amplitude_slope, fixed.slope.amplitudes(0), 0.1 * std::abs(fixed.slope.amplitudes(0)) + 1e-5);
-}
-
 // e_lambda sees what the series leaves out of the forces, e_E of their power - not the error of the results.
 TEST(TruncationEstimators, FallWhileTheTrueErrorGrows) {
   const auto model = condensed(single_node());

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "optimizer/error_bars.hpp"
 #include "optimizer/evaluator.hpp"
+#include "optimizer/other_meshes.hpp"
 #include "studies/program/engine.hpp"
 #include "studies/program/study.hpp"
 

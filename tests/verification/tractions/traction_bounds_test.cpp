@@ -182,40 +182,6 @@ INSTANTIATE_TEST_SUITE_P(Quantities, OneQuantity,
                            return std::string(to_string(instance.param));
                          });
 
-TEST(TractionBounds, OfAResonanceMatchAGrid) {
-  // With the first-order return the node of this joint that hardly sticks at its resonance does stick.
-  steady::Options options = kOptions;
-  options.slip_return = "first_order";
-  const reduction::ReducedModel model = elastic(3, 1, 6, 0.18);
-  const auto reduced = condensed(model);
-  const double start = dynamics::CondensedModel(model).glued_frequencies()(0);
-  const tractions::TractionBounds frequency =
-      tractions::traction_bounds({reduced, {}, options}, start, tractions::BoundedQuantity::resonance_frequency);
-  const tractions::TractionBounds amplitude =
-      tractions::traction_bounds({reduced, {}, options}, start, tractions::BoundedQuantity::resonance_amplitude);
-  ASSERT_EQ(frequency.status, Status::converged) << frequency.reason;
-  ASSERT_GE(frequency.stuck_nodes, 1);
-  ASSERT_EQ(amplitude.status, Status::converged) << amplitude.reason;
-  double low = 1e300, high = 0, small = 1e300, large = 0;
-  for (int p = -10; p <= 10; ++p) {
-    Eigen::MatrixXd origin = Eigen::MatrixXd::Zero(3, 1);
-    origin(0, 0) = 0.12 * p;
-    const paths::Resonance found =
-        paths::resonance({reduced, {.slip_origin = origin}, options}, frequency.nominal.omega, {.sweep_range = 0});
-    if (found.status != Status::converged) continue;
-    low = std::min(low, found.omega);
-    high = std::max(high, found.omega);
-    small = std::min(small, found.amplitude);
-    large = std::max(large, found.amplitude);
-  }
-  // The resonance is resolved to 1e-7.
-  EXPECT_LE(frequency.minimum.value, low * (1 + 1e-6));
-  EXPECT_GE(frequency.maximum.value, high * (1 - 1e-6));
-  EXPECT_LE(amplitude.minimum.value, small * (1 + 1e-6));
-  EXPECT_GE(amplitude.maximum.value, large * (1 - 1e-6));
-  EXPECT_GT(high - low, 1e-5);
-}
-
 // With normal forces that tangential ones do not change, residual tractions shift the means and nothing else.
 TEST(TractionBounds, CloseWhereNormalForcesDoNotFollow) {
   const reduction::ReducedModel model = rod(10);

@@ -49,7 +49,6 @@ TEST_P(Verdicts, AreThoseOfTheHistory) {
   const Asymptote worn = asymptote({condensed(family, number), {}, kSteady}, 1.0, settings("auto"));
   RecordProperty("doubt", std::string(to_string(worn.doubt)));
   RecordProperty("jacobians", worn.jacobians);
-  RecordProperty("arbitration_jacobians", worn.arbitration_jacobians);
   EXPECT_EQ(worn.status, Status::converged) << dovetail::to_string(worn.status);
   const bool elsewhere = std::any_of(worn.other_states.begin(), worn.other_states.end(),
                                      [](const OtherState& state) { return state.found_by == FoundBy::release; });
