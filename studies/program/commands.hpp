@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/options.hpp"
-#include "studies/program/deck_export.hpp"
+#include "studies/program/geometry_export.hpp"
 #include "studies/program/run_engine.hpp"
 #include "studies/program/study.hpp"
 

@@ -2,14 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
-
-#include "core/errors.hpp"
-#include "core/replace_file.hpp"
-#include "geometry/exports/dxf.hpp"
-#include "geometry/exports/layer.hpp"
-#include "geometry/exports/stl.hpp"
-#include "geometry/exports/svg.hpp"
 
 namespace dovetail::studies {
 
@@ -33,24 +25,6 @@ bool is_deck_format(std::string_view format) {
 
 bool needs_space(std::string_view format) {
   return format == "stl";
-}
-
-void export_geometry(const optimizer::Scene& scene, const std::string& format, const DeckOptions& deck,
-                     const std::filesystem::path& file) {
-  assert(is_export_format(format) && !is_field_format(format));
-  if (needs_space(format) && !scene.in_space())
-    throw InputError({.file = {},
-                      .key = "scene.type",
-                      .value = scene.type,
-                      .allowed = "must be sector for " + format + ": a section has no surface in space"});
-  if (is_deck_format(format))
-    export_deck(scene, deck, file);
-  else if (format == "stl")
-    replace_file(file, geometry::stl(meshed(scene).sector.mesh, {0, 1}));
-  else if (format == "dxf")
-    geometry::write_dxf(file, geometry::section_layers(scene.geometry));
-  else
-    geometry::write_svg(file, geometry::section_layers(scene.geometry));
 }
 
 }  // namespace dovetail::studies

@@ -10,6 +10,7 @@
 #include "studies/program/best_file.hpp"
 #include "studies/program/export.hpp"
 #include "studies/program/field_export.hpp"
+#include "studies/program/geometry_export.hpp"
 #include "studies/program/version.hpp"
 #include "studies/report/report_html.hpp"
 #include "studies/report/results_file.hpp"

@@ -1,12 +1,23 @@
-#include "studies/program/deck_export.hpp"
+#include "studies/program/geometry_export.hpp"
 
+#include <cassert>
+
+#include "core/replace_file.hpp"
+#include "geometry/exports/dxf.hpp"
 #include "geometry/exports/inp.hpp"
+#include "geometry/exports/layer.hpp"
+#include "geometry/exports/stl.hpp"
+#include "geometry/exports/svg.hpp"
 #include "geometry/solid_family.hpp"
 #include "optimizer/candidate_model.hpp"
+#include "studies/program/export.hpp"
 #include "studies/program/refusal.hpp"
 
 namespace dovetail::studies {
 
+namespace {
+
+/// Throws InputError when the design cannot be meshed.
 geometry::MeshedSector meshed(const optimizer::Scene& scene) {
   geometry::MeshedSector mesh = scene.in_space()
                                     ? geometry::mesh_solid(scene.geometry, scene.solid, scene.mesh, scene.solid_mesh)
@@ -27,6 +38,23 @@ void export_deck(const optimizer::Scene& scene, const DeckOptions& options, cons
   if (scene.contact.normal_stiffness > 0) deck.contact_stiffness = scene.contact.normal_stiffness;
   if (scene.contact.tangential_stiffness > 0) deck.stick_stiffness = scene.contact.tangential_stiffness;
   geometry::write_inp(file, meshed(scene).sector, optimizer::materials(scene), deck);
+}
+
+}  // namespace
+
+void export_geometry(const optimizer::Scene& scene, const std::string& format, const DeckOptions& deck,
+                     const std::filesystem::path& file) {
+  assert(is_export_format(format) && !is_field_format(format));
+  if (needs_space(format) && !scene.in_space())
+    refuse("scene.type", "must be sector for " + format + ": a section has no surface in space", scene.type);
+  if (is_deck_format(format))
+    export_deck(scene, deck, file);
+  else if (format == "stl")
+    replace_file(file, geometry::stl(meshed(scene).sector.mesh, {0, 1}));
+  else if (format == "dxf")
+    geometry::write_dxf(file, geometry::section_layers(scene.geometry));
+  else
+    geometry::write_svg(file, geometry::section_layers(scene.geometry));
 }
 
 }  // namespace dovetail::studies
