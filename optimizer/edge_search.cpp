@@ -9,8 +9,10 @@ namespace dovetail::optimizer {
 std::vector<std::vector<Edge>> edge_places(const fem::ContactCells& cells, const wear::ReleaseTrail& trail) {
   const std::vector<fem::CellStrip> strips = cells.strips();
   std::vector<std::vector<int>> lines;
-  for (const fem::CellStrip& strip : strips)
-    std::iota(lines.emplace_back(strip.count()).begin(), lines.back().end(), static_cast<int>(strip.first));
+  for (const fem::CellStrip& strip : strips) {
+    std::vector<int>& line = lines.emplace_back(strip.count());
+    std::iota(line.begin(), line.end(), static_cast<int>(strip.first));
+  }
   std::vector<std::vector<Edge>> places(lines.size());
   for (const wear::ZoneEdge& edge : wear::zone_edges(trail, lines, cells.area)) {
     const auto line = static_cast<std::size_t>(edge.line);
