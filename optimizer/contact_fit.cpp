@@ -7,7 +7,7 @@
 #include "optimizer/evaluator.hpp"
 #include "paths/resonance.hpp"
 #include "paths/steady_state.hpp"
-#include "wear/asymptote.hpp"
+#include "wear/asymptote/asymptote.hpp"
 
 namespace dovetail::optimizer {
 

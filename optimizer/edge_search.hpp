@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "optimizer/cell_grid.hpp"
-#include "wear/zone_edges.hpp"
+#include "wear/release/zone_edges.hpp"
 
 namespace dovetail::optimizer {
 

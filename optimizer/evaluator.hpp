@@ -10,8 +10,8 @@
 #include "optimizer/fillet_stress.hpp"
 #include "optimizer/other_meshes.hpp"
 #include "paths/resonance.hpp"
-#include "wear/asymptote.hpp"
-#include "wear/drift.hpp"
+#include "wear/asymptote/asymptote.hpp"
+#include "wear/asymptote/drift.hpp"
 
 namespace dovetail::optimizer {
 

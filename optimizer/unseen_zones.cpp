@@ -7,7 +7,7 @@
 
 #include "optimizer/evaluator.hpp"
 #include "optimizer/worn_zones.hpp"
-#include "wear/drift.hpp"
+#include "wear/asymptote/drift.hpp"
 
 namespace dovetail::optimizer {
 

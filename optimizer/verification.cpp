@@ -10,7 +10,7 @@
 
 #include "optimizer/stopwatch.hpp"
 #include "quality/truncation.hpp"
-#include "wear/history.hpp"
+#include "wear/history/history.hpp"
 #include "wear/measures.hpp"
 
 namespace dovetail::optimizer {
@@ -40,7 +40,7 @@ Eigen::VectorXd on_grid(const Eigen::VectorXd& depth, const fem::ContactCells& f
 
 /// Two histories, the second with half the increment, and what they extrapolate to.
 std::string wear_down(const Scene& scene, const CandidateResult& fine, const VerificationOptions& options,
-                      const wear::Control& control, Verification& verification) {
+                      const wear::Watcher& watcher, Verification& verification) {
   const std::shared_ptr<const dynamics::CondensedModel>& model = fine.model.condensed;
   steady::Options steady = steady_options(scene.solver);
   double volume = 0;
@@ -52,7 +52,7 @@ std::string wear_down(const Scene& scene, const CandidateResult& fine, const Ver
     settings.increment = part * options.increment * wear::largest_penetration(*model, fine.unworn->state);
     settings.steps = options.steps;
     settings.finish = false;
-    const wear::History history = wear::history({model, {}, steady}, {.omega = fine.unworn->omega}, settings, control);
+    const wear::History history = wear::history({model, {}, steady}, {.omega = fine.unworn->omega}, settings, watcher);
     verification.history_solves += history.solves;
     const Eigen::Index last = history.cycles.size() - 1;
     if (last < 0) return failure("history", to_string(history.status));
@@ -94,7 +94,7 @@ std::string judged(const Verification& v) {
 }
 
 std::string compare(const Scene& scene, const CandidateResult& fine, const VerificationOptions& options,
-                    const wear::Control& control, Verification& verification) {
+                    const wear::Watcher& watcher, Verification& verification) {
   if (!fine.evaluation.converged()) return failure("finer mesh", fine.evaluation.status);
   verification.frequency_hz = fine.unworn->omega / (2 * std::numbers::pi);
   verification.direct_solves = fine.asymptote->solves;
@@ -104,7 +104,7 @@ std::string compare(const Scene& scene, const CandidateResult& fine, const Verif
   verification.history_profile = fine.asymptote->depth;
   // Where every node sticks a history would not leave its first state.
   if (verification.direct_depth > 0)
-    if (std::string ended = wear_down(scene, fine, options, control, verification); ended != "converged") return ended;
+    if (std::string ended = wear_down(scene, fine, options, watcher, verification); ended != "converged") return ended;
   return judged(verification);
 }
 
@@ -126,7 +126,7 @@ CandidateResult evaluated_finer(const SceneEvaluator& evaluator, const Scene& sc
 }
 
 Verification verify(const SceneEvaluator& evaluator, const Scene& scene, const VerificationOptions& options,
-                    const wear::Control& control) {
+                    const wear::Watcher& watcher) {
   Stopwatch watch;
   Verification verification;
   verification.follow = scene.loading.follow;
@@ -143,11 +143,11 @@ Verification verify(const SceneEvaluator& evaluator, const Scene& scene, const V
     const auto bar = result.evaluation.error_estimates.find("asymptotic_wear_volume_m3");
     verification.search_bar = bar == result.evaluation.error_estimates.end() ? std::nan("") : bar->second;
     CandidateResult fine = evaluated_finer(evaluator, scene, 1);
-    verification.status = compare(scene_there, fine, options, control, verification);
+    verification.status = compare(scene_there, fine, options, watcher, verification);
     verification.search_profile = on_grid(result.asymptote->depth, result.model.cells, fine.model.cells);
     verification.model = std::move(fine.model);
   }
-  if (control.stopped()) verification.status = "interrupted";
+  if (watcher.stopped()) verification.status = "interrupted";
   verification.seconds = watch.lap();
   return verification;
 }

@@ -7,7 +7,7 @@
 
 #include "optimizer/evaluator.hpp"
 #include "optimizer/run.hpp"
-#include "wear/control.hpp"
+#include "wear/watcher.hpp"
 
 namespace dovetail::optimizer {
 
@@ -57,6 +57,6 @@ struct Verification {
 /// Never throws for what a design is like; what could not be computed is in the status. Cost: two evaluations and some
 /// 100 to 300 steady states of four times the size.
 [[nodiscard]] Verification verify(const SceneEvaluator& evaluator, const Scene& scene,
-                                  const VerificationOptions& options = {}, const wear::Control& control = {});
+                                  const VerificationOptions& options = {}, const wear::Watcher& watcher = {});
 
 }  // namespace dovetail::optimizer

@@ -9,7 +9,7 @@
 
 #include "optimizer/evaluator.hpp"
 #include "optimizer/worn_zones.hpp"
-#include "wear/drift.hpp"
+#include "wear/asymptote/drift.hpp"
 #include "wear/measures.hpp"
 
 namespace dovetail::optimizer {

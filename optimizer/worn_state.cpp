@@ -8,8 +8,8 @@
 
 #include "optimizer/worn_zones.hpp"
 #include "paths/steady_state.hpp"
-#include "wear/certificate.hpp"
-#include "wear/follow.hpp"
+#include "wear/asymptote/certificate.hpp"
+#include "wear/asymptote/followed_asymptote.hpp"
 
 namespace dovetail::optimizer {
 

@@ -6,7 +6,7 @@
 #include "optimizer/candidate_model.hpp"
 #include "optimizer/evaluation.hpp"
 #include "steady/state.hpp"
-#include "wear/asymptote.hpp"
+#include "wear/asymptote/asymptote.hpp"
 
 namespace dovetail::optimizer {
 

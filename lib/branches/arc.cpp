@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "branches/params.hpp"
+
 namespace dovetail::branches {
 namespace {
 
@@ -37,9 +39,7 @@ Eigen::MatrixXd penalty_forces(const steady::Summary& state) {
 }
 
 double vibrating_force(const steady::Summary& state) {
-  // Contact that is almost stuck does not say how large the vibration is, its forces do.
-  constexpr double kSlip = 0.1;
-  return std::max(vibration(penalty_forces(state)), kSlip * vibration(state.force));
+  return std::max(vibration(penalty_forces(state)), MetricParams{}.slip * vibration(state.force));
 }
 
 ArcMetric arc_metric(const steady::Summary& state, double force, double range) {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "branches/params.hpp"
+
 namespace dovetail::branches {
 
 BorderedSystem::BorderedSystem(const steady::Tangent& tangent, Eigen::VectorXd column, Eigen::VectorXd row,
@@ -31,9 +33,8 @@ BorderedSystem::Solution BorderedSystem::solve(const Eigen::VectorXd& forces, do
   if (tangent_.status() != Status::converged || !by_column_.allFinite()) return solve_densely(forces, constraint);
   Solution solution{.displacement = Eigen::VectorXd::Zero(forces.size())};
   // The size of the terms that cancel in each row decides what counts as zero.
-  constexpr double kExact = 1e-10, kUsable = 1e-4;
-  constexpr int kRefinements = 4;
-  for (int pass = 0; pass <= kRefinements; ++pass) {
+  constexpr BorderedParams kParams;
+  for (int pass = 0; pass <= kParams.refinements; ++pass) {
     Defect left{.forces = forces, .constraint = constraint};
     double size = forces.norm() + std::abs(solution.parameter) * column_.norm();
     if (pass > 0) left = defect(solution, forces, constraint);
@@ -41,11 +42,11 @@ BorderedSystem::Solution BorderedSystem::solve(const Eigen::VectorXd& forces, do
     const double reach = row_.norm() * solution.displacement.norm() + std::abs(corner_ * solution.parameter);
     const double force_error = size > 0 ? left.forces.norm() / size : 0;
     const double error = std::max(force_error, std::abs(left.constraint) / std::max(reach, std::abs(constraint)));
-    if (pass > 0 && error <= (pass == kRefinements ? kUsable : kExact)) {
+    if (pass > 0 && error <= (pass == kParams.refinements ? kParams.usable : kParams.exact)) {
       solution.status = Status::converged;
       return solution;
     }
-    if (pass < kRefinements) eliminate(left, solution);
+    if (pass < kParams.refinements) eliminate(left, solution);
   }
   return solve_densely(forces, constraint);
 }
@@ -70,9 +71,7 @@ BorderedSystem::Solution BorderedSystem::solve_densely(const Eigen::VectorXd& fo
   if (!(columns.minCoeff() > 0)) return {};
   matrix.array().rowwise() /= columns.array();
   const numerics::DenseLu lu(std::move(matrix));
-  // Two branches cross here: no bordering with one row makes the matrix regular.
-  constexpr double kRegular = 1e-14;
-  if (lu.status() != Status::converged || lu.reciprocal_condition() < kRegular) return {};
+  if (lu.status() != Status::converged || lu.reciprocal_condition() < BorderedParams{}.regular) return {};
   const Eigen::VectorXd found = Eigen::VectorXd(lu.solve(right)).cwiseQuotient(columns.transpose());
   return {.status = found.allFinite() ? Status::converged : Status::not_finite,
           .displacement = found.head(n),

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "branches/bordered.hpp"
+#include "branches/params.hpp"
 #include "numerics/newton.hpp"
 #include "steady/solve.hpp"
 
@@ -125,9 +126,7 @@ Equations::Correction Equations::correct(const Vector& start, const Vector& row,
   found.status = Status::stalled;
   if (!equations.go_to(found.at)) return found;
   found.point = equations.at();
-  // Newton measured forces by the excitation at the start, which a pole of the glued structure may have changed.
-  constexpr double kSlack = 2;
-  if (!(found.point.error() <= kSlack * goal)) return found;
+  if (!(found.point.error() <= CorrectorParams{}.slack * goal)) return found;
   found.status = steady::is_held(found.point) ? Status::converged : Status::singular;
   return found;
 }

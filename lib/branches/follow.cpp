@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "branches/params.hpp"
 #include "branches/station.hpp"
 #include "branches/turns.hpp"
 
@@ -18,7 +19,7 @@ class Follower {
         interval_(interval),
         follow_(follow),
         progress_(progress),
-        short_(kShort * follow.largest_change),
+        short_(kParams.short_step * follow.largest_change),
         maker_(equations, follow, interval.size()),
         turns_(std::max(follow.smallest_turn, 2.0 / equations.options().samples) * interval.size(), interval.sign()) {}
 
@@ -30,14 +31,6 @@ class Follower {
   }
 
  private:
-  // A kink turns the tangent by the same angle however short the step: one shorter than this, in parts of the largest
-  // change, is taken as it is.
-  static constexpr double kShort = 0.03;
-  // Another piece of a fold beside the one followed is further away than this part of a short step, a branch that
-  // crosses is not.
-  static constexpr double kCrossing = 1e-2;
-  static constexpr double kPlace = 0.1;  // how far apart places are, in parts of the largest change
-
   bool begin(steady::State state) {
     branch_.jacobians = state.iterations;
     branch_.evaluations = state.evaluations;
@@ -68,7 +61,7 @@ class Follower {
       if (next) {
         if (const std::optional<double> end = end_passed(next->at.parameter)) {
           if (finish_at(*end, *next)) return Status::converged;
-          shorter_ = 0.4;
+          shorter_ = kParams.failed_cut;
           next.reset();
         }
       }
@@ -88,31 +81,30 @@ class Follower {
 
   // The next station, or nothing and in shorter_ by how much to shorten the step.
   std::optional<Station> attempt(double step) {
-    shorter_ = 0.4;
+    shorter_ = kParams.failed_cut;
     std::optional<Station> next;
-    constexpr int kZigzag = 24;
-    if (since_place_ >= kZigzag) {
+    if (since_place_ >= kParams.zigzag) {
       since_place_ = 0;
       next = leap();
       if (next) return next;
     }
     next = maker_.advance(now_, now_.tangent, step);
     if (next && acceptable(*next, step)) return next;
-    if (next && !next->doubtful) shorter_ = std::clamp(0.8 * shape_factor(*next), 0.2, 0.7);
+    if (next && !next->doubtful)
+      shorter_ = std::clamp(kParams.safety * shape_factor(*next), kParams.shortest_cut, kParams.longest_cut);
     if (next && !next->doubtful) return {};
     // Short of a kink: the way on is the piece behind it, which the plane across this tangent need not meet.
-    constexpr double kBent = 0.95;
     const std::optional<Vector> ahead = maker_.tangent_ahead(now_, now_.tangent, step);
-    if (ahead && now_.metric.inner(*ahead, now_.tangent) < kBent) {
+    if (ahead && now_.metric.inner(*ahead, now_.tangent) < kParams.bent) {
       next = maker_.advance(now_, *ahead, step);
       if (next && acceptable(*next, step)) return next;
     }
     if (step > short_) return {};
-    if (now_.metric.inner(chord_, now_.tangent) < kBent * now_.metric.length(chord_)) {
+    if (now_.metric.inner(chord_, now_.tangent) < kParams.bent * now_.metric.length(chord_)) {
       next = maker_.advance(now_, now_.metric.unit(chord_), step);
       if (next && acceptable(*next, step)) return next;
     }
-    return step < kCrossing * short_ ? leap() : std::optional<Station>{};
+    return step < kParams.crossing * short_ ? leap() : std::optional<Station>{};
   }
 
   // Over folds that are smaller than the steps wanted: onwards the way the branch went on the whole, whatever the
@@ -122,13 +114,12 @@ class Follower {
     const Vector& last = places_.back();
     if (places_.size() < 2) return {};
     const Vector onwards = metric.unit(last - places_.front());
-    constexpr double kOnwards = 0.5;
-    for (const double length : {0.1, 0.3, 1.0}) {
+    for (const double length : kParams.leaps) {
       std::optional<Station> next = maker_.advance(now_, onwards, length * follow_.largest_change);
       if (!next || next->doubtful) continue;
       const double gained = metric.inner(next->at - last, onwards);
-      if (gained > kPlace * follow_.largest_change / 2 && metric.inner(next->tangent, onwards) > 0 &&
-          metric.inner(next->at - now_.at, onwards) > kOnwards * next->step)
+      if (gained > kParams.place * follow_.largest_change / 2 && metric.inner(next->tangent, onwards) > 0 &&
+          metric.inner(next->at - now_.at, onwards) > kParams.onwards * next->step)
         return next;
     }
     return {};
@@ -136,17 +127,16 @@ class Follower {
 
   // Notes where the branch has been, some way apart; many points without a new place are a zigzag.
   void note(const Station& station) {
-    constexpr std::size_t kPlaces = 16;
     ++since_place_;
     for (const Vector& place : places_)
-      if (station.metric.length(station.at - place) < kPlace * follow_.largest_change) return;
+      if (station.metric.length(station.at - place) < kParams.place * follow_.largest_change) return;
     since_place_ = 0;
     places_.push_back(station.at);
-    if (places_.size() > kPlaces) places_.erase(places_.begin());
+    if (places_.size() > kParams.places) places_.erase(places_.begin());
   }
 
   [[nodiscard]] bool acceptable(const Station& next, double step) const {
-    if (next.doubtful) return step <= kCrossing * short_;
+    if (next.doubtful) return step <= kParams.crossing * short_;
     return step <= short_ || fine(next);
   }
 
@@ -156,16 +146,14 @@ class Follower {
     return std::min(follow_.largest_turn / std::max(next.turn_angle, kSmall),
                     follow_.largest_change / std::max(next.output_change, kSmall));
   }
-  [[nodiscard]] bool fine(const Station& next) const {
-    constexpr double kTolerated = 1.5;  // a step a little too long is not worth a second one
-    return kTolerated * shape_factor(next) >= 1;
-  }
+  [[nodiscard]] bool fine(const Station& next) const { return kParams.tolerated * shape_factor(next) >= 1; }
 
   [[nodiscard]] double next_step(const Station& next, double step) const {
-    constexpr double kWantedIterations = 4, kGrowth = 2;
-    const double by_iterations = std::exp2((kWantedIterations - next.iterations) / 2.0);
-    const double factor = std::clamp(std::min(by_iterations, 0.8 * shape_factor(next)), 1 / kGrowth, kGrowth);
-    return std::clamp(std::max(step, next.step / kGrowth) * factor, follow_.smallest_step, follow_.largest_change);
+    const double by_iterations = std::exp2((kParams.wanted_corrections - next.iterations) / 2.0);
+    const double factor =
+        std::clamp(std::min(by_iterations, kParams.safety * shape_factor(next)), 1 / kParams.growth, kParams.growth);
+    return std::clamp(std::max(step, next.step / kParams.growth) * factor, follow_.smallest_step,
+                      follow_.largest_change);
   }
 
   // The end of the interval behind which a parameter lies, if any.
@@ -192,15 +180,13 @@ class Follower {
   // length of the step, or bisection where that jumps because a sample changes its contact state. Leaves it out when
   // the corrections fail. False when the caller wants to stop.
   bool place_turn(const Station& next) {
-    constexpr int kTries = 10;
-    constexpr double kFlat = 1e-6;  // what the parameter can still change by, in the units of the metric
     const Vector direction = now_.metric.unit(next.at - now_.at);
     double low = 0, high = now_.metric.length(next.at - now_.at);
     double slope_low = now_.slope(), slope_high = next.slope();
     std::optional<Station> best;
-    for (int i = 0; i < kTries; ++i) {
+    for (int i = 0; i < kParams.turn_tries; ++i) {
       const double part = i % 2 == 0 ? slope_low / (slope_low - slope_high) : 0.5;
-      const double step = low + (high - low) * std::clamp(part, 0.02, 0.98);
+      const double step = low + (high - low) * std::clamp(part, kParams.turn_margin, 1 - kParams.turn_margin);
       std::optional<Station> middle = maker_.advance(now_, direction, step);
       if (!middle) break;
       const double here = middle->slope();
@@ -209,7 +195,7 @@ class Follower {
       const bool before = here * now_.slope() > 0;
       (before ? low : high) = step;
       (before ? slope_low : slope_high) = here;
-      if (std::abs(here) * (high - low) <= kFlat) break;
+      if (std::abs(here) * (high - low) <= kParams.turn_flat) break;
     }
     return !best || report(*best);
   }
@@ -217,9 +203,8 @@ class Follower {
   bool accept(Station next) {
     const bool go_on = report(next);
     // The chord over the last few points is where the branch goes on the whole.
-    constexpr double kMemory = 0.6;
     const Vector way = next.at - now_.at;
-    chord_ = way + kMemory * chord_;
+    chord_ = way + kParams.memory * chord_;
     now_ = std::move(next);
     note(now_);
     return go_on;
@@ -236,6 +221,7 @@ class Follower {
     return !progress_ || progress_(branch_.points.back());
   }
 
+  static constexpr FollowParams kParams = {};
   const Equations& equations_;
   const Interval& interval_;
   const FollowOptions& follow_;

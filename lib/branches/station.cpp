@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "branches/params.hpp"
+
 namespace dovetail::branches {
 namespace {
 
@@ -15,9 +17,8 @@ void orient(const Station& now, const Vector& way, int determinant, Station& nex
   const int here = determinant * (next.tangent.parameter > 0 ? 1 : -1);
   next.orientation = here != 0 ? here : now.orientation;
   next.doubtful = here != 0 && now.orientation != 0 && here != now.orientation;
-  constexpr double kStraight = 0.9;
   const double cosine = now.metric.inner(now.tangent, next.tangent) / now.metric.length(next.tangent);
-  if (!next.doubtful || cosine > kStraight) return;
+  if (!next.doubtful || cosine > CorrectorParams{}.straight) return;
   next.tangent = -1 * next.tangent;
   next.orientation = now.orientation;
 }
@@ -41,12 +42,10 @@ std::optional<Station> StationMaker::first(steady::State state, double parameter
 
 // One unit is a change of the contact's vibration by its own size, or the step of the parameter that counts as much.
 ArcMetric StationMaker::metric_at(const steady::State& state) {
-  // Slip that is small against what the contact forces do is no reason for tiny steps, nor is an antiresonance.
-  constexpr double kFloor = 1e-2;
   const double vibrating = vibrating_force(state);
-  largest_forces_ = std::max({largest_forces_, vibrating, 1e-6 * penalty_forces(state).norm()});
+  largest_forces_ = std::max({largest_forces_, vibrating, MetricParams{}.static_part * penalty_forces(state).norm()});
   largest_output_ = std::max(largest_output_, vibration(state.outputs));
-  return arc_metric(state, std::max(vibrating, kFloor * largest_forces_),
+  return arc_metric(state, std::max(vibrating, MetricParams{}.floor * largest_forces_),
                     follow_.largest_parameter_step * interval_ / follow_.largest_change);
 }
 
@@ -84,13 +83,12 @@ std::optional<Station> StationMaker::described(const Station& now, const Equatio
   evaluations_ += found.evaluations;
   failure_ = found.status;
   if (found.status != Status::converged) return {};
-  // Further away than twice the step it is another branch, or the other side of a loop; very near, it is the way on
-  // behind a sharp kink, where contact that was stuck begins to slide.
+  // Further away it is another branch, or the other side of a loop; very near, the way on behind a kink.
+  constexpr CorrectorParams kParams;
   const Vector way = found.at - now.at;
   const double reached = now.metric.length(way);
   failure_ = Status::stalled;
-  constexpr double kSidestep = 2, kKink = 0.1;
-  if (reached > std::max(kSidestep * step, kKink * follow_.largest_change)) return {};
+  if (reached > std::max(kParams.sidestep * step, kParams.kink * follow_.largest_change)) return {};
   Equations::Described point = equations_.describe(found, direction, now.metric);
   failure_ = point.state.status;
   if (point.state.status != Status::converged || !point.tangent) return {};
@@ -113,8 +111,8 @@ std::optional<Station> StationMaker::described(const Station& now, const Equatio
 
 double StationMaker::output_change(const steady::State& before, const steady::State& after) const {
   if (after.outputs.size() == 0) return 0;
-  constexpr double kFloor = 1e-2;
-  const double size = std::max({vibration(before.outputs), vibration(after.outputs), kFloor * largest_output_});
+  const double size =
+      std::max({vibration(before.outputs), vibration(after.outputs), MetricParams{}.floor * largest_output_});
   return size > 0 ? (after.outputs - before.outputs).norm() / size : 0;
 }
 

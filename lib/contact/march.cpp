@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <cassert>
 
+#include "contact/params.hpp"
 #include "contact/sample_step.hpp"
 #include "core/options.hpp"
 
 namespace dovetail::contact {
 namespace {
 
-// Slip that dies out slowly approaches its periodic state geometrically: from here on it is extrapolated.
-constexpr int kPatience = 16, kInterval = 8;
-// A change below this is none: no ratio of it says anything.
-constexpr double kRounding = 1e-14;
+constexpr SettlingParams kParams;
 
 // Aitken's limit of a geometric sequence of slip states from its last two changes. Its ratio; 0 when it is not one.
 template <int Directions>
@@ -45,7 +43,8 @@ Scale scale_of(const double* prediction, const NodeLaw& law, int samples) {
     for (int r = 0; r < Directions; ++r) largest_force = std::max(largest_force, std::abs(here[1 + r]));
   }
   if (limit <= 0) limit = largest_force;
-  return {.limit = limit, .rounding = std::max(kRounding * limit, kRounding / 8 * largest_force)};
+  return {.limit = limit,
+          .rounding = std::max(kParams.rounding * limit, kParams.rounding / kParams.errors * largest_force)};
 }
 
 /// One period from `memory`. `reset`: the last sample, counted from the beginning of the march, whose state does not
@@ -119,10 +118,8 @@ void march_node(const double* prediction, const NodeLaw& law, const MarchOptions
     }
     // Slip that dies out geometrically is as far from its orbit as the changes still to come: their sum counts. What an
     // extrapolation stirs up dies out faster than what it was made for, of which a little is left.
-    // Changes of some rounding errors say nothing about a ratio: they may go on for ever.
-    constexpr double kErrors = 8;
     double rest = largest;
-    if (Directions == 2 && largest > kErrors * rounding) {
+    if (Directions == 2 && largest > kParams.errors * rounding) {
       const double ratio = largest_before > 0 ? std::max(largest / largest_before, slowest) : 1;
       rest = ratio < 1 ? largest * std::max(1.0, ratio / (1 - ratio)) : kInfinity;
     }
@@ -139,8 +136,8 @@ void march_node(const double* prediction, const NodeLaw& law, const MarchOptions
       result.start.orbit = before;
       break;
     }
-    if (Directions == 2 && may_extrapolate && result.periods >= kPatience && result.periods % kInterval == 0 &&
-        result.periods < periods) {
+    if (Directions == 2 && may_extrapolate && result.periods >= kParams.patience &&
+        result.periods % kParams.interval == 0 && result.periods < periods) {
       const double ratio = extrapolate<Directions>(change, change_before, memory);
       if (ratio > 0) {
         result.extrapolated = true;

@@ -2,6 +2,8 @@
 
 #include <cassert>
 
+#include "contact/params.hpp"
+
 namespace dovetail::contact {
 
 Eigen::VectorXd PseudoPenalty::by_dof(Eigen::Index directions) const {
@@ -18,11 +20,12 @@ PseudoPenalty pseudo_penalty(const Eigen::VectorXd& local_stiffness, Eigen::Inde
   assert(directions >= 2 && local_stiffness.size() % directions == 0);
   const Eigen::Index nodes = local_stiffness.size() / directions;
   const double largest = nodes > 0 ? local_stiffness.maxCoeff() : 0;
+  constexpr PenaltyParams kParams;
   const auto automatic = [&](double stiffness) {
-    if (stiffness > 1e-12 * largest && stiffness > 0) return stiffness;
+    if (stiffness > kParams.no_stiffness * largest && stiffness > 0) return stiffness;
     // Contact that has mass resists the faster it is moved, without limit: a stiff value in proportion to that.
-    if (stiffness < 0) return -1e-3 * stiffness;
-    return largest > 0 ? 1e-3 * largest : 1.0;
+    if (stiffness < 0) return -kParams.of_mass * stiffness;
+    return largest > 0 ? kParams.least_stiffness * largest : 1.0;
   };
   PseudoPenalty result{.normal = Eigen::VectorXd(nodes), .tangential = Eigen::VectorXd(nodes)};
   for (Eigen::Index i = 0; i < nodes; ++i) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 
 namespace dovetail::contact {
 
@@ -26,9 +25,5 @@ struct PseudoPenalty {
 /// ones.
 [[nodiscard]] PseudoPenalty pseudo_penalty(const Eigen::VectorXd& local_stiffness, Eigen::Index directions,
                                            double normal = 0, double tangential = 0);
-
-/// Ratios tried one after the other when a solve fails: the converged answer at a given number of harmonics depends
-/// slightly on eps, so the most accurate one comes first.
-inline constexpr std::array<double, 6> kPenaltyCascade{1, 0.5, 0.1, 2, 0.02, 10};
 
 }  // namespace dovetail::contact

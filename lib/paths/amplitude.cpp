@@ -4,6 +4,7 @@
 
 #include "dynamics/extremes.hpp"
 #include "dynamics/real_block.hpp"
+#include "paths/params.hpp"
 #include "steady/problem.hpp"
 
 namespace dovetail::paths {
@@ -36,10 +37,11 @@ AmplitudeAt amplitude_at(const steady::Point& point, const branches::Vector& dir
 AmplitudeSlope amplitude_slope(const steady::State& state, Eigen::Index output) {
   const branches::Vector along{.displacement = state.tangent->response_to_frequency(), .parameter = 1};
   const AmplitudeAt at = amplitude_at(state.tangent->point(), along, output);
-  // A resonance sharper than this is not resolved by the frequency tolerance either.
-  constexpr double kSharpest = 1e-6, kWidest = 0.5;
-  const double width = at.speed > 0 ? 1 / (at.speed * state.omega) : kWidest;
-  return {.amplitude = at.value, .slope = at.change, .width = state.omega * std::clamp(width, kSharpest, kWidest)};
+  constexpr WidthParams kParams;
+  const double width = at.speed > 0 ? 1 / (at.speed * state.omega) : kParams.widest;
+  return {.amplitude = at.value,
+          .slope = at.change,
+          .width = state.omega * std::clamp(width, kParams.sharpest, kParams.widest)};
 }
 
 }  // namespace dovetail::paths

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "paths/params.hpp"
 #include "paths/peak.hpp"
 #include "paths/peak_sweep.hpp"
 #include "paths/reach.hpp"
@@ -69,14 +70,14 @@ class Tracker {
   }
 
   // Takes the highest peak of the branch around `point` instead of it, when that is higher or the point failed.
-  void check(BackbonePoint& point, double near, int rounds = 3) {
+  void check(BackbonePoint& point, double near, int rounds = kParams.rounds) {
     if (backbone_.check_range == 0) return;
     const bool known = point.status == Status::converged;
     const double middle = known ? point.omega : near;
     const double low = middle * (1 - backbone_.check_range), high = middle * (1 + backbone_.check_range);
     // Downwards, upwards when the start is not found there, and far out when there is no peak to be held against.
     std::vector<std::pair<double, double>> ways{{high, low}, {low, high}};
-    if (!known && backbone_.search) ways.emplace_back(kFar * high, low / kFar);
+    if (!known && backbone_.search) ways.emplace_back(kParams.far * high, low / kParams.far);
     const steady::Joint joint = family_(point.parameter);
     Resonance swept;
     for (const auto& [from, to] : ways) {
@@ -93,8 +94,7 @@ class Tracker {
     point.searched = point.jumped = true;
     adopt(std::move(swept), point);
     // Elsewhere the range contains others.
-    constexpr double kMoved = 0.05;
-    if (rounds > 1 && std::abs(point.omega / middle - 1) > kMoved) check(point, point.omega, rounds - 1);
+    if (rounds > 1 && std::abs(point.omega / middle - 1) > kParams.moved) check(point, point.omega, rounds - 1);
   }
 
   BackbonePoint searched(double parameter, double omega_start, const Eigen::MatrixXd& guess,
@@ -125,7 +125,7 @@ class Tracker {
     keep({.parameter = point.parameter, .point = {.displacement = point.state.displacement, .parameter = point.omega}});
     last_state_ = point.state;
     last_state_.tangent.reset();
-    curvature_ = kLinear;
+    curvature_ = kParams.linear;
     width_ = amplitude_slope(point.state, backbone_.resonance.output).width;
     if (!keeps_tangents_) point.state.tangent.reset();
   }
@@ -147,8 +147,7 @@ class Tracker {
                         .state = {}};
     if (point.status != Status::converged) return point;
     // A peak this far from where it was expected is another one.
-    constexpr double kElsewhere = 0.5;
-    if (std::abs(found.at.parameter / supports_.back().point.parameter - 1) > kElsewhere) {
+    if (std::abs(found.at.parameter / supports_.back().point.parameter - 1) > kParams.elsewhere) {
       point.status = Status::stalled;
       return point;
     }
@@ -160,8 +159,7 @@ class Tracker {
     last_state_.tangent.reset();
     // The next metric has the width found here as its unit, in which the curvature of a peak hardly varies.
     curvature_ = found.curvature;
-    constexpr double kNarrower = 0.1, kWider = 10;
-    width_ = std::clamp(found.width, kNarrower * width_, kWider * width_);
+    width_ = std::clamp(found.width, kParams.narrower * width_, kParams.wider * width_);
     return point;
   }
 
@@ -178,21 +176,19 @@ class Tracker {
   }
 
   void keep(Support support) {
-    constexpr std::size_t kSupports = 3;
     std::erase_if(supports_, [&](const Support& old) { return old.parameter == support.parameter; });
     supports_.push_back(std::move(support));
-    if (supports_.size() > kSupports) supports_.erase(supports_.begin());
+    if (supports_.size() > kParams.supports) supports_.erase(supports_.begin());
   }
 
-  static constexpr double kFar = 2;
-  static constexpr double kLinear = -0.5;  // the curvature of a linear peak in its metric
+  static constexpr BackboneParams kParams = {};
 
   const BackboneFamily& family_;
   const BackboneOptions& backbone_;
   std::vector<Support> supports_;
   steady::State last_state_;
   bool keeps_tangents_ = true;
-  double penalty_ratio_ = 1, curvature_ = kLinear, width_ = 0, omega_start_ = 0;
+  double penalty_ratio_ = 1, curvature_ = kParams.linear, width_ = 0, omega_start_ = 0;
 };
 
 }  // namespace

@@ -1,18 +1,8 @@
 #include "paths/dashpots.hpp"
 
-#include "branches/follow.hpp"
 #include "dynamics/real_block.hpp"
 
 namespace dovetail::paths {
-namespace {
-
-// Only the end of the branch counts: its steps may be long. With shorter ones the many kinks of hard cases cost more
-// Jacobians than there are, with longer ones they are lost.
-constexpr branches::FollowOptions kLongSteps{
-    .largest_parameter_step = 0.5, .largest_change = 2, .largest_turn = 1.5, .locate_turns = false};
-
-}  // namespace
-
 std::shared_ptr<const dynamics::HarmonicSystem> Dashpots::system(double alpha) const {
   if (alpha == 0) return problem_.shared_system();
   auto damped = std::make_shared<dynamics::HarmonicSystem>(problem_.system());
@@ -31,7 +21,8 @@ Eigen::MatrixXd Dashpots::slope(const steady::Point& point) const {
   return forces - steady::apply_force_derivative(point, forces);
 }
 
-Dashpots::Followed Dashpots::follow(double alpha, const Eigen::MatrixXd& displacement, int max_jacobians) const {
+Dashpots::Followed Dashpots::follow(double alpha, const Eigen::MatrixXd& displacement,
+                                    const branches::FollowOptions& steps) const {
   // The states on the way are forgotten: none keeps its factors.
   steady::Options options = problem_.options();
   options.linearise = false;
@@ -42,8 +33,6 @@ Dashpots::Followed Dashpots::follow(double alpha, const Eigen::MatrixXd& displac
   steady::evaluate(equations.at(alpha), displacement, point);
   steady::State start = steady::described(std::move(point), Status::converged, steady::AtSolution::linearise);
   start.iterations = start.evaluations = 1;
-  branches::FollowOptions steps = kLongSteps;
-  steps.max_jacobians = max_jacobians;
   const branches::Branch branch =
       branches::follow(equations, std::move(start), {.from = alpha, .to = 0, .back = kInfinity}, steps);
   Followed followed{.displacement = {}, .jacobians = branch.jacobians, .evaluations = branch.evaluations};

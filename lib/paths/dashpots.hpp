@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <memory>
 
+#include "branches/follow.hpp"
 #include "steady/point.hpp"
 
 namespace dovetail::paths {
@@ -23,8 +24,9 @@ class Dashpots {
     int jacobians = 0, evaluations = 0;
   };
   /// Follows the branch f(U; alpha) = 0 from its point (`displacement`, alpha > 0) through its turns until alpha
-  /// vanishes, with at most about `max_jacobians` > 0.
-  [[nodiscard]] Followed follow(double alpha, const Eigen::MatrixXd& displacement, int max_jacobians) const;
+  /// vanishes, in steps as `steps` says.
+  [[nodiscard]] Followed follow(double alpha, const Eigen::MatrixXd& displacement,
+                                const branches::FollowOptions& steps) const;
 
  private:
   [[nodiscard]] Eigen::MatrixXd slope(const steady::Point& point) const;

@@ -1,8 +1,8 @@
 #include "paths/frequency_response.hpp"
 
-#include <array>
 #include <cmath>
 
+#include "paths/params.hpp"
 #include "paths/reach.hpp"
 
 namespace dovetail::paths {
@@ -22,9 +22,9 @@ class Sweep {
       state = approached(omega);
       // Behind a turning point the branch ends, and Newton dwells where it did: another one is met further on, and
       // followed back to omega.
-      constexpr std::array kFurther{0.01, 0.03, 0.1};
-      for (std::size_t i = 0; state.status != Status::converged && i < kFurther.size(); ++i) {
-        const double beyond = omega * (1 + std::copysign(kFurther[i], omega - before.omega));
+      for (const double further : kParams.further) {
+        if (state.status == Status::converged) break;
+        const double beyond = omega * (1 + std::copysign(further, omega - before.omega));
         const steady::State other = steady_state(plain(), beyond);
         steady::State back;
         if (other.status == Status::converged) {
@@ -68,9 +68,8 @@ class Sweep {
 
   // Halves the way to omega while that fails, and carries on from where it got.
   steady::State approached(double omega) {
-    constexpr int kHalvings = 6;
     steady::State state;
-    const Reach reached = reach(last_.omega, omega, kHalvings, [&](double target) {
+    const Reach reached = reach(last_.omega, omega, kParams.halvings, [&](double target) {
       state = added(from_last(target, plain()), state);
       if (state.status == Status::converged) last_ = state;
       return state.status == Status::converged;
@@ -79,6 +78,7 @@ class Sweep {
     return state;
   }
 
+  static constexpr SweepParams kParams = {};
   steady::Joint joint_;
   steady::State last_;  // the last converged one, with its tangent
 };

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "branches/bordered.hpp"
+#include "paths/params.hpp"
 #include "paths/stationarity.hpp"
 #include "steady/problem.hpp"
 
@@ -66,12 +67,12 @@ class PeakNewton {
  public:
   PeakNewton(const branches::Equations& branch, const branches::ArcMetric& metric, const PeakOptions& options,
              double curvature)
-      : branch_(branch), metric_(metric), options_(options), stationarity_(curvature, kTrust) {}
+      : branch_(branch), metric_(metric), options_(options), stationarity_(curvature, kParams.trust) {}
 
   Peak run(const branches::Vector& start) {
     peak_.at = start_ = start;
     const branches::Vector forward = reference_ = metric_.forwards(start.displacement);
-    if (!look(start, forward, kNear) && !correct(start, forward)) return peak_;
+    if (!look(start, forward, kParams.near) && !correct(start, forward)) return peak_;
     while (peak_.iterations < options_.max_iterations) {
       if (!clean()) {
         if (!go_back()) return peak_;
@@ -85,10 +86,7 @@ class PeakNewton {
   }
 
  private:
-  // Within this distance of the branch Newton acts on the point and on its place at once; from further away, and over
-  // longer steps, the point is first brought back by the corrector with its line search.
-  static constexpr double kNear = 0.2, kShort = 0.1;
-  static constexpr double kTrust = 0.25;  // the longest step, a change of the vibration by this part of its size
+  static constexpr PeakParams kParams = {};
 
   struct Visited {
     Local local;
@@ -108,17 +106,15 @@ class PeakNewton {
 
   // The point of the branch in the plane through `from` across `row`; false when the corrector fails.
   bool correct(const branches::Vector& from, const branches::Vector& row) {
-    constexpr int kCorrections = 8;
-    const branches::Equations::Correction found = branch_.correct(from, row, metric_, kCorrections);
+    const branches::Equations::Correction found = branch_.correct(from, row, metric_, kParams.corrections);
     peak_.iterations += found.iterations;
     peak_.evaluations += found.evaluations;
     peak_.status = found.status;
     if (found.status != Status::converged) return false;
     // Another branch is no place to look for this peak.
-    constexpr double kAway = 2;
     peak_.status = Status::stalled;
-    if (metric_.length(found.at - from) > kAway) return false;
-    return look(found.at, row, kNear);
+    if (metric_.length(found.at - from) > kParams.away) return false;
+    return look(found.at, row, kParams.near);
   }
 
   [[nodiscard]] double slope() const {
@@ -127,10 +123,7 @@ class PeakNewton {
   [[nodiscard]] double place() const { return metric_.inner(here_.at - start_, reference_); }
 
   // A slope is as wrong as its point is away from the branch: before it says where to go, the point goes back.
-  [[nodiscard]] bool clean() const {
-    constexpr double kClean = 0.1;
-    return here_.on_branch || here_.distance <= kClean * std::abs(slope());
-  }
+  [[nodiscard]] bool clean() const { return here_.on_branch || here_.distance <= kParams.clean * std::abs(slope()); }
   bool go_back() {
     const Local from = here_;
     return look(from.at + from.correction, from.direction, 0.5 * from.distance) || correct(from.at, from.direction);
@@ -154,10 +147,9 @@ class PeakNewton {
     const double tolerated = options_.frequency_tolerance * here_.at.parameter;
     peak_.error = std::min(way, stationarity_.bracket()) / here_.at.parameter;
     // Along a steep branch the frequency hardly moves: the place on the branch must be known as well.
-    constexpr double kFlat = 1e-4, kPart = 0.2;
-    const bool stands = way <= kPart * tolerated || stationarity_.bracket() <= tolerated;
+    const bool stands = way <= kParams.part * tolerated || stationarity_.bracket() <= tolerated;
     peak_.status = Status::converged;
-    return here_.on_branch && std::abs(step_) <= kFlat && stands;
+    return here_.on_branch && std::abs(step_) <= kParams.flat && stands;
   }
 
   // To the next place, from the point known best for it.
@@ -167,20 +159,20 @@ class PeakNewton {
     std::erase_if(
         ends_, [&](const Visited& end) { return !stationarity_.is_end(end.place) && end.place != ends_.back().place; });
     Visited from = ends_.back();
-    if (std::abs(step_) > kShort)
+    if (std::abs(step_) > kParams.short_step)
       for (const Visited& end : ends_)
         if (worth(end, target) > worth(from, target)) from = end;
     // Where the branch turns away from the reference a step along it gains little place.
-    constexpr double kTurned = 0.2;
     const double gain = metric_.inner(from.local.direction, reference_);
     peak_.status = Status::stalled;
-    if (gain < kTurned) return false;
+    if (gain < kParams.turned) return false;
     double step = (target - from.place) / gain;
-    if (std::abs(step) <= kShort && from.local.distance <= kNear &&
-        look(from.local.at + from.local.correction + step * from.local.direction, from.local.direction, kNear / 2))
+    if (std::abs(step) <= kParams.short_step && from.local.distance <= kParams.near &&
+        look(from.local.at + from.local.correction + step * from.local.direction, from.local.direction,
+             kParams.near / 2))
       return true;
-    constexpr int kShortenings = 4;
-    for (int i = 0; i < kShortenings && peak_.iterations < options_.max_iterations; ++i, step *= 0.3)
+    for (int i = 0; i < kParams.shortenings && peak_.iterations < options_.max_iterations;
+         ++i, step *= kParams.shortening)
       if (correct(from.local.at + step * from.local.direction, from.local.direction)) return true;
     return false;
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "paths/continuation.hpp"
+#include "paths/params.hpp"
 #include "paths/peak.hpp"
 
 namespace dovetail::paths {
@@ -18,7 +19,7 @@ std::vector<std::size_t> summits(const branches::Branch& branch, Eigen::Index ou
   return found;
 }
 
-constexpr double kHeight = 0.99;  // of the summit: a search may have run off to a lower maximum
+constexpr PeakSweepParams kParams;
 
 }  // namespace
 
@@ -29,19 +30,17 @@ std::optional<steady::State> climb(const branches::Equations& equations, const s
   double height = from.amplitudes(options.output);
   Peak peak;
   // Where the branch turns away from where it led at the start, the climb begins anew.
-  constexpr int kClimbs = 8;
-  constexpr double kGain = 1e-3;
-  for (int i = 0; i < kClimbs; ++i) {
+  for (int i = 0; i < kParams.climbs; ++i) {
     peak = find_peak(equations, start, metric,
                      {.output = options.output, .frequency_tolerance = options.frequency_tolerance});
     ++work.solves;
     work.jacobians += peak.iterations;
     const bool ended = peak.status != Status::stalled && peak.status != Status::iteration_limit;
-    if (ended || peak.amplitude < (1 + kGain) * height) break;
+    if (ended || peak.amplitude < (1 + kParams.gain) * height) break;
     height = peak.amplitude;
     start = peak.at;
   }
-  if (peak.status != Status::converged || peak.amplitude < kHeight * from.amplitudes(options.output)) return {};
+  if (peak.status != Status::converged || peak.amplitude < kParams.height * from.amplitudes(options.output)) return {};
   steady::State state = described(equations, peak, metric);
   if (state.status != Status::converged || !state.tangent) return {};
   return state;
@@ -49,13 +48,8 @@ std::optional<steady::State> climb(const branches::Equations& equations, const s
 
 Resonance peak_sweep(const steady::Joint& joint, double omega_from, double omega_to,
                      const ResonanceOptions& resonance_options) {
-  // Coarse steps: what counts is that no peak is stepped over, and the change of the outputs sees to that.
-  const branches::FollowOptions coarse{.largest_parameter_step = 0.02,
-                                       .largest_change = 0.5,
-                                       .largest_turn = 0.8,
-                                       .max_points = 1000,
-                                       .max_jacobians = resonance_options.max_sweep_jacobians,
-                                       .locate_turns = false};
+  branches::FollowOptions coarse = kParams.steps;
+  coarse.max_jacobians = resonance_options.max_sweep_jacobians;
   steady::Joint without = joint, with = joint;
   without.options.linearise = false;
   with.options.linearise = true;
@@ -66,12 +60,9 @@ Resonance peak_sweep(const steady::Joint& joint, double omega_from, double omega
   const std::vector<std::size_t> candidates = summits(branch, resonance_options.output);
   if (branch.status == Status::converged) result.status = Status::no_bracket;
   const branches::Equations equations(with, branch.penalty_ratio);
-  // A summit of coarse steps may be lower than the peak beside it is high: the first few are all climbed.
-  constexpr std::size_t kTried = 3;
-  constexpr double kHopeless = 0.8;
-  for (std::size_t c = 0; c < std::min(candidates.size(), kTried); ++c) {
+  for (std::size_t c = 0; c < std::min(candidates.size(), kParams.tried); ++c) {
     const steady::State& summit = branch.points[candidates[c]].state;
-    if (summit.amplitudes(resonance_options.output) < kHopeless * result.amplitude) break;
+    if (summit.amplitudes(resonance_options.output) < kParams.hopeless * result.amplitude) break;
     // The points of the sweep have no tangents, which the width of the peak needs.
     const steady::State from = refined_state(with, summit);
     ++result.solves;

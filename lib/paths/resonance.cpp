@@ -5,11 +5,14 @@
 #include <optional>
 
 #include "paths/amplitude.hpp"
+#include "paths/params.hpp"
 #include "paths/peak_sweep.hpp"
 #include "paths/stationarity.hpp"
 
 namespace dovetail::paths {
 namespace {
+
+constexpr ClosingInParams kParams;
 
 // A point of the response curve near its peak.
 struct Summit {
@@ -33,8 +36,8 @@ class PeakSearch {
     guess_ = guess;
     bool started = solved(joint_, start_);
     // At an undamped glued resonance the condensed stiffness has a pole: step beside it.
-    for (int i = 1; !started && i <= 4; ++i)
-      started = solved(joint_, start_ * (1 + 1e-6 * std::pow(10, i - 1) * (i % 2 ? 1 : -1)));
+    for (int i = 1; !started && i <= kParams.off_pole; ++i)
+      started = solved(joint_, start_ * (1 + kParams.off_pole_step * std::pow(10, i - 1) * (i % 2 ? 1 : -1)));
     if (!started) return finish(last_status_);
     Status status = closed_in();
     if (status != Status::converged && !cut_short(status))
@@ -46,24 +49,23 @@ class PeakSearch {
   // Steps in frequency to the zero of the slope: far away towards the pole of a linear peak through the point, which
   // lies (A'/A) w^2 away when w is its distance from the complex frequency; near by as Stationarity says.
   Status closed_in() {
-    constexpr double kLongest = 0.05, kNear = 0.5, kTrust = 4, kPart = 0.2;
     std::optional<Stationarity> near;
     Stationarity::Mark before;
     while (result_.solves < peak_.max_solves) {
       const Stationarity::Mark here = mark();
       const double width = now_.at.width, tolerated = peak_.frequency_tolerance * now_.omega;
       double step = here.slope * width * width;
-      if (!near && (std::abs(step) <= kNear * width || here.slope * before.slope < 0)) {
-        near.emplace(-1 / (width * width), kTrust * width);
+      if (!near && (std::abs(step) <= kParams.near * width || here.slope * before.slope < 0)) {
+        near.emplace(-1 / (width * width), kParams.trust * width);
         if (before.omega > 0) near->add(before);
       }
       if (near) {
         near->add(here);
         step = near->step();
-        if (std::abs(step) <= kPart * tolerated || near->bracket() <= tolerated) return Status::converged;
+        if (std::abs(step) <= kParams.part * tolerated || near->bracket() <= tolerated) return Status::converged;
         if (near->width() <= tolerated) return Status::no_bracket;  // the curve jumps to another branch there
       } else {
-        step = std::clamp(step, -kLongest * now_.omega, kLongest * now_.omega);
+        step = std::clamp(step, -kParams.longest * now_.omega, kParams.longest * now_.omega);
       }
       const double target = std::clamp(now_.omega + step, lowest_, highest_);
       if (target == now_.omega) return Status::no_bracket;
@@ -71,7 +73,7 @@ class PeakSearch {
       const int jacobians_before = result_.jacobians;
       if (!go(target)) return last_status_;
       // A curve that leans over has no maximum that steps in frequency could close in on: they fall off it.
-      if (now_.at.amplitude < before.amplitude && result_.jacobians - jacobians_before > kHard)
+      if (now_.at.amplitude < before.amplitude && result_.jacobians - jacobians_before > kParams.hard)
         return Status::no_bracket;
     }
     return Status::iteration_limit;
@@ -89,10 +91,9 @@ class PeakSearch {
   // The response at omega, continued from the last point, or part of the way there. Where Newton's method alone does
   // not get there soon, half the way costs less than its rescues, and they may end on another branch: these come last.
   bool go(double omega) {
-    constexpr int kCautious = 3, kTries = 5;
     steady::Joint cautious = joint_;
     cautious.options.solver = "newton";
-    cautious.options.max_iterations = std::min(kHard, joint_.options.max_iterations);
+    cautious.options.max_iterations = std::min(kParams.hard, joint_.options.max_iterations);
     cautious.options.penalty_cascade = false;
     cautious.options.max_rescue_iterations = 0;
     const auto tried = [&](const steady::Joint& joint, int tries) {
@@ -101,7 +102,7 @@ class PeakSearch {
         if (solved(joint, target)) return true;
       return false;
     };
-    return (joint_.options.solver == "auto" && tried(cautious, kCautious)) || tried(joint_, kTries);
+    return (joint_.options.solver == "auto" && tried(cautious, kParams.cautious)) || tried(joint_, kParams.tries);
   }
 
   bool solved(const steady::Joint& joint, double omega) {
@@ -139,7 +140,6 @@ class PeakSearch {
     return std::move(result_);
   }
 
-  static constexpr int kHard = 12;  // Jacobians: a step within one branch takes fewer
   steady::Joint joint_;
   const ResonanceOptions& peak_;
   double start_, lowest_, highest_;
@@ -159,8 +159,7 @@ struct PeakStart {
 /// With many harmonics the way to the peak is found with half of them, at an eighth of the cost of a step; what is left
 /// is a short way on which Newton's method does not have to find out which nodes slip.
 PeakStart with_fewer_harmonics(steady::Joint joint, PeakStart start, const ResonanceOptions& peak) {
-  constexpr int kMany = 9;
-  if (joint.options.harmonics < kMany) return start;
+  if (joint.options.harmonics < kParams.many_harmonics) return start;
   const Eigen::Index all = 2 * joint.options.harmonics + 1;
   joint.options.harmonics /= 2;
   const Eigen::Index few = 2 * joint.options.harmonics + 1;
@@ -181,15 +180,14 @@ PeakStart with_fewer_harmonics(steady::Joint joint, PeakStart start, const Reson
 /// A peak that only another pseudo-penalty led to may be one of another branch: it is looked for again from frequencies
 /// beside it. One found with the pseudo-penalty asked for counts where it is no lower.
 void look_again(const steady::Joint& joint, const ResonanceOptions& peak, Resonance& found) {
-  constexpr double kBeside = 1e-3;  // of the frequency, the half width of a peak with little damping
   const double omega = found.omega;
-  for (const double start : {omega * (1 - kBeside), omega * (1 + kBeside)}) {
+  for (const double start : {omega * (1 - kParams.beside), omega * (1 + kParams.beside)}) {
     if (found.status != Status::converged || found.state.penalty_ratio == 1) return;
     Resonance other = PeakSearch(joint, peak, start).run({});
     other.solves += found.solves;
     other.jacobians += found.jacobians;
     const bool counts = other.status == Status::converged && other.state.penalty_ratio == 1 &&
-                        other.amplitude >= 0.999 * found.amplitude;
+                        other.amplitude >= kParams.no_lower * found.amplitude;
     if (counts)
       found = std::move(other);
     else

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/options.hpp"
+#include "paths/params.hpp"
 
 namespace dovetail::paths {
 
@@ -43,8 +44,7 @@ class Stationarity {
   [[nodiscard]] double width() const { return bracketed() ? falling_->place - rising_->place : kInfinity; }
   /// Width of the bracket in omega; infinite without one, or when the curve jumps to another branch within it.
   [[nodiscard]] double bracket() const {
-    constexpr double kContinuous = 1e-4;
-    if (!bracketed() || std::abs(rising_->amplitude - falling_->amplitude) > kContinuous * now_->amplitude)
+    if (!bracketed() || std::abs(rising_->amplitude - falling_->amplitude) > kParams.continuous * now_->amplitude)
       return kInfinity;
     return std::abs(falling_->omega - rising_->omega);
   }
@@ -56,16 +56,16 @@ class Stationarity {
     const auto inside = [&](double place) { return place > rising_->place && place < falling_->place; };
     // Points that do not halve the bracket: the slope jumps there, or one end stays. A step somewhat too long brings
     // the other end near, a bisection what nothing else does.
-    constexpr double kOvershoot = 3, kOneSided = 0.1;
     const std::size_t n = widths_.size();
     const bool stalling = n > 2 && widths_[n - 1] > 0.5 * widths_[n - 3];
-    const bool one_sided = std::abs(wanted) < kOneSided * widths_.back() && n % 2 == 0;
-    if (stalling && one_sided && inside(now_->place + kOvershoot * wanted)) return kOvershoot * wanted;
+    const bool one_sided = std::abs(wanted) < kParams.one_sided * widths_.back() && n % 2 == 0;
+    if (stalling && one_sided && inside(now_->place + kParams.overshoot * wanted)) return kParams.overshoot * wanted;
     if (stalling || !inside(now_->place + wanted)) return (rising_->place + falling_->place) / 2 - now_->place;
     return wanted;
   }
 
  private:
+  static constexpr StationarityParams kParams = {};
   double curvature_;  // < 0
   double trust_;
   std::optional<Mark> now_, rising_, falling_;

@@ -2,31 +2,16 @@
 
 #include <algorithm>
 
+#include "contact/params.hpp"
 #include "paths/dashpots.hpp"
+#include "paths/params.hpp"
 
 namespace dovetail::paths {
 namespace {
 
 using steady::Way;
 
-// How far neighbouring problems are from each other. A step is relative to what changes; one that fails is cut, one
-// that succeeds lets the next grow, and when it has become too short the way is given up.
-struct Steps {
-  double longest = 0, shortest = 0, growth = 1.3, cut = 2.5;
-};
-
-struct WayParams {
-  // Shares of the Jacobians that the ways before have left; the last takes the rest.
-  double open = 0.024, harmonics = 0.08, growing_penalty = 0.03, frequency = 0.15, damping = 0.4, softer_damping = 1;
-  double softer = 0.1;             // eps of softer_damping
-  double smallest_penalty = 1e-3;  // where eps starts to grow, by factors of two
-  double highest_frequency = 3;    // times the one asked for
-  int higher = 3;                  // tries above that
-  Steps down{.longest = 0.15, .shortest = 3e-4};
-  double strongest = 10, weakest = 1e-5;  // dashpots, in units of eps: below the weakest there are none
-  int weaker = 2;                         // tries below the strongest, each a tenth
-  Steps fade{.longest = 0.6, .shortest = 1e-2};
-};
+constexpr contact::PenaltyParams kPenalty;
 
 class Ways {
  public:
@@ -86,7 +71,7 @@ class Ways {
 
   // The answer depends slightly on eps: from that of another one the most accurate eps is often within reach.
   bool other_penalty() {
-    for (const double ratio : contact::kPenaltyCascade) {
+    for (const double ratio : kPenalty.cascade) {
       if (ratio == 1) continue;
       const auto other = std::make_shared<const steady::Problem>(problem_->with_penalty(ratio));
       if (!plain(other, other->closed_start(), method_)) continue;
@@ -211,7 +196,9 @@ class Ways {
     const auto next = [&](double step) { return alpha * (1 - step) < params_.weakest ? 0 : alpha * (1 - step); };
     if (step_towards(0, alpha, params_.fade, next, go)) return true;
     if (exhausted()) return false;
-    const Dashpots::Followed followed = dashpots.follow(alpha, last_.point.displacement, left_ - reserve_);
+    branches::FollowOptions curve = params_.curve;
+    curve.max_jacobians = left_ - reserve_;
+    const Dashpots::Followed followed = dashpots.follow(alpha, last_.point.displacement, curve);
     iterations_ += followed.jacobians;
     evaluations_ += followed.evaluations;
     left_ -= followed.jacobians;

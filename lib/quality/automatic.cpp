@@ -5,6 +5,7 @@
 
 #include "paths/frequency_response.hpp"
 #include "paths/steady_state.hpp"
+#include "quality/params.hpp"
 #include "quality/truncation.hpp"
 
 namespace dovetail {
@@ -34,9 +35,11 @@ double excess(const Quantities& bars, const Quantities& value, double input_ener
   };
   const double largest = value.amplitudes.size() > 0 ? value.amplitudes.maxCoeff() : 0;
   for (Eigen::Index i = 0; i < value.amplitudes.size(); ++i)
-    add(bars.amplitudes(i), automatic.amplitude_tolerance * std::max(value.amplitudes(i), 1e-6 * largest));
+    add(bars.amplitudes(i),
+        automatic.amplitude_tolerance * std::max(value.amplitudes(i), AutomaticParams{}.floor * largest));
   add(bars.friction_energy,
-      automatic.energy_tolerance * std::max(value.friction_energy, 1e-3 * std::abs(input_energy)));
+      automatic.energy_tolerance *
+          std::max(value.friction_energy, AutomaticParams{}.energy_floor * std::abs(input_energy)));
   return result;
 }
 
@@ -100,8 +103,8 @@ AutomaticState chosen_from(const steady::Joint& joint, double omega, const Autom
     const double of_harmonics = excess(series, value, input, automatic);
     const double of_samples = excess(result.bars.samples, value, input, automatic);
     // What is below half its tolerance is not worth refining for the sake of something that cannot be refined.
-    const bool harmonics = may_raise_harmonics(result.options, automatic) && of_harmonics > 0.5;
-    const bool samples = may_raise_samples(result.options, automatic) && of_samples > 0.5;
+    const bool harmonics = may_raise_harmonics(result.options, automatic) && of_harmonics > AutomaticParams{}.share;
+    const bool samples = may_raise_samples(result.options, automatic) && of_samples > AutomaticParams{}.share;
     if (!harmonics && !samples) {
       result.status = result.bars.status != Status::converged ? result.bars.status : Status::iteration_limit;
       break;

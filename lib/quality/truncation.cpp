@@ -5,16 +5,15 @@
 #include <cmath>
 
 #include "paths/steady_state.hpp"
+#include "quality/params.hpp"
 
 namespace dovetail::quality {
-namespace {
-
-constexpr double kHarmonics = 2, kHarmonicsWithMass = 4, kSamples = 3, kPenalty = 0.25;
-
-}  // namespace
 
 TruncationFactors truncation_factors(bool massless) {
-  return {.harmonics = massless ? kHarmonics : kHarmonicsWithMass, .samples = kSamples, .penalty = kPenalty};
+  constexpr BarParams kParams;
+  return {.harmonics = massless ? kParams.harmonics : kParams.harmonics_with_mass,
+          .samples = kParams.samples,
+          .penalty = kParams.penalty};
 }
 
 int samples_for(int harmonics, int samples) {

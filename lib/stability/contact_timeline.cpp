@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "contact/sample_step.hpp"
+#include "stability/params.hpp"
 
 namespace dovetail::stability {
 namespace {
@@ -41,9 +42,9 @@ ContactTimeline::ContactTimeline(Eigen::MatrixXd prediction, const contact::Node
   const int samples = basis.samples();
   if (!march_.always_closed && !march_.always_separated) locate_touches();
   // Shaken down to the limit: what still slips is what the march leaves of an adaptation that has ended.
-  constexpr double kSettled = 1e-6;
   const double largest_limit = law.limit(march_.force.col(0).maxCoeff()).force;
-  if (march_.always_closed && law.rubs() && march_.slip_distance * law.tangential_penalty <= kSettled * largest_limit) {
+  if (march_.always_closed && law.rubs() &&
+      march_.slip_distance * law.tangential_penalty <= StabilityParams{}.settled * largest_limit) {
     start_ = ContactMode::stuck;
     return;
   }
@@ -122,9 +123,8 @@ Eigen::Vector2d ContactTimeline::turned_from(int sample, double tau) const {
   if (prediction_.rows() < 3) return along;
   const SlipFrame frame = frame_along(along, instant(sample));
   // Where the limit force is about to vanish the rate says nothing over a whole sample.
-  constexpr double kLargestTurn = 0.5;
   const double turn = frame.turning * (tau - instant(sample));
-  if (!(std::abs(turn) < kLargestTurn)) return along;
+  if (!(std::abs(turn) < StabilityParams{}.largest_turn)) return along;
   return std::cos(turn) * along + std::sin(turn) * normal_to(along);
 }
 

@@ -6,6 +6,8 @@
 
 #include "stability/perturbation.hpp"
 
+#include "stability/params.hpp"
+
 namespace dovetail::stability {
 namespace {
 
@@ -93,8 +95,8 @@ class Propagator {
     for (std::size_t i = 0; i < states_.size(); ++i) turns = turns || turning(i);
     if (!turns) return step(from, to);
     const double width = kPeriod / samples_;
-    while (to - from > 1e-9 * width && failure_.empty()) {
-      const double next = std::min(to, width * (std::floor(from / width + 1e-9) + 1));
+    while (to - from > StabilityParams{}.step * width && failure_.empty()) {
+      const double next = std::min(to, width * (std::floor(from / width + StabilityParams{}.step) + 1));
       step(from, next);
       from = next;
     }
@@ -181,7 +183,7 @@ class Propagator {
     }
     const Eigen::MatrixXd loaded = test.transpose() * s_.stiffness;
     const Eigen::PartialPivLU<Eigen::MatrixXd> lu(loaded * shape);
-    if (!(lu.rcond() > 1e-13)) {
+    if (!(lu.rcond() > StabilityParams{}.regular)) {
       failure_ = "contact dofs without mass are held by nothing, or wedged by friction, in one of the phases";
       return result;
     }

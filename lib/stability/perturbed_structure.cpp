@@ -3,6 +3,8 @@
 
 #include "stability/perturbation.hpp"
 
+#include "stability/params.hpp"
+
 namespace dovetail::stability {
 namespace {
 
@@ -68,7 +70,6 @@ PerturbedStructure perturbed_structure(const reduction::ReducedModel& model, dou
   PerturbedStructure structure;
   structure.omega = omega;
   const Split dofs = split(model, timelines, structure);
-  constexpr double kNothing = 1e-12;
   const double mass_scale = model.mass.size() > 0 ? model.mass.cwiseAbs().maxCoeff() : 0;
   const auto refuse = [&](bool meaningful, const char* reason) {
     structure.meaningful = meaningful;
@@ -76,27 +77,28 @@ PerturbedStructure perturbed_structure(const reduction::ReducedModel& model, dou
     return structure;
   };
   if (!(mass_scale > 0)) return refuse(false, "the model has no mass: a quasi-static cycle has no motion to perturb");
-  if (largest(model.mass, dofs.normals) > kNothing * mass_scale)
+  if (largest(model.mass, dofs.normals) > StabilityParams{}.nothing * mass_scale)
     return refuse(false,
                   "contact dofs that lift off carry mass: what follows a touch depends on an impact law the model does "
                   "not have");
-  if (largest(model.mass, dofs.switching) > kNothing * mass_scale)
+  if (largest(model.mass, dofs.switching) > StabilityParams{}.nothing * mass_scale)
     return refuse(true, "contact dofs that slip carry mass: their stability is not computed");
   const double force_scale = model.stiffness.cwiseAbs().maxCoeff();
-  if (omega * largest(model.damping, dofs.switching) > kNothing * force_scale)
+  if (omega * largest(model.damping, dofs.switching) > StabilityParams{}.nothing * force_scale)
     return refuse(true, "contact dofs that change state are damped: their stability is not computed");
 
   // Linear dofs in coordinates of unit or no mass.
   const Eigen::MatrixXd mass = symmetric(model.mass(dofs.linear, dofs.linear));
   Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(mass.rows(), mass.cols());
   Eigen::VectorXd masses = mass.diagonal();
-  if (!mass.isDiagonal(1e-14)) {
+  if (!mass.isDiagonal(StabilityParams{}.diagonal)) {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(mass);
     basis = solver.eigenvectors();
     masses = solver.eigenvalues();
   }
   std::vector<Eigen::Index> dynamic, still;
-  for (Eigen::Index j = 0; j < masses.size(); ++j) (masses(j) > kNothing * mass_scale ? dynamic : still).push_back(j);
+  for (Eigen::Index j = 0; j < masses.size(); ++j)
+    (masses(j) > StabilityParams{}.nothing * mass_scale ? dynamic : still).push_back(j);
   if (dynamic.empty()) return refuse(false, "all mass is held by nodes that stay stuck: there is no motion to perturb");
   const Eigen::VectorXd scale = masses(dynamic).cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd heavy = basis(Eigen::all, dynamic) * scale.asDiagonal(), light = basis(Eigen::all, still);
@@ -104,7 +106,8 @@ PerturbedStructure perturbed_structure(const reduction::ReducedModel& model, dou
   const Eigen::MatrixXd stiffness = symmetric(model.stiffness), damping = symmetric(model.damping);
   const Eigen::MatrixXd linear_stiffness = stiffness(dofs.linear, dofs.linear);
   const Eigen::MatrixXd linear_damping = damping(dofs.linear, dofs.linear);
-  if (light.cols() > 0 && omega * (linear_damping * light).cwiseAbs().maxCoeff() > kNothing * force_scale)
+  if (light.cols() > 0 &&
+      omega * (linear_damping * light).cwiseAbs().maxCoeff() > StabilityParams{}.nothing * force_scale)
     return refuse(true, "dofs without mass are damped: their stability is not computed");
   structure.dynamic = heavy.transpose() * linear_stiffness * heavy / (omega * omega);
   structure.damping = heavy.transpose() * linear_damping * heavy / omega;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "steady/params.hpp"
 #include "steady/work.hpp"
 
 namespace dovetail::steady {
@@ -101,11 +102,11 @@ Eigen::MatrixXd residual_to_frequency(const Point& point) {
 
 double rounding_floor(const Point& point) {
   const double forces = point.problem->system().force.norm() + point.prediction.norm();
-  return 4e-15 * forces / point.problem->system().force_scale;
+  return FloorParams{}.rounding * forces / point.problem->system().force_scale;
 }
 
 double attainable(const Point& point, double tolerance) {
-  return std::max(tolerance, std::min(rounding_floor(point), kLargestFloor));
+  return std::max(tolerance, std::min(rounding_floor(point), FloorParams{}.largest));
 }
 
 bool is_held(const Point& point) {
@@ -113,8 +114,7 @@ bool is_held(const Point& point) {
   Eigen::MatrixXd stiffness = of.system().harmonics.front().stiffness.real();
   if (stiffness.size() == 0) return true;
   // Rounding may turn a direction without stiffness into a slightly negative one.
-  constexpr double kRounding = 1e-11;
-  const double shift = kRounding * stiffness.diagonal().cwiseAbs().maxCoeff();
+  const double shift = SingularityParams{}.held * stiffness.diagonal().cwiseAbs().maxCoeff();
   const Eigen::Index d = of.model().directions();
   for (Eigen::Index i = 0; i < of.model().nodes(); ++i) {
     const bool carries = !of.released(i) && !point.nodes[static_cast<std::size_t>(i)].always_separated;

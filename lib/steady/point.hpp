@@ -44,9 +44,6 @@ void differentiate(Point& point);
 
 /// What is left of forces after cancellation, relative to the excitation: no smaller residual can be asked for here.
 [[nodiscard]] double rounding_floor(const Point& point);
-/// The residual asked for is raised to the floor of the start up to this: a start at which rounding swamps the
-/// excitation is no measure of the solution. A solution with a floor above it is none.
-inline constexpr double kLargestFloor = 1e-6;
 /// The residual that a solution near this point must reach: `tolerance`, or the floor where that is more.
 [[nodiscard]] double attainable(const Point& point, double tolerance);
 

@@ -1,18 +1,18 @@
 #include "steady/preload.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
+#include "contact/params.hpp"
+#include "steady/params.hpp"
 #include "steady/solve.hpp"
 
 namespace dovetail::steady {
 namespace {
 
-// How a level is found that no start leads to directly. Springs that pull the contact back to where it starts keep a
-// floating body near its slot; taken away in steps, they lead to the state in which the contact alone holds it.
-constexpr std::array kSprings{1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7};  // of the largest local contact stiffness
+constexpr contact::PenaltyParams kPenalty;
+constexpr PreloadParams kParams;
 
 // The contact problem of harmonic 0 at one load level, with the slip of the level before.
 Attempt solve_level(const Joint& joint, double scale, const Eigen::MatrixXd& start) {
@@ -33,20 +33,20 @@ Attempt solve_level(const Joint& joint, double scale, const Eigen::MatrixXd& sta
     level.iterations += before;
     return level.status == Status::converged;
   };
-  for (const double ratio : contact::kPenaltyCascade) {
+  for (const double ratio : kPenalty.cascade) {
     if (start.size() > 0 && attempt(problem.with_penalty(ratio), start)) return level;
     if (attempt(problem.with_penalty(ratio), {})) return level;
   }
   const Eigen::MatrixXd anchor = start.size() > 0 ? start : problem.closed_start();
   Eigen::MatrixXd from = anchor;
-  for (const double share : kSprings) {
+  for (const double share : kParams.springs) {
     const double spring = share * joint.model->local_stiffness().maxCoeff();
     auto leaned = std::make_shared<dynamics::HarmonicSystem>(*system);
     leaned->harmonics.front().stiffness.diagonal().array() += spring;
     leaned->force.col(0) += spring * anchor.col(0);
     if (attempt(problem.at(leaned), from)) from = level.point.displacement;
   }
-  for (const double ratio : contact::kPenaltyCascade)
+  for (const double ratio : kPenalty.cascade)
     if (attempt(problem.with_penalty(ratio), from)) return level;
   return level;
 }
@@ -76,7 +76,7 @@ Preload quasi_static(const std::shared_ptr<const dynamics::CondensedModel>& mode
   bool at_zero = pressed;
   while (at_zero || reached < 1) {
     double scale = at_zero ? 0 : reached + step;
-    if (scale > 1 - 1e-9) scale = 1;
+    if (scale > 1 - kParams.whole) scale = 1;
     Attempt level = solve_level(joint, scale, point.displacement);
     preload.iterations += level.iterations;
     preload.status = within(options.budget, level.status);

@@ -4,6 +4,7 @@
 
 #include "dynamics/real_block.hpp"
 #include "numerics/dense_lu.hpp"
+#include "steady/params.hpp"
 
 namespace dovetail::steady {
 namespace {
@@ -75,13 +76,12 @@ void Problem::set_offset() {
 
 contact::MarchOptions Problem::march_options() const {
   // Forces of the contact may be far larger than the excitation that the residual is measured by.
-  constexpr double kShare = 0.1;
   return {.slip_return = options().slip_return == "second_order" ? contact::SlipReturn::second_order
                                                                  : contact::SlipReturn::first_order,
           .periodic = options().harmonics > 0,
           .max_periods = options().max_periods,
           .tolerance = options().periodic_tolerance,
-          .resolution = kShare * options().tolerance * system_->force_scale};
+          .resolution = MarchParams{}.share * options().tolerance * system_->force_scale};
 }
 
 contact::NodeLaw Problem::law(Eigen::Index node) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "numerics/dense_product.hpp"
+#include "steady/params.hpp"
 
 namespace dovetail::steady {
 
@@ -14,9 +15,8 @@ SeparatedNodes::SeparatedNodes(std::shared_ptr<const dynamics::HarmonicSystem> s
     const Eigen::MatrixXcd& z = at.stiffness;
     factors_.emplace_back(z(open_, open_));
     // Below this a floating part is told from a soft one by rounding alone.
-    constexpr double kSingular = 1e-15;
     reciprocal_condition_ = std::min(reciprocal_condition_, factors_.back().rcond());
-    if (!(reciprocal_condition_ > kSingular)) {
+    if (!(reciprocal_condition_ > SingularityParams{}.singular)) {
       status_ = Status::singular;
       return;
     }

@@ -6,6 +6,7 @@
 
 #include "numerics/newton.hpp"
 #include "numerics/powell.hpp"
+#include "steady/params.hpp"
 
 namespace dovetail::steady {
 namespace {
@@ -45,10 +46,9 @@ struct Scaled {
   // A factorisation of n unknowns costs n^3 operations, the residual a number of them per node, sample and direction.
   // Kept factors are worth a try where the former dominates.
   [[nodiscard]] bool pays() const {
-    constexpr double kOperations = 2e3;
     const auto size = static_cast<double>(last->factorised_size());
     const auto marched = static_cast<double>(problem->model().contact_size() * problem->basis().samples());
-    return size * size * size > kOperations * marched;
+    return size * size * size > WorkParams{}.march_for_chord * marched;
   }
   bool chord_step(Eigen::VectorXd& step) const {
     if (!last || last->regularised() || !pays()) return false;

@@ -7,6 +7,7 @@
 
 #include "dynamics/extremes.hpp"
 #include "dynamics/real_block.hpp"
+#include "steady/params.hpp"
 
 namespace dovetail::steady {
 namespace {
@@ -119,14 +120,14 @@ State described(Point point, Status status, AtSolution jacobian, const Tangent* 
   // Displacements so large that the balance of the forces drowns in rounding: nothing holds the body there.
   if (point.status != Status::converged)
     state.status = point.status;
-  else if (rounding_floor(point) > kLargestFloor)
+  else if (rounding_floor(point) > FloorParams{}.largest)
     state.status = Status::singular;
   if (state.status != Status::converged || jacobian == AtSolution::trust) return state;
   // A body that nothing holds can be moved until its residual is small against rounding. Its Jacobian is singular.
-  constexpr double kFloats = 1e-13;
   differentiate(point);
   auto tangent = std::make_shared<const Tangent>(std::make_shared<const Point>(std::move(point)), previous);
-  if (tangent->status() != Status::converged || tangent->regularised() || tangent->nearly_singular(kFloats))
+  if (tangent->status() != Status::converged || tangent->regularised() ||
+      tangent->nearly_singular(SingularityParams{}.floats))
     state.status = Status::singular;
   else if (jacobian == AtSolution::linearise)
     state.tangent = std::move(tangent);

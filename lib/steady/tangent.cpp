@@ -2,6 +2,7 @@
 
 #include <cassert>
 
+#include "steady/params.hpp"
 #include "steady/work.hpp"
 
 namespace dovetail::steady {
@@ -26,24 +27,22 @@ Tangent::Tangent(std::shared_ptr<const Point> point, const Tangent* previous) : 
   factors_ = factorise(0);
   // A body that floats in a trial state has no Jacobian to solve with: lean it slightly on its contact.
   if (factors_->separated.status() != Status::converged || factors_->lu.status() == Status::singular ||
-      nearly_singular(1e-15))
-    factors_ = factorise(1e-6);
+      nearly_singular(SingularityParams{}.singular))
+    factors_ = factorise(SingularityParams{}.regularised);
 }
 
 bool Tangent::nearly_singular(double limit) const {
-  constexpr double kSafe = 1e-7;
   if (factors_->separated.reciprocal_condition() < limit) return true;
-  return factors_->lu.pivot_ratio() < kSafe && factors_->lu.reciprocal_condition() < limit;
+  return factors_->lu.pivot_ratio() < SingularityParams{}.safe_pivots && factors_->lu.reciprocal_condition() < limit;
 }
 
 bool Tangent::same_jacobian(const Tangent& other) const {
   if (other.status() != Status::converged || other.regularised()) return false;
   if (problem().shared_system() != other.problem().shared_system()) return false;
   if (!(problem().penalty() == other.problem().penalty())) return false;
-  constexpr double kRounding = 1e-13;
   for (std::size_t i = 0; i < point_->nodes.size(); ++i) {
     const Eigen::MatrixXd &here = point_->nodes[i].force_derivative, &there = other.point_->nodes[i].force_derivative;
-    if ((here - there).cwiseAbs().maxCoeff() > kRounding) return false;
+    if ((here - there).cwiseAbs().maxCoeff() > SingularityParams{}.same) return false;
   }
   return true;
 }

@@ -1,5 +1,7 @@
 #include "steady/work.hpp"
 
+#include "steady/params.hpp"
+
 namespace dovetail::steady {
 
 double factorisation_operations(Eigen::Index unknowns) {
@@ -8,13 +10,11 @@ double factorisation_operations(Eigen::Index unknowns) {
 }
 
 double march_operations(int samples, int periods) {
-  constexpr double kStep = 200;
-  return kStep * samples * periods;
+  return WorkParams{}.march_step * samples * periods;
 }
 
 double derivative_operations(int samples, int periods, Eigen::Index coefficients) {
-  constexpr double kCoefficient = 75;
-  return kCoefficient * samples * periods * static_cast<double>(coefficients);
+  return WorkParams{}.march_coefficient * samples * periods * static_cast<double>(coefficients);
 }
 
 double jacobian_operations(Eigen::Index nodes, Eigen::Index directions, int harmonics, int samples) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <random>
 
+#include "tractions/params.hpp"
 #include "tractions/slip_origin_sensitivity.hpp"
 #include "tractions/traction_family.hpp"
 
@@ -38,6 +39,8 @@ struct Member {
 };
 
 class BoundSearch {
+  static constexpr SearchParams kParams = {};
+
  public:
   BoundSearch(FamilyQuantity quantity, const TractionBoundsOptions& bounds)
       : quantity_(std::move(quantity)), bounds_(bounds), limit_(bounds.max_solves) {}
@@ -70,9 +73,8 @@ class BoundSearch {
       // Each side may use what is left in equal parts.
       limit_ = sense < 0 ? (quantity_.solves() + bounds_.max_solves) / 2 : bounds_.max_solves;
       // The most promising starts and the given state; others lead to the same ends more slowly.
-      constexpr std::size_t kClimbs = 3;
       Member best = members.front();
-      for (std::size_t i = 0; i < std::min(kClimbs, members.size()); ++i) climb(members[i], sense, best);
+      for (std::size_t i = 0; i < std::min(kParams.climbs, members.size()); ++i) climb(members[i], sense, best);
       climb(nominal, sense, best);
       poll(sense, best);
       recentre(sense, best);
@@ -109,11 +111,11 @@ class BoundSearch {
     if (member.state.status == Status::converged && slid(member.state) && !exhausted()) {
       // Started from where it ended, the same state has derivatives with respect to all its tractions.
       // A hair inside, lest rounding slips a node that stands at its limit.
-      constexpr double kInside = 1e-7;
       const Eigen::MatrixXd relaxed = family_->slip_origin(0 * family_->nominal());
       Eigen::MatrixXd settled = origin;
       for (const Eigen::Index i : family_->nodes())
-        settled.row(i) = member.state.slip_end.row(i) + kInside * (relaxed.row(i) - member.state.slip_end.row(i));
+        settled.row(i) =
+            member.state.slip_end.row(i) + kParams.inside * (relaxed.row(i) - member.state.slip_end.row(i));
       steady::State again = quantity_.solve(settled, member.state.displacement);
       if (again.status == Status::converged) member.state = std::move(again);
     }
@@ -141,10 +143,9 @@ class BoundSearch {
     const Eigen::Index rows = nominal.traction.rows(), columns = nominal.traction.cols(), size = rows * columns;
     std::vector<Eigen::MatrixXd> points{Eigen::MatrixXd::Zero(rows, columns)};
     if (size <= 2) {
-      constexpr int kGrid = 5;
-      for (int p = 0; p < (size == 1 ? kGrid : kGrid * kGrid); ++p) {
+      for (int p = 0; p < (size == 1 ? kParams.grid : kParams.grid * kParams.grid); ++p) {
         Eigen::MatrixXd point(rows, columns);
-        for (Eigen::Index j = 0; j < size; ++j) point(j) = -1 + 0.5 * (j == 0 ? p % kGrid : p / kGrid);
+        for (Eigen::Index j = 0; j < size; ++j) point(j) = -1 + 0.5 * (j == 0 ? p % kParams.grid : p / kParams.grid);
         points.push_back(point);
       }
     } else {
@@ -168,8 +169,7 @@ class BoundSearch {
   // Moving tractions keeps the others where they are in a linear body; moving slip origins lets others follow, which at
   // their limits they do without slipping.
   void climb(Member at, double sense, Member& best) {
-    constexpr int kSteps = 40;
-    for (int step = 0; step < kSteps && !exhausted(); ++step) {
+    for (int step = 0; step < kParams.steps && !exhausted(); ++step) {
       const Eigen::MatrixXd by_origin = sense * quantity_.gradient(at.state);
       const Eigen::MatrixXd slope = family_->gradient(by_origin);
       const double largest = slope.rowwise().norm().maxCoeff();
@@ -203,7 +203,6 @@ class BoundSearch {
 
   // At kinks, where nodes begin to slip, gradients lead nowhere: tries single slip origins and random tractions.
   void poll(double sense, Member& best) {
-    constexpr int kPasses = 3;
     std::mt19937 random(2);
     std::normal_distribution<double> normal;
     const auto take = [&](std::optional<Member> next) {
@@ -212,7 +211,7 @@ class BoundSearch {
       return true;
     };
     for (const double step : {1.0, 0.2, 0.04})
-      for (int pass = 0; pass < kPasses; ++pass) {
+      for (int pass = 0; pass < kParams.polls; ++pass) {
         const double before = best.value;
         for (const Eigen::Index i : family_->nodes())
           for (Eigen::Index r = 0; r < best.traction.cols(); ++r) {
@@ -230,8 +229,7 @@ class BoundSearch {
 
   // Elsewhere in the family other nodes may stay stuck: their tractions are free there.
   void recentre(double sense, Member& best) {
-    constexpr int kRounds = 3;
-    for (int round = 0; round < kRounds && !exhausted(); ++round) {
+    for (int round = 0; round < kParams.rounds && !exhausted(); ++round) {
       TractionFamily around(best.state);
       if (around.nodes() == family_->nodes() || around.nodes().empty()) return;
       family_.emplace(std::move(around));

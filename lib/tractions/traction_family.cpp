@@ -4,17 +4,18 @@
 #include <Eigen/QR>
 #include <cassert>
 
+#include "tractions/params.hpp"
+
 namespace dovetail::tractions {
 namespace {
 
 // Inverse of a symmetric matrix on the directions it has stiffness in: others carry no residual traction.
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& matrix) {
   if (matrix.rows() == 0) return matrix;
-  constexpr double kNothing = 1e-10;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver((matrix + matrix.transpose()) / 2);
   const double largest = solver.eigenvalues().cwiseAbs().maxCoeff();
   Eigen::VectorXd inverse = solver.eigenvalues();
-  for (double& value : inverse) value = std::abs(value) > kNothing * largest ? 1 / value : 0;
+  for (double& value : inverse) value = std::abs(value) > SearchParams{}.nothing * largest ? 1 / value : 0;
   return solver.eigenvectors() * inverse.asDiagonal() * solver.eigenvectors().transpose();
 }
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "contact/params.hpp"
+#include "wear/params.hpp"
+
 namespace dovetail::wear {
 
 double worn_volume(const reduction::ContactNodes& contact, const Eigen::VectorXd& depth) {
@@ -12,7 +15,7 @@ double worn_volume(const reduction::ContactNodes& contact, const Eigen::VectorXd
 std::vector<bool> worn_nodes(const Eigen::VectorXd& depth) {
   std::vector<bool> worn(static_cast<std::size_t>(depth.size()));
   for (Eigen::Index i = 0; i < depth.size(); ++i)
-    worn[static_cast<std::size_t>(i)] = depth[i] > 0.02 * depth.maxCoeff();
+    worn[static_cast<std::size_t>(i)] = depth[i] > NoWearParams{}.worn * depth.maxCoeff();
   return worn;
 }
 
@@ -28,11 +31,11 @@ double cycle_jump(const Eigen::VectorXd& rate, double increment) {
 }
 
 double own_stiffness(const dynamics::CondensedModel& model, Eigen::Index node, Eigen::Index direction) {
-  constexpr double kNone = 1e-12, kFloor = 1e-3;
+  constexpr contact::PenaltyParams kParams;
   const double largest = model.local_stiffness().maxCoeff();
   const double own = model.local_stiffness()[node * model.directions() + direction];
-  if (own > kNone * largest) return own;
-  return largest > 0.0 ? kFloor * largest : 1.0;
+  if (own > kParams.no_stiffness * largest) return own;
+  return largest > 0.0 ? kParams.least_stiffness * largest : 1.0;
 }
 
 double largest_penetration(const dynamics::CondensedModel& model, const steady::State& state) {

@@ -3,12 +3,12 @@
 #include <algorithm>
 
 #include "wear/measures.hpp"
+#include "wear/params.hpp"
 
 namespace dovetail::wear {
 
 double no_wear_rate(double given, const dynamics::CondensedModel& model, const steady::State& unworn) {
   if (given >= 0.0) return given;
-  constexpr double kShare = 4e-6;
   const reduction::ContactNodes& contact = model.contact();
   double largest = 0.0;
   for (Eigen::Index i = 0; i < contact.count(); ++i) {
@@ -17,7 +17,7 @@ double no_wear_rate(double given, const dynamics::CondensedModel& model, const s
     const double energy = limit * 4.0 * limit / own_stiffness(model, i, 1);
     largest = std::max(largest, model.wear_law().volume_per_energy(model.wear_node(i)) * energy / contact.area[i]);
   }
-  return kShare * largest;
+  return NoWearParams{}.share * largest;
 }
 
 }  // namespace dovetail::wear

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/errors.hpp"
 #include "paths/steady_state.hpp"
 
 namespace dovetail::wear {
@@ -11,8 +12,16 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-WearingJoint::WearingJoint(const steady::Joint& joint, double omega, const Control& control)
-    : joint_(joint), omega_(omega), control_(&control) {
+void require_nothing_released(const steady::Condition& start) {
+  if (std::ranges::all_of(start.released, [](char released) { return released == 0; })) return;
+  throw InputError(Violation{.file = {},
+                             .key = "start.released",
+                             .value = "some nodes",
+                             .allowed = "must release no node: which ones wear off is the answer"});
+}
+
+WearingJoint::WearingJoint(const steady::Joint& joint, double omega, const Watcher& watcher)
+    : joint_(joint), omega_(omega), watcher_(&watcher) {
   if (start().size() == 0) joint_.condition.wear_depth = VectorXd::Zero(model().nodes());
 }
 
@@ -28,7 +37,7 @@ void WearingJoint::count(int solves, int jacobians) {
 
 steady::State WearingJoint::solve(const steady::Joint& joint, const MatrixXd& guess) {
   steady::State state;
-  if (control_->stopped()) {
+  if (watcher_->stopped()) {
     state.status = Status::interrupted;
     return state;
   }

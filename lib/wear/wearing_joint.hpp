@@ -7,15 +7,18 @@
 
 #include "paths/resonance.hpp"
 #include "steady/state.hpp"
-#include "wear/control.hpp"
+#include "wear/watcher.hpp"
 
 namespace dovetail::wear {
+
+/// Throws InputError when a computation that finds out which nodes wear off starts with some released.
+void require_nothing_released(const steady::Condition& start);
 
 /// A joint as it wears: a depth gives a steady state, the state a rate. Whatever a wear computation solves besides
 /// implicit stages it solves here, warm-started from what was solved before, and counted.
 class WearingJoint {
  public:
-  WearingJoint(const steady::Joint& joint, double omega, const Control& control);
+  WearingJoint(const steady::Joint& joint, double omega, const Watcher& watcher);
 
   /// Excites at the resonance of the joint as worn from now on instead of holding omega.
   void follow(const paths::ResonanceOptions& resonance);
@@ -32,7 +35,7 @@ class WearingJoint {
   [[nodiscard]] const steady::Joint& joint() const { return joint_; }
   [[nodiscard]] const dynamics::CondensedModel& model() const { return *joint_.model; }
   [[nodiscard]] const Eigen::VectorXd& start() const { return joint_.condition.wear_depth; }  ///< W before, m
-  [[nodiscard]] const Control& control() const { return *control_; }
+  [[nodiscard]] const Watcher& watcher() const { return *watcher_; }
   void count(int solves, int jacobians);
   [[nodiscard]] int solves() const { return solves_; }
   [[nodiscard]] int jacobians() const { return jacobians_; }
@@ -43,7 +46,7 @@ class WearingJoint {
   steady::Joint joint_;
   double omega_;
   std::optional<paths::ResonanceOptions> resonance_;
-  const Control* control_;
+  const Watcher* watcher_;
   std::shared_ptr<const steady::Tangent> last_;  // of the last state found
   int solves_ = 0;
   int jacobians_ = 0;

@@ -12,9 +12,9 @@
 #include "paths/frequency_response.hpp"
 #include "paths/steady_state.hpp"
 #include "studies/report/design_record.hpp"
-#include "wear/asymptote.hpp"
-#include "wear/drift.hpp"
-#include "wear/history.hpp"
+#include "wear/asymptote/asymptote.hpp"
+#include "wear/asymptote/drift.hpp"
+#include "wear/history/history.hpp"
 
 namespace dovetail::paper_sequence {
 namespace {

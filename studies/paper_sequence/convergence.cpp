@@ -11,7 +11,7 @@
 #include "optimizer/stopwatch.hpp"
 #include "studies/report/html.hpp"
 #include "studies/report/units.hpp"
-#include "wear/asymptote.hpp"
+#include "wear/asymptote/asymptote.hpp"
 
 namespace dovetail::paper_sequence {
 namespace {

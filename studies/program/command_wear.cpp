@@ -161,22 +161,22 @@ struct WearResult {
   std::optional<WearBand> band = {};
 };
 
-WearResult computed(const WearOptions& options, const LoadedModel& loaded, WearStart at, const wear::Control& control) {
+WearResult computed(const WearOptions& options, const LoadedModel& loaded, WearStart at, const wear::Watcher& watcher) {
   WearResult result{.question = {.frequency_hz = at.hz, .follow = options.follow, .settings = loaded.joint.options},
                     .answer = {}};
   WearQuestion& question = result.question;
   WearAnswer& answer = result.answer;
   if (options.follow == "band") {
-    result.band = wear_band(options, loaded, control);
+    result.band = wear_band(options, loaded, watcher);
     answer = result.band->answer;
     if (!result.band->frequencies_hz.empty()) question.frequency_hz = result.band->frequencies_hz[result.band->worst];
     at = wear_start_at(question.frequency_hz);
   } else {
-    answer = wear_answer(options, loaded, at, control);
+    answer = wear_answer(options, loaded, at, watcher);
   }
-  if (answer.history && options.curves > 0) answer.curves = worn_curves(options, loaded, *answer.history, control);
-  if (options.error_bars) question.bars = worn_bars(options, loaded, at, answer, control);
-  if (options.spread) question.spread = worn_spread(options, loaded, at, answer, control);
+  if (answer.history && options.curves > 0) answer.curves = worn_curves(options, loaded, *answer.history, watcher);
+  if (options.error_bars) question.bars = worn_bars(options, loaded, at, answer, watcher);
+  if (options.spread) question.spread = worn_spread(options, loaded, at, answer, watcher);
   return result;
 }
 
@@ -226,14 +226,14 @@ int run_wear(const WearOptions& given, const Streams& streams) {
 
   const OrderlyInterrupt interrupt;
   const bool terminal = error_is_terminal();
-  wear::Control control{.stop = [&] { return interrupt.requested(); }};
+  wear::Watcher watcher{.stop = [&] { return interrupt.requested(); }};
   if (terminal)
-    control.progress = [&](int step, double volume, double rate) {
+    watcher.progress = [&](int step, double volume, double rate) {
       streams.err << fmt::format("\r\033[Kstep {}, worn volume {:.4g} m^3, largest rate {:.3g} m per cycle", step,
                                  volume, rate)
                   << std::flush;
     };
-  WearResult result = computed(options, loaded, at, control);
+  WearResult result = computed(options, loaded, at, watcher);
   if (terminal) streams.err << "\r\033[K" << std::flush;
   if (automatic) result.question.automatic = WearQuestion::Automatic{*automatic, accuracy(options.solver)};
   present(options, result, streams);

@@ -48,8 +48,8 @@ RunEngine study_engine(const Study& study) {
     const optimizer::CandidateResult result = evaluator->evaluate(scene);
     return DescribedDesign{.evaluation = result.evaluation, .record = report::make_design_record(scene, result)};
   };
-  engine.verify = [evaluator](const Scene& scene, const wear::Control& control) {
-    const optimizer::Verification verification = optimizer::verify(*evaluator, scene, {}, control);
+  engine.verify = [evaluator](const Scene& scene, const wear::Watcher& watcher) {
+    const optimizer::Verification verification = optimizer::verify(*evaluator, scene, {}, watcher);
     return report::make_verification_record(verification, verification.model);
   };
   return engine;

@@ -6,9 +6,9 @@
 
 #include "optimizer/evaluation.hpp"
 #include "steady/options.hpp"
-#include "wear/asymptote.hpp"
-#include "wear/history.hpp"
-#include "wear/spread.hpp"
+#include "wear/asymptote/asymptote.hpp"
+#include "wear/asymptote/spread.hpp"
+#include "wear/history/history.hpp"
 
 namespace dovetail::studies {
 

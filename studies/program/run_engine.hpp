@@ -6,7 +6,7 @@
 #include "optimizer/scene.hpp"
 #include "studies/program/study.hpp"
 #include "studies/report/run_record.hpp"
-#include "wear/control.hpp"
+#include "wear/watcher.hpp"
 
 namespace dovetail::studies {
 
@@ -25,7 +25,7 @@ struct RunEngine {
   /// show; empty: they show none.
   std::function<DescribedDesign(const optimizer::Scene&)> describe;
   /// The design's wear by the full history; empty: designs are not verified.
-  std::function<report::VerificationRecord(const optimizer::Scene&, const wear::Control&)> verify = {};
+  std::function<report::VerificationRecord(const optimizer::Scene&, const wear::Watcher&)> verify = {};
 };
 
 /// Makes the engine of a study.

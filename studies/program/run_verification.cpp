@@ -102,8 +102,8 @@ std::vector<VerificationRecord> verify_best(const Study& study, const optimizer:
   const fs::path file = directory / "verification.jsonl";
   const std::vector<Kept> before = kept_before(file, fingerprint);
   const std::vector<std::size_t> chosen = best_designs(study.problem, result, study.optimizer.verify);
-  wear::Control control;
-  control.stop = [&] { return interrupt.requested(); };
+  wear::Watcher watcher;
+  watcher.stop = [&] { return interrupt.requested(); };
   for (const std::size_t index : chosen) {
     const optimizer::Candidate& candidate = result.evaluations[index];
     const auto known =
@@ -116,7 +116,7 @@ std::vector<VerificationRecord> verify_best(const Study& study, const optimizer:
       err << fmt::format("dovetail: verifying evaluation {} by its wear history ({} of {})\n", index + 1,
                          records.size() + 1, chosen.size())
           << std::flush;
-      record = engine.verify(scene_of(study, candidate), control);
+      record = engine.verify(scene_of(study, candidate), watcher);
       if (interrupt.requested()) break;  // not finished: computed again when resumed
       keep(file, line_of(fingerprint, {.x = candidate.x, .record = record}));
     }

@@ -8,7 +8,7 @@
 #include "optimizer/record_fields.hpp"
 #include "studies/program/commands.hpp"
 #include "studies/program/engine.hpp"
-#include "wear/history.hpp"
+#include "wear/history/history.hpp"
 
 namespace dovetail::optimizer {
 

@@ -12,7 +12,7 @@
 #include "studies/program/refusal.hpp"
 #include "studies/program/stored_history.hpp"
 #include "studies/program/wear_methods.hpp"
-#include "wear/depth_scale.hpp"
+#include "wear/asymptote/depth_scale.hpp"
 
 namespace dovetail::studies {
 
@@ -56,7 +56,7 @@ std::vector<double> curve_frequencies(const WearOptions& options, const LoadedMo
 }  // namespace
 
 ComputedHistory compute_history(const WearOptions& options, const LoadedModel& loaded, const WearStart& at,
-                                const wear::Control& control) {
+                                const wear::Watcher& watcher) {
   constexpr double kShare = 0.01;
   ComputedHistory result;
   HistoryChoice& choice = result.choice;
@@ -98,28 +98,28 @@ ComputedHistory compute_history(const WearOptions& options, const LoadedModel& l
         at.resonance && joint.condition.wear_depth.size() == 0 && joint.condition.slip_origin.size() == 0
             ? &at.resonance->state
             : nullptr;
-    const wear::DepthScale scale = wear::depth_scale(joint, omega, settings.rate_threshold, initial, control);
+    const wear::DepthScale scale = wear::depth_scale(joint, omega, settings.rate_threshold, initial, watcher);
     solves = scale.solves;
     choice.depth_scale = scale.depth;
     if (scale.depth > 0) increment = kShare * scale.depth;
   }
   settings.increment = increment.value_or(settings.increment);
   result.history = wear::history(joint, {.omega = omega, .unworn = nullptr, .past = past ? &past->history : nullptr},
-                                 settings, control);
+                                 settings, watcher);
   result.history.solves += solves + (past ? past->history.solves : 0);
   return result;
 }
 
 std::vector<WornCurve> worn_curves(const WearOptions& options, const LoadedModel& loaded, const wear::History& history,
-                                   const wear::Control& control) {
+                                   const wear::Watcher& watcher) {
   std::vector<WornCurve> curves;
   const Eigen::Index states = history.cycles.size();
-  if (options.curves == 0 || states == 0 || control.stopped()) return curves;
+  if (options.curves == 0 || states == 0 || watcher.stopped()) return curves;
   const std::vector<double> hz = curve_frequencies(options, loaded, history);
   std::vector<double> omega(hz.size());
   std::ranges::transform(hz, omega.begin(), [](double value) { return kTurn * value; });
   Eigen::Index before = -1;
-  for (int k = 0; k < options.curves && !control.stopped(); ++k) {
+  for (int k = 0; k < options.curves && !watcher.stopped(); ++k) {
     const double share = options.curves == 1 ? 1.0 : static_cast<double>(k) / (options.curves - 1);
     const double volume = history.worn_volume[0] + share * (history.worn_volume[states - 1] - history.worn_volume[0]);
     Eigen::Index state = 0;
@@ -128,7 +128,7 @@ std::vector<WornCurve> worn_curves(const WearOptions& options, const LoadedModel
     before = state;
     WornCurve curve{.cycles = history.cycles[state], .worn_volume = history.worn_volume[state], .frequency_hz = hz};
     const steady::Joint worn = loaded.joint.worn(history.depth.row(state).transpose());
-    const auto go_on = [&](std::size_t, const steady::State&) { return !control.stopped(); };
+    const auto go_on = [&](std::size_t, const steady::State&) { return !watcher.stopped(); };
     for (const steady::State& found : paths::frequency_response(worn, omega, go_on))
       curve.amplitude.push_back(found.status == Status::converged ? found.amplitudes[0] : kUnknown);
     curves.push_back(std::move(curve));

@@ -7,8 +7,8 @@
 #include "studies/program/commands.hpp"
 #include "studies/program/engine.hpp"
 #include "studies/program/stored_history.hpp"
-#include "wear/control.hpp"
-#include "wear/history.hpp"
+#include "wear/history/history.hpp"
+#include "wear/watcher.hpp"
 
 namespace dovetail::studies {
 
@@ -40,12 +40,12 @@ struct ComputedHistory {
 /// state more: to the error of the steps). A file's history that had come to its end is the result itself. Throws
 /// InputError for a file that is no history of this model at these settings, or one that is past --cycles.
 [[nodiscard]] ComputedHistory compute_history(const WearOptions& options, const LoadedModel& loaded,
-                                              const WearStart& at, const wear::Control& control);
+                                              const WearStart& at, const wear::Watcher& watcher);
 
 /// Response curves of the joint as worn at --curves states, evenly spaced in worn volume from the first to the last.
 /// Without --curve-from and --curve-to their frequencies lie around the resonances of both, by three times the distance
 /// at which the first one has lost half its amplitude.
 [[nodiscard]] std::vector<WornCurve> worn_curves(const WearOptions& options, const LoadedModel& loaded,
-                                                 const wear::History& history, const wear::Control& control);
+                                                 const wear::History& history, const wear::Watcher& watcher);
 
 }  // namespace dovetail::studies

@@ -7,7 +7,7 @@
 
 #include "studies/program/json.hpp"
 #include "studies/program/refusal.hpp"
-#include "wear/follow.hpp"
+#include "wear/asymptote/followed_asymptote.hpp"
 
 namespace dovetail::studies {
 
@@ -17,8 +17,8 @@ constexpr double kTurn = 2 * std::numbers::pi;
 constexpr const char* kCyclesReached = "the cycles asked for were reached while wearing";
 
 WearAnswer by_history(const WearOptions& options, const LoadedModel& loaded, const WearStart& at,
-                      const wear::Control& control) {
-  ComputedHistory computed = compute_history(options, loaded, at, control);
+                      const wear::Watcher& watcher) {
+  ComputedHistory computed = compute_history(options, loaded, at, watcher);
   const bool held = computed.choice.options.follow == "fixed";
   WearAnswer answer;
   answer.history = std::move(computed.history);
@@ -37,7 +37,7 @@ WearAnswer by_history(const WearOptions& options, const LoadedModel& loaded, con
 }
 
 WearAnswer by_asymptote(const WearOptions& options, const LoadedModel& loaded, const WearStart& at,
-                        const wear::Control& control) {
+                        const wear::Watcher& watcher) {
   const steady::Condition& condition = loaded.joint.condition;
   const bool unchanged = condition.slip_origin.size() == 0 && condition.wear_depth.size() == 0;
   const steady::State* initial = at.resonance && unchanged ? &at.resonance->state : nullptr;
@@ -45,12 +45,12 @@ WearAnswer by_asymptote(const WearOptions& options, const LoadedModel& loaded, c
   WearAnswer answer;
   answer.frequencies_hz = {at.hz};
   if (options.follow == "resonance") {
-    wear::FollowedAsymptote found = wear::followed_asymptote(loaded.joint, at.omega, settings, {}, initial, control);
+    wear::FollowedAsymptote found = wear::followed_asymptote(loaded.joint, at.omega, settings, {}, initial, watcher);
     for (std::size_t i = 1; i < found.omegas.size(); ++i) answer.frequencies_hz.push_back(found.omegas[i] / kTurn);
     answer.solves = found.solves;
     answer.asymptote = std::move(found.asymptote);
   } else {
-    answer.asymptote = wear::asymptote(loaded.joint, at.omega, settings, initial, control);
+    answer.asymptote = wear::asymptote(loaded.joint, at.omega, settings, initial, watcher);
     answer.solves = answer.asymptote->solves;
   }
   if (at.resonance) answer.solves += at.resonance->solves;
@@ -102,20 +102,20 @@ WearAnswer unknown_answer(const WearOptions& options, Eigen::Index nodes, Status
 }
 
 WearAnswer wear_answer(const WearOptions& options, const LoadedModel& loaded, const WearStart& at,
-                       const wear::Control& control) {
-  return options.method == "history" ? by_history(options, loaded, at, control)
-                                     : by_asymptote(options, loaded, at, control);
+                       const wear::Watcher& watcher) {
+  return options.method == "history" ? by_history(options, loaded, at, watcher)
+                                     : by_asymptote(options, loaded, at, watcher);
 }
 
-WearBand wear_band(const WearOptions& options, const LoadedModel& loaded, const wear::Control& control) {
+WearBand wear_band(const WearOptions& options, const LoadedModel& loaded, const wear::Watcher& watcher) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   WearBand band;
   band.answer = unknown_answer(options, loaded.joint.model->nodes(), Status::interrupted);
   double worst = -1;
-  for (int i = 0; i < options.band_points && !control.stopped(); ++i) {
+  for (int i = 0; i < options.band_points && !watcher.stopped(); ++i) {
     const double part = options.band_points == 1 ? 0 : static_cast<double>(i) / (options.band_points - 1);
     const double hz = *options.band_from_hz + part * (*options.band_to_hz - *options.band_from_hz);
-    WearAnswer answer = wear_answer(options, loaded, wear_start_at(hz), control);
+    WearAnswer answer = wear_answer(options, loaded, wear_start_at(hz), watcher);
     band.solves += answer.solves;
     band.frequencies_hz.push_back(hz);
     band.status.push_back(answer.status);

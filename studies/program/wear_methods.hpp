@@ -9,9 +9,9 @@
 #include "studies/program/commands.hpp"
 #include "studies/program/engine.hpp"
 #include "studies/program/wear_history.hpp"
-#include "wear/asymptote.hpp"
-#include "wear/control.hpp"
-#include "wear/history.hpp"
+#include "wear/asymptote/asymptote.hpp"
+#include "wear/history/history.hpp"
+#include "wear/watcher.hpp"
 
 namespace dovetail::studies {
 
@@ -55,7 +55,7 @@ struct WearAnswer {
 
 /// The worn state by the method asked for, the excitation held or tracking the resonance.
 [[nodiscard]] WearAnswer wear_answer(const WearOptions& options, const LoadedModel& loaded, const WearStart& at,
-                                     const wear::Control& control);
+                                     const wear::Watcher& watcher);
 
 /// Worn states over a band of held frequencies.
 struct WearBand {
@@ -69,6 +69,6 @@ struct WearBand {
 };
 
 /// `--band-points` frequencies from `--band-from` to `--band-to`, each from the unworn joint.
-[[nodiscard]] WearBand wear_band(const WearOptions& options, const LoadedModel& loaded, const wear::Control& control);
+[[nodiscard]] WearBand wear_band(const WearOptions& options, const LoadedModel& loaded, const wear::Watcher& watcher);
 
 }  // namespace dovetail::studies

@@ -31,13 +31,13 @@ wear::WornEnd worn_end(const WearAnswer& answer) {
 }  // namespace
 
 WearBars worn_bars(const WearOptions& options, const LoadedModel& loaded, const WearStart& at, const WearAnswer& answer,
-                   const wear::Control& control) {
+                   const wear::Watcher& watcher) {
   const auto changed = [&](steady::Options settings) {
-    if (control.stopped()) return WornState{};
+    if (watcher.stopped()) return WornState{};
     LoadedModel again = loaded;
     again.joint.options = std::move(settings);
     const WearStart from = options.follow == "band" ? at : wear_start(options, again);
-    return from.found() ? worn_state(wear_answer(options, again, from, control)) : WornState{};
+    return from.found() ? worn_state(wear_answer(options, again, from, watcher)) : WornState{};
   };
   const auto scaled = [&](double ratio) {
     steady::Options settings = loaded.joint.options;
@@ -63,12 +63,12 @@ WearBars worn_bars(const WearOptions& options, const LoadedModel& loaded, const 
 }
 
 wear::Spread worn_spread(const WearOptions& options, const LoadedModel& loaded, const WearStart& at,
-                         const WearAnswer& answer, const wear::Control& control) {
+                         const WearAnswer& answer, const wear::Watcher& watcher) {
   const steady::State unworn = at.resonance ? at.resonance->state : paths::steady_state(loaded.joint, at.omega);
   const auto compute = [&](const steady::Joint& joint) {
     wear::WornEnd failed;
     failed.status = Status::interrupted;
-    if (control.stopped()) return failed;
+    if (watcher.stopped()) return failed;
     LoadedModel changed = loaded;
     changed.joint = joint;
     WearStart from = at;
@@ -82,7 +82,7 @@ wear::Spread worn_spread(const WearOptions& options, const LoadedModel& loaded, 
       from.omega = from.resonance->omega;
       from.hz = from.omega / (2 * std::numbers::pi);
     }
-    return worn_end(wear_answer(options, changed, from, control));
+    return worn_end(wear_answer(options, changed, from, watcher));
   };
   const bool solved = unworn.status == Status::converged;
   return wear::spread(loaded.joint, worn_end(answer), compute, solved ? &unworn : nullptr);

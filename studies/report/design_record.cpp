@@ -12,7 +12,7 @@
 #include "fem/element.hpp"
 #include "fem/stress.hpp"
 #include "geometry/flank_form.hpp"
-#include "wear/history.hpp"
+#include "wear/history/history.hpp"
 
 namespace dovetail::report {
 

@@ -18,8 +18,8 @@
 #include "studies/work_precision/contact_patch.hpp"
 #include "studies/work_precision/processor_time.hpp"
 #include "tests/verification/wear/verdict_scenes.hpp"
-#include "wear/asymptote.hpp"
-#include "wear/history.hpp"
+#include "wear/asymptote/asymptote.hpp"
+#include "wear/history/history.hpp"
 #include "wear/measures.hpp"
 
 namespace dovetail {

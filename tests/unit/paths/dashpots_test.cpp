@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "paths/params.hpp"
 #include "paths/steady_state.hpp"
 #include "steady/solve.hpp"
 #include "tests/verification/steady/rod.hpp"
@@ -27,8 +28,7 @@ class FadingDashpots : public testing::Test {
 
 TEST_F(FadingDashpots, LeadToTheStateWithoutThem) {
   ASSERT_EQ(strong_.status, Status::converged);
-  constexpr int kMany = 1000;
-  const Dashpots::Followed followed = dashpots_.follow(kStrong, strong_.point.displacement, kMany);
+  const Dashpots::Followed followed = dashpots_.follow(kStrong, strong_.point.displacement, WayParams{}.curve);
   ASSERT_GT(followed.displacement.size(), 0);
   const steady::State direct = steady_state(joint_, kOmega);
   ASSERT_EQ(direct.status, Status::converged);
@@ -39,7 +39,9 @@ TEST_F(FadingDashpots, LeadToTheStateWithoutThem) {
 }
 
 TEST_F(FadingDashpots, AreLostWithoutJacobians) {
-  EXPECT_EQ(dashpots_.follow(kStrong, strong_.point.displacement, 1).displacement.size(), 0);
+  branches::FollowOptions one = WayParams{}.curve;
+  one.max_jacobians = 1;
+  EXPECT_EQ(dashpots_.follow(kStrong, strong_.point.displacement, one).displacement.size(), 0);
 }
 
 }  // namespace

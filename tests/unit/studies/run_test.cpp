@@ -185,10 +185,10 @@ TEST_F(Run, ResumesWithoutComputingAgain) {
 RunEngineFactory verified(int& calls, int stop_at = 0) {
   return [&calls, stop_at](const Study&) {
     RunEngine engine{.evaluate = bowl, .describe = {}};
-    engine.verify = [&calls, stop_at](const optimizer::Scene& scene, const wear::Control& control) {
+    engine.verify = [&calls, stop_at](const optimizer::Scene& scene, const wear::Watcher& watcher) {
       if (++calls == stop_at) std::raise(SIGINT);
       report::VerificationRecord record;
-      record.status = control.stopped() ? "interrupted" : "converged";
+      record.status = watcher.stopped() ? "interrupted" : "converged";
       record.search_volume_m3 = 1 + optimizer::parameter(scene, "geometry.neck_width_mm");
       record.search_bar_m3 = kInfinity;
       return record;

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "wear/asymptote.hpp"
-#include "wear/history.hpp"
-#include "wear/integrator.hpp"
+#include "wear/asymptote/asymptote.hpp"
+#include "wear/history/history.hpp"
+#include "wear/history/integrator.hpp"
 
 namespace dovetail::wear {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "wear/passes.hpp"
+#include "wear/release/passes.hpp"
 
 namespace dovetail::wear {
 namespace {

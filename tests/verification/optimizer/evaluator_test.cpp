@@ -15,7 +15,7 @@
 #include "paths/steady_state.hpp"
 #include "tests/unit/reduction/stiffness_error.hpp"
 #include "tests/verification/optimizer/coarse_scene.hpp"
-#include "wear/history.hpp"
+#include "wear/history/history.hpp"
 #include "wear/measures.hpp"
 
 namespace dovetail::optimizer {

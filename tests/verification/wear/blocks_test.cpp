@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "scenes.hpp"
-#include "wear/asymptote.hpp"
-#include "wear/history.hpp"
+#include "wear/asymptote/asymptote.hpp"
+#include "wear/history/history.hpp"
 
 namespace dovetail::wear {
 namespace {
@@ -138,9 +138,9 @@ TEST(Block, HalvesAndReportsStepsThatFail) {
 
 TEST(Block, StopsWhenAsked) {
   int asked = 0;
-  const Control control{.stop = [&asked] { return ++asked > 4; }};
+  const Watcher watcher{.stop = [&asked] { return ++asked > 4; }};
   const History run = history({condensed(scenes::random_block(1)), {}, kSteady}, {.omega = 1.0},
-                              {.increment = 1e-6, .rate_threshold = 0.0}, control);
+                              {.increment = 1e-6, .rate_threshold = 0.0}, watcher);
   EXPECT_EQ(run.status, Status::interrupted);
   EXPECT_EQ(run.cycles.size(), 4);  // four states were allowed and are kept
 }

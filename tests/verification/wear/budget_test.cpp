@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "scenes.hpp"
-#include "wear/asymptote.hpp"
-#include "wear/history.hpp"
+#include "wear/asymptote/asymptote.hpp"
+#include "wear/history/history.hpp"
 
 // Whatever part of the work a wear computation needs it is allowed, it says that its budget was spent or gives the
 // answer it gives without one.

@@ -1,4 +1,4 @@
-#include "wear/certificate.hpp"
+#include "wear/asymptote/certificate.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "paths/steady_state.hpp"
 #include "verdict_scenes.hpp"
-#include "wear/asymptote.hpp"
+#include "wear/asymptote/asymptote.hpp"
 
 namespace dovetail::wear {
 namespace {

@@ -8,8 +8,8 @@
 #include "optimizer/contact_fit.hpp"
 #include "optimizer/evaluator.hpp"
 #include "paths/resonance.hpp"
-#include "wear/asymptote.hpp"
-#include "wear/history.hpp"
+#include "wear/asymptote/asymptote.hpp"
+#include "wear/history/history.hpp"
 
 // Dovetails whose crowned flanks lift off at both ends in every cycle.
 

@@ -7,9 +7,9 @@
 #include "empty_model.hpp"
 #include "paths/steady_state.hpp"
 #include "scenes.hpp"
-#include "wear/asymptote.hpp"
-#include "wear/depth_scale.hpp"
-#include "wear/history.hpp"
+#include "wear/asymptote/asymptote.hpp"
+#include "wear/asymptote/depth_scale.hpp"
+#include "wear/history/history.hpp"
 #include "wear/measures.hpp"
 
 // A mass pressed on a flat by a constant force slides for ever: its pressure does not change as it wears, and the rate

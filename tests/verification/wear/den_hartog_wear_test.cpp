@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "scenes.hpp"
-#include "wear/history.hpp"
+#include "wear/history/history.hpp"
 
 // Den Hartog's oscillator whose normal load falls as it wears, p_N = N_0 - k_n W: p(n) = (A/B) sech(s_0 + n/tau) with
 // b = 0.8, mu = 0.4, N_0 = 1, k_n = 2, k_w = 1e-3 gives W(100) = 0.4430184939.

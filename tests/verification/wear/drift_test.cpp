@@ -1,12 +1,12 @@
-#include "wear/drift.hpp"
+#include "wear/asymptote/drift.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "scenes.hpp"
-#include "wear/asymptote.hpp"
-#include "wear/history.hpp"
+#include "wear/asymptote/asymptote.hpp"
+#include "wear/history/history.hpp"
 
 // A node that wears until it is free: the limit is the oscillator without it, W = N_0 / k_n.
 

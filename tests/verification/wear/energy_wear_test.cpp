@@ -6,8 +6,8 @@
 
 #include "paths/steady_state.hpp"
 #include "scenes.hpp"
-#include "wear/asymptote.hpp"
-#include "wear/history.hpp"
+#include "wear/asymptote/asymptote.hpp"
+#include "wear/history/history.hpp"
 
 namespace dovetail::wear {
 namespace {

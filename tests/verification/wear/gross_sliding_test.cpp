@@ -1,4 +1,4 @@
-#include "wear/gross_sliding.hpp"
+#include "wear/asymptote/gross_sliding.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,8 @@
 
 #include "paths/steady_state.hpp"
 #include "scenes.hpp"
-#include "wear/asymptote.hpp"
+#include "wear/asymptote/asymptote.hpp"
+#include "wear/params.hpp"
 
 // A punch that nothing holds but its contact, rubbed by a share s of what friction can take: the middle part
 // sqrt(1 - s) of its width sticks and ends up with the whole load.
@@ -83,7 +84,7 @@ TEST(GrossSliding, NeedsTheHistorysWord) {
 }
 
 TEST(GrossSliding, IsNoStateBeyondWhatFlanksCanClose) {
-  Bearing left{.needed = true, .share = 1.0, .closing = 1.01 * Bearing::kTooDeep};
+  Bearing left{.needed = true, .share = 1.0, .closing = 1.01 * BearingParams{}.too_deep};
   EXPECT_TRUE(left.impossible());
   left.needed = false;
   EXPECT_FALSE(left.impossible());

@@ -1,11 +1,11 @@
-#include "wear/history.hpp"
+#include "wear/history/history.hpp"
 
 #include <gtest/gtest.h>
 
 #include <memory>
 
 #include "scenes.hpp"
-#include "wear/asymptote.hpp"
+#include "wear/asymptote/asymptote.hpp"
 #include "wear/measures.hpp"
 
 namespace dovetail::wear {
@@ -100,8 +100,8 @@ TEST(ImplicitHistory, UnloadsARubbingNode) {
 
 TEST(ImplicitHistory, SaysThatItStoppedOrFailed) {
   int asked = 0;
-  const Control control{.stop = [&asked] { return ++asked > 5; }};
-  const History stopped = history({block(1), {}, kSteady}, {.omega = 1.0}, implicit_down_to_nothing(), control);
+  const Watcher watcher{.stop = [&asked] { return ++asked > 5; }};
+  const History stopped = history({block(1), {}, kSteady}, {.omega = 1.0}, implicit_down_to_nothing(), watcher);
   EXPECT_EQ(stopped.end, HistoryEnd::interrupted);
   EXPECT_EQ(stopped.status, Status::interrupted);
   EXPECT_GT(stopped.cycles.size(), 1);

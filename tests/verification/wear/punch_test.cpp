@@ -8,8 +8,8 @@
 
 #include "paths/steady_state.hpp"
 #include "scenes.hpp"
-#include "wear/asymptote.hpp"
-#include "wear/history.hpp"
+#include "wear/asymptote/asymptote.hpp"
+#include "wear/history/history.hpp"
 
 // Plane partial slip under constant P and +-Q: half-width of contact a = 1, of the stick zone c = sqrt(1 - Q/(mu P)).
 

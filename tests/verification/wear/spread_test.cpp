@@ -1,4 +1,4 @@
-#include "wear/spread.hpp"
+#include "wear/asymptote/spread.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "dynamics/condensed_model.hpp"
 #include "paths/steady_state.hpp"
 #include "tests/verification/wear/scenes.hpp"
-#include "wear/follow.hpp"
+#include "wear/asymptote/followed_asymptote.hpp"
 
 namespace dovetail::wear {
 namespace {

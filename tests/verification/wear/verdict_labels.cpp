@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "paths/steady_state.hpp"
-#include "wear/asymptote.hpp"
-#include "wear/history.hpp"
+#include "wear/asymptote/asymptote.hpp"
+#include "wear/history/history.hpp"
 #include "wear/measures.hpp"
 
 namespace dovetail::wear::scenes {

@@ -8,7 +8,7 @@
 
 #include "paths/steady_state.hpp"
 #include "verdict_labels.hpp"
-#include "wear/asymptote.hpp"
+#include "wear/asymptote/asymptote.hpp"
 
 // What becomes of the wear in labelled scenes: verdict_labels.inc, as printed by the program label_verdicts from
 // explicit histories at finer settings. Members that these leave open are commented out.

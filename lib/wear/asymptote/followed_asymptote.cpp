@@ -1,0 +1,75 @@
+#include "wear/asymptote/followed_asymptote.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "wear/params.hpp"
+
+namespace dovetail::wear {
+
+namespace {
+
+/// What an earlier pass left in doubt, the way to the last one leaves in doubt, too.
+void keep_doubt(const Asymptote& earlier, Asymptote& last) {
+  last.bearing.needed = last.bearing.needed || earlier.bearing.needed;
+  last.bearing.share = std::min(last.bearing.share, earlier.bearing.share);
+  last.bearing.closing = std::max(last.bearing.closing, earlier.bearing.closing);
+  if (last.doubt != Doubt::none || earlier.doubt == Doubt::none) return;
+  last.doubt = earlier.doubt;
+  last.decided_by = earlier.decided_by;
+  last.confirmed_by_history = earlier.confirmed_by_history;
+  // As far from the last state as they were from the earlier one.
+  last.other_states = earlier.other_states;
+  for (OtherState& other : last.other_states) {
+    other.worn_volume += last.worn_volume - earlier.worn_volume;
+    other.largest_depth += last.largest_depth - earlier.largest_depth;
+  }
+}
+
+}  // namespace
+
+FollowedAsymptote followed_asymptote(const steady::Joint& joint, double omega, const AsymptoteOptions& options,
+                                     const paths::ResonanceOptions& resonance, const steady::State* unworn,
+                                     const Watcher& watcher) {
+  FollowedAsymptote result;
+  result.held = asymptote(joint, omega, options, unworn, watcher);
+  result.asymptote = result.held;
+  result.omegas = {omega};
+  result.solves = result.held.solves;
+  result.jacobians = result.held.jacobians;
+  // The peak is followed: one found elsewhere would be another.
+  paths::ResonanceOptions near = resonance;
+  near.sweep_range = 0;
+  Asymptote& last = result.asymptote;
+  // Later passes begin worn: what is left of the wear is held against the unworn rate.
+  AsymptoteOptions onwards = options;
+  if (result.held.unworn_rate.size() > 0 && !(onwards.reference_rate > 0.0))
+    onwards.reference_rate = result.held.unworn_rate.maxCoeff();
+  const auto fail = [&](Status status) {
+    last.verdict = Verdict::not_converged;
+    last.status = status;
+    return result;
+  };
+  for (int pass = 0; last.verdict == Verdict::asymptote; ++pass) {
+    if (pass == FollowParams{}.asymptotes) return fail(Status::iteration_limit);
+    if (watcher.stopped()) return fail(Status::interrupted);
+    const steady::Joint worn_joint = joint.worn(last.depth);
+    const paths::Resonance worn = paths::resonance(worn_joint, omega, near, last.steady.displacement);
+    result.solves += worn.solves;
+    result.jacobians += worn.jacobians;
+    if (worn.status != Status::converged) return fail(worn.status);
+    const bool stays = std::abs(worn.omega / omega - 1) < FollowParams{}.tolerance;
+    omega = worn.omega;
+    if (stays) return result;
+    const Asymptote earlier = std::move(last);
+    last = asymptote(worn_joint, omega, onwards, nullptr, watcher);
+    if (last.verdict == Verdict::asymptote) keep_doubt(earlier, last);
+    result.omegas.push_back(omega);
+    result.solves += last.solves;
+    result.jacobians += last.jacobians;
+  }
+  return result;
+}
+
+}  // namespace dovetail::wear

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "steady/state.hpp"
+#include "wear/history/wear_point.hpp"
+
+namespace dovetail::wear {
+
+/// One implicit stage f(U; W) = 0, W = B + c r(U, W): Newton's method on (U, W) with U eliminated. Factors are kept
+/// from stage to stage as long as chord steps with them contract. Residuals are forces relative to the excitation,
+/// those of the second equation through the pseudo-penalty, eps_N (W - B - c r).
+class ImplicitStage {
+ public:
+  /// `from` is a steady state of this joint, as worn as it may be, with its tangent.
+  ImplicitStage(const steady::Joint& joint, const steady::State& from);
+
+  /// Solves from `point` and writes the solution there if it converges. `base` B [Nc] m, a lower bound of W;
+  /// `cycles` c [Nc] >= 0.
+  [[nodiscard]] Status solve(const Eigen::VectorXd& base, const Eigen::VectorXd& cycles, int max_iterations,
+                             WearPoint& point);
+  /// (I - c R)^-1 v with the factors of the last stage: an error as the equations damp it.
+  [[nodiscard]] Eigen::VectorXd damp(const Eigen::VectorXd& cycles, const Eigen::VectorXd& error) const;
+  /// The point as a steady state, with its tangent.
+  [[nodiscard]] steady::State described(const WearPoint& point) const;
+  /// Factors of a steady state computed elsewhere.
+  void adopt(const std::shared_ptr<const steady::Tangent>& tangent);
+
+  /// Takes the factors at a point, which need not be a solution.
+  void factorise_at(const WearPoint& point);
+  /// Where the factors in use were taken; empty when they are those given.
+  [[nodiscard]] const WearPoint& factored_at() const { return factored_at_; }
+
+  [[nodiscard]] int solves() const { return solves_; }
+  [[nodiscard]] int jacobians() const { return jacobians_; }
+
+ private:
+  [[nodiscard]] std::shared_ptr<const steady::Problem> problem(const Eigen::VectorXd& depth) const;
+  [[nodiscard]] Eigen::VectorXd rate(const steady::Point& point) const;
+
+  steady::Problem problem_;
+  std::shared_ptr<const steady::Tangent> tangent_;
+  WearPoint factored_at_;     // without its rate
+  Eigen::MatrixXd response_;  // dU/dW along f = 0, [nc (2H+1), Nc]
+  Eigen::MatrixXd slope_;     // R = dr/dW along f = 0, [Nc, Nc]
+  int solves_ = 0, jacobians_ = 0;
+};
+
+}  // namespace dovetail::wear
