@@ -1,7 +1,9 @@
 #include "stability/contact_timeline.hpp"
 
 #include <algorithm>
+#include <boost/math/tools/roots.hpp>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 #include "contact/sample_step.hpp"
@@ -14,16 +16,16 @@ using contact::SampleState;
 
 constexpr double kPeriod = 2 * std::numbers::pi;
 
-// A zero of f between a and b by bisection; b when f does not change its sign.
+// A zero of f between a and b; b when f does not change its sign.
 template <class Function>
 double zero(const Function& f, double a, double b) {
-  const bool rising = f(b) > 0;
-  if ((f(a) > 0) == rising) return b;
-  for (int i = 0; i < 48; ++i) {
-    const double middle = (a + b) / 2;
-    ((f(middle) > 0) == rising ? b : a) = middle;
-  }
-  return (a + b) / 2;
+  const double at_a = f(a), at_b = f(b);
+  if ((at_a > 0) == (at_b > 0)) return b;
+  constexpr int kBits = 48;  // the last ones are roundings of f
+  std::uintmax_t evaluations = 100;
+  const auto [below, above] = boost::math::tools::toms748_solve(
+      f, a, b, at_a, at_b, boost::math::tools::eps_tolerance<double>(kBits), evaluations);
+  return (below + above) / 2;
 }
 
 Eigen::Vector2d normal_to(const Eigen::Vector2d& along) {
