@@ -1,21 +1,17 @@
 #pragma once
 
-#include <cstddef>
-
 namespace dovetail::tractions {
 
 // The numbers that steer the search for bounds over residual tractions. They were tuned on punches and dovetail
 // sections with 4 to 34 stuck nodes; sampling at random found no wider range there.
 struct SearchParams {
-  std::size_t climbs = 3;  ///< starts: the most promising ones, the others lead to the same ends more slowly
-  int grid = 5;            ///< starts per direction where there are at most two unknowns
-  int steps = 40;          ///< of one climb at most
-  int polls = 3;           ///< rounds of single changes and random tractions, where nodes begin to slip
-  int rounds = 3;          ///< of the search anew where other nodes stay stuck
-  /// Of the way to the relaxed state: a node that stands at its limit is put a hair inside, lest rounding slips it.
-  double inside = 1e-7;
-  double nothing = 1e-10;  ///< stiffness, relative, of a direction that carries no residual traction
+  int rounds = 4;             ///< families searched: those around the best member found, where other nodes stay stuck
+  double global_share = 0.5;  ///< of the solves that are left, for climbs along gradients from many starts,
+  double local_share = 0.5;   ///< and of the rest for a search without gradients, which kinks need
+  double climb_gain = 1e-6;   ///< relative, below which a climb ends,
+  double climb_step = 1e-4;   ///< and the same of tractions
+  double nothing = 1e-10;     ///< stiffness, relative, of a direction that carries no residual traction
 };
-static_assert(SearchParams{}.nothing < SearchParams{}.inside, "what is put inside is more than rounding");
+static_assert(SearchParams{}.global_share + SearchParams{}.local_share <= 1, "every round leaves some for the next");
 
 }  // namespace dovetail::tractions

@@ -12,9 +12,8 @@ namespace dovetail::tractions {
 
 struct TractionBoundsOptions {
   int output = 0;           ///< of the amplitudes, [0, n_out)
-  int starts = 24;          ///< admissible tractions tried besides the given ones: corners and points inside, >= 0
   int max_solves = 1000;    ///< steady states in all, >= 2
-  double tolerance = 1e-8;  ///< relative gain below which a climb ends, > 0
+  double tolerance = 1e-8;  ///< relative gain below which the search ends, > 0
 };
 
 /// One attained value and the state it belongs to.
@@ -39,11 +38,10 @@ struct TractionBounds {
 
 /// Nodes that stay stuck all the period keep the tractions their history left them, |m| <= 1 of mu lambda_N: the
 /// response is a family with the slip origins X_T as its parameters. This searches it for the smallest and largest
-/// value of one quantity: from the given state, corners and inner points of |m| <= 1 it climbs along exact gradients,
-/// then tries single origins and random changes, which kinks need; where other nodes stick than in the given state, it
-/// goes on with those. Each value belongs to a steady state solved from a slip origin: a node whose traction does not
-/// fit slips in the march until it does, so every member is admissible. Residual tractions only matter where they
-/// change normal forces; otherwise they shift means, and minimum and maximum agree.
+/// value of one quantity: along exact gradients from many starts, then without them, which kinks need; where other
+/// nodes stick than in the given state, it goes on with those. Each value belongs to a steady state solved from a slip
+/// origin: a node whose traction does not fit slips in the march until it does, so every member is admissible. Residual
+/// tractions only matter where they change normal forces; otherwise they shift means, and minimum and maximum agree.
 ///
 /// Without stuck nodes in the given state there is nothing to search from: minimum, maximum and nominal are equal.
 /// `omega` rad/s. `guess` is U of a nearby state or empty.

@@ -62,11 +62,6 @@ TractionFamily::TractionFamily(const steady::State& nominal) {
   }
   compliance_ = pseudo_inverse(seen);
   nominal_ = traction(nominal);
-  reach_ = Eigen::VectorXd::Zero(count);
-  for (std::size_t p = 0; p < nodes_.size(); ++p) {
-    const auto row = static_cast<Eigen::Index>(p);
-    reach_(nodes_[p]) = 2 * limit_(row) * compliance_.diagonal().segment(row * (d - 1), d - 1).cwiseAbs().maxCoeff();
-  }
 }
 
 Eigen::MatrixXd TractionFamily::traction(const steady::State& state) const {

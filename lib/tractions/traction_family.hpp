@@ -25,16 +25,12 @@ class TractionFamily {
   [[nodiscard]] Eigen::MatrixXd traction(const steady::State& state) const;
   /// dq/dm from dq/dX_T [Nc, d-1].
   [[nodiscard]] Eigen::MatrixXd gradient(const Eigen::MatrixXd& by_slip_origin) const;
-  /// How far the slip origin of each node [Nc] moves when its traction goes from one limit to the other; 0: not of the
-  /// family.
-  [[nodiscard]] const Eigen::VectorXd& reach() const { return reach_; }
   /// The nearest m with |m| <= 1 for each node.
   [[nodiscard]] static Eigen::MatrixXd admissible(Eigen::MatrixXd traction);
 
  private:
   std::shared_ptr<const dynamics::CondensedModel> model_;
   std::vector<Eigen::Index> nodes_;
-  Eigen::VectorXd reach_;
   Eigen::VectorXd limit_;             // of the stuck ones, under the mean lambda_N
   Eigen::MatrixXd origin_, nominal_;  // X_T and m of the nominal state
   Eigen::MatrixXd compliance_;        // -dX_T / d lambda_T, node by node
