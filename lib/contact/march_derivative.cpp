@@ -121,10 +121,18 @@ class Runs {
   Eigen::Index count_ = 0;
 };
 
+/// What a march is differentiated along.
+struct Marched {
+  const double* prediction;
+  const NodeLaw& law;
+  const Eigen::MatrixXd& rows;  ///< BasisRow n of the table in column n
+  const MarchResult& result;
+};
+
 /// Adds to `tangent.load` and `tangent.energy` what the step to sample n does.
 template <int Directions>
-void add_slip_slopes(const double* prediction, const NodeLaw& law, const Step& step, Eigen::Index n,
-                     const Eigen::MatrixXd& rows, const MarchResult& result, SampleTangent<Directions>& tangent) {
+void add_slip_slopes(const Marched& marched, const Step& step, Eigen::Index n, SampleTangent<Directions>& tangent) {
+  const auto& [prediction, law, rows, result] = marched;
   constexpr Eigen::Index d = 1 + Directions;
   const Eigen::Index earlier = (n + rows.cols() - 1) % rows.cols(), k = rows.rows();
   const double load = (result.force(n, 0) + result.force(earlier, 0)) / 2;
@@ -200,7 +208,8 @@ void differentiate_node(const double* prediction, const NodeLaw& law, const nume
     runs.add(analysis.col(n));
     if (step.state == SampleState::separated)
       derivative.topLeftCorner(k, k).noalias() -= analysis.col(n) * rows.col(n).transpose();
-    if (step.state != SampleState::stuck) add_slip_slopes<Directions>(prediction, law, step, n, rows, result, tangent);
+    if (step.state != SampleState::stuck)
+      add_slip_slopes<Directions>({prediction, law, rows, result}, step, n, tangent);
   }
   runs.close(tangent.slip_force);
 

@@ -20,6 +20,29 @@ struct Step {
   double crossing = 0;          ///< at this fraction of it
 };
 
+/// Turns the direction of slip of `memory` to that of a sample whose trial force leaves the limit: by the second-order
+/// return where slip goes on, which it says in `step`, else straight along the trial.
+inline void turn_slip(double square, SlipReturn rule, Memory& memory, Step& step) {
+  double* const direction = memory.direction;
+  const double along = direction[0] * step.trial[0] + direction[1] * step.trial[1];
+  // A slip that reverses has no rotation to follow; the first-order return takes it.
+  if (rule == SlipReturn::second_order && memory.slipped && along > 0) {
+    step.rotated = true;
+    // tan(phi / 2) = across / sum
+    const double across = direction[0] * step.trial[1] - direction[1] * step.trial[0];
+    const double sum = step.limit.force + along;
+    const double scale = 1 / (sum * sum + across * across);
+    const double cosine = scale * (sum * sum - across * across), sine = 2 * scale * sum * across;
+    const double first = cosine * direction[0] - sine * direction[1];
+    direction[1] = sine * direction[0] + cosine * direction[1];
+    direction[0] = first;
+  } else if (square > 0) {
+    const double inverse = 1 / std::sqrt(square);
+    direction[0] = step.trial[0] * inverse;
+    direction[1] = step.trial[1] * inverse;
+  }
+}
+
 /// One sample of the contact law for `Directions` tangential directions; updates `memory`. `previous` is the prediction
 /// of the sample before. A node that touches down sticks from there on. The second-order rule begins and ends contact
 /// where lambda_u,N, linear between the samples, passes zero, with lambda_x,T = lambda_u,T there; the first-order rule
@@ -70,25 +93,9 @@ inline Step sample_step(const double* previous, const double* prediction, const 
   if constexpr (Directions == 1) {
     step.force[1] = std::copysign(limit, step.trial[0]);
   } else {
-    double* const direction = memory.direction;
-    const double along = direction[0] * step.trial[0] + direction[1] * step.trial[1];
-    // A slip that reverses has no rotation to follow; the first-order return takes it.
-    if (rule == SlipReturn::second_order && memory.slipped && along > 0) {
-      step.rotated = true;
-      // tan(phi / 2) = across / sum
-      const double across = direction[0] * step.trial[1] - direction[1] * step.trial[0], sum = limit + along;
-      const double scale = 1 / (sum * sum + across * across);
-      const double cosine = scale * (sum * sum - across * across), sine = 2 * scale * sum * across;
-      const double first = cosine * direction[0] - sine * direction[1];
-      direction[1] = sine * direction[0] + cosine * direction[1];
-      direction[0] = first;
-    } else if (square > 0) {
-      const double inverse = 1 / std::sqrt(square);
-      direction[0] = step.trial[0] * inverse;
-      direction[1] = step.trial[1] * inverse;
-    }
-    step.force[1] = limit * direction[0];
-    step.force[2] = limit * direction[1];
+    turn_slip(square, rule, memory, step);
+    step.force[1] = limit * memory.direction[0];
+    step.force[2] = limit * memory.direction[1];
   }
   for (int r = 0; r < Directions; ++r) step.end[r] = memory.slip_force[r] = prediction[1 + r] - step.force[1 + r];
   memory.slipped = true;

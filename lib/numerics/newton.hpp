@@ -12,6 +12,8 @@ struct NewtonParams {
   int max_iterations = 60;      ///< Jacobians, >= 0
   int memory = 5;               ///< a step may raise the norm up to the largest of the last `memory` ones, >= 1
   double decrease = 1e-4;       ///< sufficient decrease per unit step, (0, 0.5)
+  double shortest_cut = 0.1;    ///< of a step that decreases too little, least and
+  double longest_cut = 0.5;     ///< largest factor, (0, 1)
   double smallest_step = 1e-3;  ///< shortest fraction of the Newton step that is tried, (0, 1)
   int max_failed_searches = 3;  ///< searches without decrease that are accepted at their best step, >= 0
   double chord_ratio = 0.3;     ///< a chord step is accepted when it reduces the norm to this fraction, (0, 1)

@@ -57,6 +57,19 @@ double mesh_error(const Diagram& diagram, std::size_t quantity) {
   return kNan;
 }
 
+/// Lines across the plot: errors that the setting cannot take away.
+void add_levels(const Diagram& diagram, const Sweep& sweep, std::size_t quantity, const Extent& x, Extent& y,
+                Plot& plot) {
+  const auto level = [&](const std::string& name, double value, Role role, Stroke stroke) {
+    if (!(value > 0)) return;
+    const double shown = std::max(value, kLowest);
+    y.add(shown);
+    plot.lines.push_back({.name = name, .x = {x.lower, x.upper}, .y = {shown, shown}, .role = role, .stroke = stroke});
+  };
+  if (sweep.key != "mesh") level("part by the default mesh", mesh_error(diagram, quantity), Role::bad, Stroke::dashed);
+  level("the references agree to this", diagram.reference_of(sweep).agreement[quantity], Role::muted, Stroke::dashed);
+}
+
 }  // namespace
 
 Plot error_plot(const Diagram& diagram, const Sweep& sweep, std::size_t quantity) {
@@ -104,17 +117,7 @@ Plot error_plot(const Diagram& diagram, const Sweep& sweep, std::size_t quantity
     if (sweep.refines && l == 0) own.push_back(std::move(part));
   }
   for (PlotLine& part : own) plot.lines.push_back(std::move(part));
-  const auto level = [&](const std::string& name, double value, Role role, Stroke stroke) {
-    if (!(value > 0)) return;
-    y.add(std::max(value, kLowest));
-    plot.lines.push_back({.name = name,
-                          .x = {x.lower, x.upper},
-                          .y = {std::max(value, kLowest), std::max(value, kLowest)},
-                          .role = role,
-                          .stroke = stroke});
-  };
-  if (sweep.key != "mesh") level("part by the default mesh", mesh_error(diagram, quantity), Role::bad, Stroke::dashed);
-  level("the references agree to this", diagram.reference_of(sweep).agreement[quantity], Role::muted, Stroke::dashed);
+  add_levels(diagram, sweep, quantity, x, y, plot);
   // Failed runs stand above all errors.
   failed.y.assign(failed.x.size(), y.upper > 0 ? 2 * y.upper : 1);
   plot.points.push_back(std::move(star));

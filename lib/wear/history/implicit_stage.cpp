@@ -64,79 +64,112 @@ VectorXd ImplicitStage::damp(const VectorXd& cycles, const VectorXd& error) cons
   return damped.allFinite() ? damped : error;
 }
 
-Status ImplicitStage::solve(const VectorXd& base, const VectorXd& cycles, int max_iterations, WearPoint& point) {
-  const Index nodes = problem_.model().nodes();
-  const Index unknowns = problem_.unknowns();
-  const double force = problem_.system().force_scale;
-  VectorXd unit(unknowns + nodes);  // m per unit unknown
-  unit << problem_.unit_displacement(), force * problem_.penalty().normal.cwiseInverse();
+/// The equations of a stage for Newton's method, in unknowns (U, x) that are forces relative to the excitation.
+class ImplicitStage::Equations {
+ public:
+  Equations(ImplicitStage& stage, const VectorXd& base, const VectorXd& cycles, Index rows)
+      : stage_(stage),
+        base_(base),
+        cycles_(cycles),
+        rows_(rows),
+        unknowns_(stage.problem_.unknowns()),
+        force_(stage.problem_.system().force_scale),
+        unit_(unknowns_ + base.size()) {
+    unit_ << stage.problem_.unit_displacement(), force_ * stage.problem_.penalty().normal.cwiseInverse();
+  }
 
-  ++solves_;
-  auto at = std::make_shared<steady::Point>();
-  VectorXd depth;   // W, never below the base
-  VectorXd excess;  // g = x - B - c r
-  VectorXd rates;
-  const auto shaped = [&](const VectorXd& u) -> MatrixXd {
-    return u.reshaped(point.displacement.rows(), point.displacement.cols());
-  };
-  const auto residual = [&](const VectorXd& x) {
-    const VectorXd u = x.cwiseProduct(unit);
-    depth = u.tail(nodes).cwiseMax(base);
-    if (at.use_count() > 1) at = std::make_shared<steady::Point>();
-    steady::evaluate(problem(depth), shaped(u.head(unknowns)), *at);
-    rates = rate(*at);
-    excess = u.tail(nodes) - base - cycles.cwiseProduct(rates);
-    VectorXd all(unknowns + nodes);
-    all << at->residual.reshaped() / force, excess.cwiseQuotient(unit.tail(nodes));
+  /// Depth that the base adds moves the joint with it.
+  [[nodiscard]] VectorXd start(const WearPoint& point) const {
+    const VectorXd moved = point.depth.cwiseMax(base_);
+    VectorXd x(unit_.size());
+    x << point.displacement.reshaped() + stage_.response_ * (moved - point.depth), moved;
+    return x.cwiseQuotient(unit_);
+  }
+
+  VectorXd residual(const VectorXd& x) {
+    const VectorXd u = x.cwiseProduct(unit_);
+    const Index nodes = base_.size();
+    depth_ = u.tail(nodes).cwiseMax(base_);
+    if (at_.use_count() > 1) at_ = std::make_shared<steady::Point>();
+    steady::evaluate(stage_.problem(depth_), shaped(u.head(unknowns_)), *at_);
+    rates_ = stage_.rate(*at_);
+    excess_ = u.tail(nodes) - base_ - cycles_.cwiseProduct(rates_);
+    VectorXd all(unit_.size());
+    all << at_->residual.reshaped() / force_, excess_.cwiseQuotient(unit_.tail(nodes));
     return all;
-  };
-  Eigen::PartialPivLU<MatrixXd> rates_lu;
-  const steady::Tangent* factored = nullptr;
-  const auto direction = [&](VectorXd& step) {
-    const VectorXd free = tangent_->solve(-at->residual.reshaped());
-    const VectorXd driven = tangent_->wear_rate_change(shaped(free), VectorXd::Zero(nodes));
-    if (factored != tangent_.get()) {
-      rates_lu.compute(MatrixXd::Identity(nodes, nodes) - cycles.asDiagonal() * slope_);
-      factored = tangent_.get();
-    }
-    const VectorXd deeper = rates_lu.solve(cycles.cwiseProduct(driven) - excess);
-    step.resize(unknowns + nodes);
-    step << free + response_ * deeper, deeper;
-    step = step.cwiseQuotient(unit).eval();
-  };
-  const auto newton_step = [&](VectorXd& step) {
-    if (spent(problem_.budget())) return Status::budget_spent;
-    steady::differentiate(*at);
-    auto tangent = std::make_shared<const steady::Tangent>(at, tangent_.get());
+  }
+
+  Status newton_step(VectorXd& step) {
+    if (spent(stage_.problem_.budget())) return Status::budget_spent;
+    steady::differentiate(*at_);
+    auto tangent = std::make_shared<const steady::Tangent>(at_, stage_.tangent_.get());
     if (tangent->status() != Status::converged) return tangent->status();
-    ++jacobians_;
-    adopt(tangent);
-    factored_at_ = {.displacement = at->displacement, .depth = depth, .rate = {}};
-    direction(step);
+    ++stage_.jacobians_;
+    stage_.adopt(tangent);
+    stage_.factored_at_ = {.displacement = at_->displacement, .depth = depth_, .rate = {}};
+    step = direction();
     return Status::converged;
-  };
-  const auto chord_step = [&](VectorXd& step) {
-    if (tangent_->regularised()) return false;
-    direction(step);
+  }
+
+  bool chord_step(VectorXd& step) {
+    if (stage_.tangent_->regularised()) return false;
+    step = direction();
     return true;
-  };
-  // Depth that the base adds moves the joint with it.
-  const VectorXd moved = point.depth.cwiseMax(base);
-  VectorXd x(unknowns + nodes);
-  x << point.displacement.reshaped() + response_ * (moved - point.depth), moved;
-  x = x.cwiseQuotient(unit).eval();
-  residual(x);
+  }
+
+  [[nodiscard]] const steady::Point& at() const { return *at_; }
+  [[nodiscard]] WearPoint point() const { return {.displacement = at_->displacement, .depth = depth_, .rate = rates_}; }
+
+ private:
+  [[nodiscard]] MatrixXd shaped(const VectorXd& u) const { return u.reshaped(rows_, u.size() / rows_); }
+
+  /// With the factors in use.
+  VectorXd direction() {
+    const Index nodes = base_.size();
+    const VectorXd free = stage_.tangent_->solve(-at_->residual.reshaped());
+    const VectorXd driven = stage_.tangent_->wear_rate_change(shaped(free), VectorXd::Zero(nodes));
+    if (factored_ != stage_.tangent_.get()) {
+      rates_lu_.compute(MatrixXd::Identity(nodes, nodes) - cycles_.asDiagonal() * stage_.slope_);
+      factored_ = stage_.tangent_.get();
+    }
+    const VectorXd deeper = rates_lu_.solve(cycles_.cwiseProduct(driven) - excess_);
+    VectorXd step(unit_.size());
+    step << free + stage_.response_ * deeper, deeper;
+    return step.cwiseQuotient(unit_);
+  }
+
+  ImplicitStage& stage_;
+  const VectorXd &base_, &cycles_;
+  Index rows_, unknowns_;
+  double force_;
+  VectorXd unit_;  // m per unit unknown
+  std::shared_ptr<steady::Point> at_ = std::make_shared<steady::Point>();
+  VectorXd depth_;   // W, never below the base
+  VectorXd excess_;  // g = x - B - c r
+  VectorXd rates_;
+  Eigen::PartialPivLU<MatrixXd> rates_lu_;
+  const steady::Tangent* factored_ = nullptr;
+};
+
+Status ImplicitStage::solve(const VectorXd& base, const VectorXd& cycles, int max_iterations, WearPoint& point) {
+  ++solves_;
+  Equations equations(*this, base, cycles, point.displacement.rows());
+  VectorXd x = equations.start(point);
+  equations.residual(x);
   constexpr ImplicitParams kParams;
-  const double goal = std::max(problem_.options().tolerance,
-                               std::min(kParams.floors * steady::rounding_floor(*at), steady::FloorParams{}.largest));
-  const numerics::NewtonStats stats =
-      numerics::newton({.residual = residual, .newton_step = newton_step, .chord_step = chord_step}, x,
-                       {.tolerance = goal, .max_iterations = max_iterations, .chord_ratio = kParams.chord_ratio});
+  const double floor = std::min(kParams.floors * steady::rounding_floor(equations.at()), steady::FloorParams{}.largest);
+  const numerics::NewtonSystem system{.residual = [&](const VectorXd& at) { return equations.residual(at); },
+                                      .newton_step = [&](VectorXd& step) { return equations.newton_step(step); },
+                                      .chord_step = [&](VectorXd& step) { return equations.chord_step(step); }};
+  const numerics::NewtonStats stats = numerics::newton(system, x,
+                                                       {.tolerance = std::max(problem_.options().tolerance, floor),
+                                                        .max_iterations = max_iterations,
+                                                        .chord_ratio = kParams.chord_ratio});
   if (stats.status != Status::converged) return stats.status;
-  residual(x);
-  if (at->status != Status::converged) return at->status;
-  if (!steady::is_held(*at)) return Status::singular;
-  point = {.displacement = at->displacement, .depth = depth, .rate = rates};
+  equations.residual(x);
+  if (equations.at().status != Status::converged) return equations.at().status;
+  if (!steady::is_held(equations.at())) return Status::singular;
+  point = equations.point();
   return Status::converged;
 }
 

@@ -36,6 +36,7 @@ class ImplicitStage {
   [[nodiscard]] int jacobians() const { return jacobians_; }
 
  private:
+  class Equations;
   [[nodiscard]] std::shared_ptr<const steady::Problem> problem(const Eigen::VectorXd& depth) const;
   [[nodiscard]] Eigen::VectorXd rate(const steady::Point& point) const;
 
