@@ -1,9 +1,9 @@
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <unsupported/Eigen/MatrixFunctions>
 
+#include "numerics/dense_lu.hpp"
 #include "stability/perturbation.hpp"
 
 namespace dovetail::stability {
@@ -180,8 +180,8 @@ class Propagator {
       test.col(j) = at.test[static_cast<std::size_t>(j)];
     }
     const Eigen::MatrixXd loaded = test.transpose() * s_.stiffness;
-    const Eigen::PartialPivLU<Eigen::MatrixXd> lu(loaded * shape);
-    if (!(lu.rcond() > 1e-13)) {
+    const numerics::DenseLu lu(loaded * shape);
+    if (!(lu.reciprocal_condition() > 1e-13)) {
       failure_ = "contact dofs without mass are held by nothing, or wedged by friction, in one of the phases";
       return result;
     }

@@ -1,6 +1,6 @@
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "numerics/dense_symmetric.hpp"
 #include "stability/perturbation.hpp"
 
 namespace dovetail::stability {
@@ -91,9 +91,10 @@ PerturbedStructure perturbed_structure(const reduction::ReducedModel& model, dou
   Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(mass.rows(), mass.cols());
   Eigen::VectorXd masses = mass.diagonal();
   if (!mass.isDiagonal(1e-14)) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(mass);
-    basis = solver.eigenvectors();
-    masses = solver.eigenvalues();
+    numerics::SymmetricPairs pairs = numerics::all_pairs<double>(mass);
+    if (pairs.status != Status::converged) return refuse(false, "the mass matrix could not be decomposed");
+    basis = std::move(pairs.vectors);
+    masses = std::move(pairs.values);
   }
   std::vector<Eigen::Index> dynamic, still;
   for (Eigen::Index j = 0; j < masses.size(); ++j) (masses(j) > kNothing * mass_scale ? dynamic : still).push_back(j);

@@ -1,10 +1,10 @@
 #include "wear/gross_sliding.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "numerics/dense_symmetric.hpp"
 #include "wear/measures.hpp"
 
 namespace dovetail::wear {
@@ -28,7 +28,7 @@ bool held_without_contact(const dynamics::CondensedModel& model, double omega) {
   // What rounding leaves of a direction without stiffness is less.
   constexpr double kNothing = 1e-9;
   stiffness.diagonal().array() -= kNothing * stiffness.diagonal().cwiseAbs().maxCoeff();
-  return Eigen::LLT<Eigen::MatrixXd>(stiffness).info() == Eigen::Success;
+  return numerics::DenseCholesky(std::move(stiffness)).status() == Status::converged;
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 #include "wear/implicit_stage.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <numeric>
 #include <utility>
 #include <vector>
 
+#include "numerics/dense_lu.hpp"
 #include "numerics/newton.hpp"
 
 namespace dovetail::wear {
@@ -56,8 +56,9 @@ void ImplicitStage::factorise_at(const WearPoint& at) {
 }
 
 VectorXd ImplicitStage::damp(const VectorXd& cycles, const VectorXd& error) const {
-  const MatrixXd matrix = MatrixXd::Identity(error.size(), error.size()) - cycles.asDiagonal() * slope_;
-  const VectorXd damped = matrix.partialPivLu().solve(error);
+  const numerics::DenseLu lu(MatrixXd::Identity(error.size(), error.size()) - cycles.asDiagonal() * slope_);
+  if (lu.status() != Status::converged) return error;
+  const VectorXd damped = lu.solve(error);
   return damped.allFinite() ? damped : error;
 }
 
@@ -87,19 +88,21 @@ Status ImplicitStage::solve(const VectorXd& base, const VectorXd& cycles, int ma
     all << at->residual.reshaped() / force, excess.cwiseQuotient(unit.tail(nodes));
     return all;
   };
-  Eigen::PartialPivLU<MatrixXd> rates_lu;
+  numerics::DenseLu rates_lu;
   const steady::Tangent* factored = nullptr;
   const auto direction = [&](VectorXd& step) {
     const VectorXd free = tangent_->solve(-at->residual.reshaped());
     const VectorXd driven = tangent_->wear_rate_change(shaped(free), VectorXd::Zero(nodes));
     if (factored != tangent_.get()) {
-      rates_lu.compute(MatrixXd::Identity(nodes, nodes) - cycles.asDiagonal() * slope_);
+      rates_lu.factorise(MatrixXd::Identity(nodes, nodes) - cycles.asDiagonal() * slope_);
       factored = tangent_.get();
     }
+    if (rates_lu.status() != Status::converged) return rates_lu.status();
     const VectorXd deeper = rates_lu.solve(cycles.cwiseProduct(driven) - excess);
     step.resize(unknowns + nodes);
     step << free + response_ * deeper, deeper;
     step = step.cwiseQuotient(unit).eval();
+    return Status::converged;
   };
   const auto newton_step = [&](VectorXd& step) {
     if (spent(problem_.budget())) return Status::budget_spent;
@@ -109,13 +112,11 @@ Status ImplicitStage::solve(const VectorXd& base, const VectorXd& cycles, int ma
     ++jacobians_;
     adopt(tangent);
     factored_at_ = {.displacement = at->displacement, .depth = depth, .rate = {}};
-    direction(step);
-    return Status::converged;
+    return direction(step);
   };
   const auto chord_step = [&](VectorXd& step) {
     if (tangent_->regularised()) return false;
-    direction(step);
-    return true;
+    return direction(step) == Status::converged;
   };
   // Depth that the base adds moves the joint with it.
   const VectorXd moved = point.depth.cwiseMax(base);
