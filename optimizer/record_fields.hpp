@@ -4,7 +4,7 @@
 #include <tuple>
 
 /// One table of fields per record. From it follow the record's JSON and journal line (record_json.hpp), its place in a
-/// results file (studies/report/results_archive.hpp) and the list of its keys in the program's help.
+/// results file (studies/report/record/results_archive.hpp) and the list of its keys in the program's help.
 namespace dovetail::optimizer {
 
 /// A field of the record R: its name where it is written, with its SI unit, and the member.

@@ -1,8 +1,8 @@
-#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
 
 #include "dynamics/condensed_model.hpp"
+#include "numerics/dense_lu.hpp"
 #include "numerics/dense_product.hpp"
 
 // What a condensed model answers for one harmonic at one frequency.
@@ -44,8 +44,9 @@ Eigen::MatrixXcd CondensedModel::solve_internal(const Eigen::MatrixXcd& internal
       }
     return internal.col(0).cwiseInverse().asDiagonal() * rhs;
   }
-  const Eigen::PartialPivLU<Eigen::MatrixXcd> lu(internal);
-  if (!(lu.rcond() > 1e-16)) *status = Status::singular;
+  const numerics::ComplexLu lu(internal);
+  if (!(lu.reciprocal_condition() > 1e-16)) *status = Status::singular;
+  if (lu.status() != Status::converged) return Eigen::MatrixXcd::Zero(rhs.rows(), rhs.cols());
   return lu.solve(rhs);
 }
 
@@ -71,7 +72,7 @@ HarmonicStiffness CondensedModel::harmonic(int h, double omega, double static_sc
   at.stiffness = dynamic.value(stiffness_.cc, damping_.cc, mass_.cc);
   if (ci.cols() > 0) {
     if (h == 0)
-      at.stiffness.real().noalias() -= ci.real() * at.internal_shape.real();
+      at.stiffness.real() -= numerics::product(Eigen::MatrixXd(ci.real()), at.internal_shape.real());
     else
       at.stiffness -= numerics::product(ci, at.internal_shape);
   }

@@ -1,12 +1,12 @@
 #include "dynamics/condensed_model.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
 #include "dynamics/contact_model_check.hpp"
+#include "numerics/dense_product.hpp"
+#include "numerics/dense_symmetric.hpp"
 #include "reduction/contact_order.hpp"
 
 namespace dovetail::dynamics {
@@ -62,11 +62,14 @@ CondensedModel::CondensedModel(const reduction::ReducedModel& model) {
   for (Eigen::Index j = 0; j < model.cosine_force.rows(); ++j) force.col(j + 1).real() = model.cosine_force.row(j);
   for (Eigen::Index j = 0; j < model.sine_force.rows(); ++j) force.col(j + 1).imag() = -model.sine_force.row(j);
   force_contact_ = force(contact_dofs_, Eigen::all);
-  force_internal_ = basis_.transpose() * Eigen::MatrixXcd(force(internal_dofs_, Eigen::all));
+  const Eigen::MatrixXcd on_internal = force(internal_dofs_, Eigen::all);
+  force_internal_.resize(basis_.cols(), on_internal.cols());
+  force_internal_.real() = numerics::transposed_product(basis_, on_internal.real());
+  force_internal_.imag() = numerics::transposed_product(basis_, on_internal.imag());
   const Eigen::MatrixXd outputs =
       model.output_vectors.rows() > 0 ? model.output_vectors : Eigen::MatrixXd(Eigen::MatrixXd::Zero(0, n_));
   output_contact_ = outputs(Eigen::all, contact_dofs_);
-  output_internal_ = Eigen::MatrixXd(outputs(Eigen::all, internal_dofs_)) * basis_;
+  output_internal_ = numerics::product(outputs(Eigen::all, internal_dofs_), basis_);
 }
 
 contact::WearNode CondensedModel::wear_node(Eigen::Index node) const {
@@ -121,28 +124,24 @@ void CondensedModel::diagonalise() {
   const bool already = m.isDiagonal(1e-14) && c.isDiagonal(1e-14) && k.isDiagonal(1e-14);
   if (!already) {
     // Both the mass and the stiffness metric may be singular; the first that is definite serves.
-    const Eigen::LLT<Eigen::MatrixXd> mass_factor(m), stiffness_factor(k);
-    const bool by_mass = mass_factor.info() == Eigen::Success && mass_factor.rcond() > 1e-12;
-    const bool by_stiffness = !by_mass && stiffness_factor.info() == Eigen::Success && stiffness_factor.rcond() > 1e-14;
+    const bool by_mass = numerics::DenseCholesky(m).reciprocal_condition() > 1e-12;
+    const bool by_stiffness = !by_mass && numerics::DenseCholesky(k).reciprocal_condition() > 1e-14;
     if (by_mass || by_stiffness) {
-      const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(by_mass ? k : m, by_mass ? m : k);
-      if (solver.info() == Eigen::Success) basis_ = solver.eigenvectors();
+      const numerics::SymmetricPairs pairs = numerics::all_pairs<double>(by_mass ? k : m, by_mass ? m : k);
+      if (pairs.status == Status::converged) basis_ = pairs.vectors;
     }
-    const Eigen::MatrixXd damping = basis_.transpose() * c * basis_;
+    const Eigen::MatrixXd damping = numerics::congruent(c, basis_);
     const Eigen::VectorXd scale = damping.diagonal().cwiseAbs();
     modal_ = (by_mass || by_stiffness) && is_diagonal(damping, scale, 1e-9);
-    set_glued_frequencies(basis_.transpose() * m * basis_, basis_.transpose() * k * basis_);
+    set_glued_frequencies(numerics::congruent(m, basis_), numerics::congruent(k, basis_));
     if (!modal_) basis_ = Eigen::MatrixXd::Identity(ni, ni);
   } else {
     set_glued_frequencies(m, k);
   }
   for (Partition* part : {&mass_, &damping_, &stiffness_}) {
-    part->ci = part->ci * basis_;
-    const Eigen::MatrixXd internal = basis_.transpose() * part->ii * basis_;
-    if (modal_)
-      part->ii = internal.diagonal();
-    else
-      part->ii = internal;
+    part->ci = numerics::product(part->ci, basis_);
+    part->ii = numerics::congruent(part->ii, basis_);
+    if (modal_) part->ii = part->ii.diagonal().eval();
   }
   subtract_massless_coordinates();
 }
@@ -156,15 +155,15 @@ void CondensedModel::subtract_massless_coordinates() {
         local_stiffness_ -= stiffness_.ci.col(j).cwiseAbs2() / stiffness_.ii(j, 0);
     return;
   }
-  const Eigen::LLT<Eigen::MatrixXd> definite(mass_.ii);
-  if (definite.info() == Eigen::Success && definite.rcond() > 1e-12) return;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> mass(mass_.ii);
-  const Eigen::VectorXd& values = mass.eigenvalues();
+  if (numerics::DenseCholesky(mass_.ii).reciprocal_condition() > 1e-12) return;
+  const numerics::SymmetricPairs mass = numerics::all_pairs<double>(mass_.ii);
+  if (mass.status != Status::converged) return;
+  const Eigen::VectorXd& values = mass.values;
   const Eigen::Index count = (values.array() <= 1e-13 * values.cwiseAbs().maxCoeff()).count();
-  const Eigen::MatrixXd massless = mass.eigenvectors().leftCols(count);  // ascending eigenvalues
-  const Eigen::LLT<Eigen::MatrixXd> stiffness(massless.transpose() * stiffness_.ii * massless);
-  if (count == 0 || stiffness.info() != Eigen::Success) return;
-  const Eigen::MatrixXd coupling = massless.transpose() * stiffness_.ci.transpose();
+  const Eigen::MatrixXd massless = mass.vectors.leftCols(count);  // ascending eigenvalues
+  const numerics::DenseCholesky stiffness(numerics::congruent(stiffness_.ii, massless));
+  if (count == 0 || stiffness.status() != Status::converged) return;
+  const Eigen::MatrixXd coupling = numerics::transposed_product(massless, stiffness_.ci.transpose());
   local_stiffness_ -= coupling.cwiseProduct(stiffness.solve(coupling)).colwise().sum().transpose();
 }
 

@@ -1,6 +1,5 @@
 #include "fem/diameter_frequencies.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -10,6 +9,8 @@
 #include <utility>
 
 #include "fem/glued_modes.hpp"
+#include "numerics/dense_product.hpp"
+#include "numerics/dense_symmetric.hpp"
 
 namespace dovetail::fem {
 
@@ -63,9 +64,10 @@ class RitzBasis {
   /// The lowest `count` eigenvalues.
   [[nodiscard]] Eigen::VectorXd eigenvalues(double phase, Eigen::Index count) const {
     if (basis_.cols() < count) return {};  // nothing converged so far
-    Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXcd> solver(reduced_stiffness_.at(phase),
-                                                                      reduced_mass_.at(phase), Eigen::EigenvaluesOnly);
-    return solver.eigenvalues().head(count);
+    const numerics::Pairs<Complex> found =
+        numerics::all_values<Complex>(reduced_stiffness_.at(phase), reduced_mass_.at(phase));
+    if (found.status != Status::converged) return {};
+    return found.values.head(count);
   }
 
  private:
@@ -100,10 +102,10 @@ class RitzBasis {
     const Eigen::MatrixXd turned = matrix.turning.transpose() * basis_.rightCols(fresh);
     reduced.constant.conservativeResize(size, size);
     reduced.turning.conservativeResize(size, size);
-    reduced.constant.rightCols(fresh) = basis_.transpose() * constant;
+    reduced.constant.rightCols(fresh) = numerics::transposed_product(basis_, constant);
     reduced.constant.bottomLeftCorner(fresh, old) = reduced.constant.topRightCorner(old, fresh).transpose();
-    reduced.turning.rightCols(fresh) = basis_.transpose() * turning;
-    reduced.turning.bottomLeftCorner(fresh, old) = turned.transpose() * basis_.leftCols(old);
+    reduced.turning.rightCols(fresh) = numerics::transposed_product(basis_, turning);
+    reduced.turning.bottomLeftCorner(fresh, old) = numerics::transposed_product(turned, basis_.leftCols(old));
   }
 
   PhaseMatrix stiffness_, mass_;

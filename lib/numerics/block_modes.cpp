@@ -1,6 +1,5 @@
 #include "numerics/block_modes.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -8,13 +7,11 @@
 #include <vector>
 
 #include "numerics/dense_product.hpp"
+#include "numerics/dense_symmetric.hpp"
 
 namespace dovetail::numerics {
 
 namespace {
-
-template <class Scalar>
-using Dense = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 
 /// M times blocks of columns, row by row of M, without its stored zeros (a mass matrix on the pattern of a stiffness is
 /// mostly zeros).
@@ -64,22 +61,6 @@ class Weight<std::complex<double>> {
   SparseRows real_, imag_;
 };
 
-// Tall products on OpenBLAS.
-Eigen::MatrixXd times(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  Eigen::MatrixXd c;
-  product(a, b, c);
-  return c;
-}
-Eigen::MatrixXcd times(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) {
-  return product(a, b);
-}
-Eigen::MatrixXd adjoint_times(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  return transposed_product(a, b);
-}
-Eigen::MatrixXcd adjoint_times(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) {
-  return transposed_product(a.conjugate(), b);
-}
-
 /// A block made M-orthonormal: x = vectors factor (+ what was projected out before).
 template <class Scalar>
 struct Orthonormal {
@@ -87,19 +68,10 @@ struct Orthonormal {
   Dense<Scalar> factor;             // [columns of Q, columns of x]
 };
 
-/// Directions below `threshold` times the largest scale are dropped: the space is exhausted there.
+/// Square root of sum_k x_k^H y_k over the columns.
 template <class Scalar>
-Orthonormal<Scalar> orthonormal(const Dense<Scalar>& x, const Dense<Scalar>& weighted, double threshold) {
-  if (x.cols() == 0) return {x, weighted, Dense<Scalar>(0, 0)};
-  const Dense<Scalar> gram = adjoint_times(x, weighted);
-  const Eigen::SelfAdjointEigenSolver<Dense<Scalar>> eigen(0.5 * (gram + gram.adjoint()));
-  std::vector<Eigen::Index> kept;
-  for (Eigen::Index k = 0; k < gram.rows(); ++k)
-    if (eigen.eigenvalues()(k) > threshold * threshold) kept.push_back(k);
-  const Eigen::VectorXd sizes = eigen.eigenvalues()(kept).cwiseSqrt();
-  const Dense<Scalar> directions = eigen.eigenvectors()(Eigen::all, kept);
-  const Dense<Scalar> scaled = directions * sizes.cwiseInverse().asDiagonal();
-  return {x * scaled, weighted * scaled, sizes.asDiagonal() * directions.adjoint()};
+double joint_length(const Dense<Scalar>& x, const Dense<Scalar>& y) {
+  return std::sqrt(std::abs(x.conjugate().cwiseProduct(y).sum()));
 }
 
 template <class Scalar>
@@ -123,11 +95,11 @@ class Krylov {
     while (true) {
       if (solves_ + block_.vectors.cols() > limit_) return modes;
       const bool exhausted = !expand();
-      if (!projected_.allFinite()) {
-        modes.status = Status::not_finite;
+      const bool enough = settle();
+      if (status_ != Status::converged) {
+        modes.status = status_;
         return modes;
       }
-      const bool enough = settle();
       if (enough || exhausted) {
         modes.status = Status::converged;
         const Eigen::Index found = std::min<Eigen::Index>(count_, values_.size());
@@ -139,6 +111,25 @@ class Krylov {
   }
 
  private:
+  /// Of a matrix that is Hermitian but for rounding. Failures are kept in status_.
+  Pairs<Scalar> pairs_of(const Dense<Scalar>& matrix) {
+    Pairs<Scalar> pairs = all_pairs<Scalar>(0.5 * (matrix + matrix.adjoint()));
+    if (pairs.status != Status::converged) status_ = pairs.status;
+    return pairs;
+  }
+
+  /// Directions below `threshold` times the largest scale are dropped: the space is exhausted there.
+  Orthonormal<Scalar> orthonormal(const Dense<Scalar>& x, const Dense<Scalar>& weighted, double threshold) {
+    const Pairs<Scalar> pairs = pairs_of(adjoint_product(x, weighted));
+    std::vector<Eigen::Index> kept;
+    for (Eigen::Index k = 0; k < pairs.values.size(); ++k)
+      if (pairs.values(k) > threshold * threshold) kept.push_back(k);
+    const Eigen::VectorXd sizes = pairs.values(kept).cwiseSqrt();
+    const Dense<Scalar> directions = pairs.vectors(Eigen::all, kept);
+    const Dense<Scalar> scaled = directions * sizes.cwiseInverse().asDiagonal();
+    return {product(x, scaled), product(weighted, scaled), sizes.asDiagonal() * directions.adjoint()};
+  }
+
   /// A random block, once through the operator: it has no part along massless directions then.
   bool start() {
     std::mt19937_64 random(1);
@@ -152,10 +143,10 @@ class Krylov {
     solves_ += x.cols();
     if (!image.allFinite()) return false;
     const Dense<Scalar> weighted = weight_(image);
-    const double scale = std::sqrt(std::abs((image.adjoint() * weighted).trace()));
+    const double scale = joint_length<Scalar>(image, weighted);
     // Twice: a Gram matrix squares the condition of the block.
-    const Orthonormal<Scalar> first = orthonormal<Scalar>(image, weighted, 1e-12 * scale);
-    block_ = orthonormal<Scalar>(first.vectors, weight_(first.vectors), 1e-3);
+    const Orthonormal<Scalar> first = orthonormal(image, weighted, 1e-12 * scale);
+    block_ = orthonormal(first.vectors, weight_(first.vectors), 1e-3);
     basis_.resize(inverse_.rows, 0);
     return block_.vectors.cols() > 0;
   }
@@ -168,33 +159,33 @@ class Krylov {
     Dense<Scalar> image = inverse_.perform_block(block_.weighted);
     solves_ += added;
     const Dense<Scalar> weighted = weight_(image);
-    const double scale = std::sqrt(std::abs((image.adjoint() * weighted).trace()));
-    const Dense<Scalar> overlap = adjoint_times(basis_, weighted);
+    const double scale = joint_length<Scalar>(image, weighted);
+    const Dense<Scalar> overlap = adjoint_product(basis_, weighted);
     projected_.conservativeResize(before + added, before + added);
     projected_.rightCols(added) = overlap;
     projected_.bottomRows(added) = overlap.adjoint();
-    image -= times(basis_, overlap);
+    image -= product(basis_, overlap);
     // Small remainders carry rounding along the basis, which normalising magnifies: again.
-    Orthonormal<Scalar> first = orthonormal<Scalar>(image, weight_(image), 1e-13 * scale);
-    first.vectors -= times(basis_, adjoint_times(basis_, first.weighted));
-    block_ = orthonormal<Scalar>(first.vectors, weight_(first.vectors), 1e-3);
-    block_.factor = (block_.factor * first.factor).eval();
+    Orthonormal<Scalar> first = orthonormal(image, weight_(image), 1e-13 * scale);
+    first.vectors -= product(basis_, adjoint_product(basis_, first.weighted));
+    block_ = orthonormal(first.vectors, weight_(first.vectors), 1e-3);
+    block_.factor = product(block_.factor, first.factor);
     last_ = added;
     return block_.vectors.cols() > 0 && basis_.cols() < inverse_.rows;
   }
 
   /// Ritz values by decreasing magnitude; whether those wanted have small residuals.
   bool settle() {
-    const Eigen::SelfAdjointEigenSolver<Dense<Scalar>> eigen(0.5 * (projected_ + projected_.adjoint()));
-    std::vector<Eigen::Index> order(static_cast<std::size_t>(projected_.rows()));
+    const Pairs<Scalar> ritz = pairs_of(projected_);
+    std::vector<Eigen::Index> order(static_cast<std::size_t>(ritz.values.size()));
     for (std::size_t k = 0; k < order.size(); ++k) order[k] = static_cast<Eigen::Index>(k);
     std::stable_sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
-      return std::abs(eigen.eigenvalues()(a)) > std::abs(eigen.eigenvalues()(b));
+      return std::abs(ritz.values(a)) > std::abs(ritz.values(b));
     });
-    values_ = eigen.eigenvalues()(order);
-    rotation_ = eigen.eigenvectors()(Eigen::all, order);
-    coupling_ = block_.factor * rotation_.bottomRows(last_);
+    values_ = ritz.values(order);
+    rotation_ = ritz.vectors(Eigen::all, order);
     if (values_.size() < count_) return false;
+    coupling_ = product(block_.factor, rotation_.bottomRows(last_));
     for (Eigen::Index k = 0; k < count_; ++k)
       if (!(coupling_.col(k).norm() <= tolerance_ * std::abs(values_(k)))) return false;
     return true;
@@ -203,7 +194,7 @@ class Krylov {
   /// Keeps the best Ritz vectors; what couples them to the next block is known.
   void restart() {
     const Eigen::Index kept = std::min<Eigen::Index>(count_ + block_size_, values_.size() - 1);
-    basis_ = times(basis_, Dense<Scalar>(rotation_.leftCols(kept)));
+    basis_ = product(basis_, Dense<Scalar>(rotation_.leftCols(kept)));
     projected_ = values_.head(kept).template cast<Scalar>().asDiagonal();
   }
 
@@ -216,13 +207,14 @@ class Krylov {
     std::sort(order.begin(), order.end(),
               [&](Eigen::Index a, Eigen::Index b) { return 1 / values_(a) < 1 / values_(b); });
     modes.eigenvalues = values_(order).cwiseInverse();
-    modes.vectors = basis_ * rotation_(Eigen::all, order);
+    modes.vectors = product(basis_, rotation_(Eigen::all, order));
   }
 
   const ShiftInverse<Scalar>& inverse_;
   Weight<Scalar> weight_;
   Eigen::Index count_;
   double tolerance_;
+  Status status_ = Status::converged;
   Eigen::Index block_size_, limit_, most_, solves_ = 0, last_ = 0;
   Dense<Scalar> basis_, projected_;  // V and V^H M (K - sigma M)^{-1} M V
   Orthonormal<Scalar> block_;        // the next one

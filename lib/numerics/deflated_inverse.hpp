@@ -35,6 +35,7 @@ Eigen::Map<Column<Scalar>> vector_at(double* x, Eigen::Index rows) {
 // The modes found so far, M-orthonormal: mu = lambda - sigma, by increasing magnitude.
 template <class Scalar>
 struct Found {
+  Status status = Status::converged;  // of a dense decomposition
   std::vector<double> values;
   Columns<Scalar> vectors, weighted;  // X and M X
 
@@ -95,8 +96,6 @@ class MassProduct {
       imaginary_.prune(0.0);
     }
   }
-  Eigen::Index rows() const { return kReals<Entry> * real_.rows(); }
-  Eigen::Index cols() const { return rows(); }
   void perform_op(const double* x, double* y) const {
     if constexpr (kReals<Entry> == 1) {
       vector_at<double>(y, real_.rows()).noalias() = real_ * vector_at<double>(x, real_.rows());
@@ -118,13 +117,10 @@ class MassProduct {
 template <class Entry>
 class DeflatedInverse {
  public:
-  using Scalar = double;
   DeflatedInverse(const ShiftInverse<Entry>& inverse, const Found<Entry>& found, double scale)
       : inverse_(inverse), found_(found), scale_(scale), load_(inverse.rows) {}
   Eigen::Index rows() const { return kReals<Entry> * inverse_.rows; }
-  Eigen::Index cols() const { return rows(); }
-  void set_shift(double) {}  // the factors hold it
-  void perform_op(const double* b, double* x) {
+  void perform_op(const double* b, double* x) const {
     load_ = vector_at<Entry>(static_cast<const double*>(b), inverse_.rows);
     Found<Entry>::project(found_.weighted, found_.vectors, load_);
     Eigen::Map<Column<Entry>> result = vector_at<Entry>(x, inverse_.rows);
@@ -137,7 +133,7 @@ class DeflatedInverse {
   const ShiftInverse<Entry>& inverse_;
   const Found<Entry>& found_;
   double scale_;
-  Column<Entry> load_;
+  mutable Column<Entry> load_;  // scratch
 };
 
 }  // namespace dovetail::numerics

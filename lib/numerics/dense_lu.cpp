@@ -5,8 +5,39 @@
 #include <cassert>
 
 namespace dovetail::numerics {
+namespace {
 
-void DenseLu::factorise(Eigen::MatrixXd matrix) {
+lapack_complex_double* as_lapack(std::complex<double>* x) {
+  return reinterpret_cast<lapack_complex_double*>(x);
+}
+const lapack_complex_double* as_lapack(const std::complex<double>* x) {
+  return reinterpret_cast<const lapack_complex_double*>(x);
+}
+
+lapack_int getrf(lapack_int n, double* a, lapack_int* pivots) {
+  return LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, n, n, a, n, pivots);
+}
+lapack_int getrf(lapack_int n, std::complex<double>* a, lapack_int* pivots) {
+  return LAPACKE_zgetrf_work(LAPACK_COL_MAJOR, n, n, as_lapack(a), n, pivots);
+}
+void getrs(char transposed, lapack_int n, lapack_int m, const double* a, const lapack_int* pivots, double* b) {
+  LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, transposed, n, m, a, n, pivots, b, n);
+}
+void getrs(char transposed, lapack_int n, lapack_int m, const std::complex<double>* a, const lapack_int* pivots,
+           std::complex<double>* b) {
+  LAPACKE_zgetrs_work(LAPACK_COL_MAJOR, transposed, n, m, as_lapack(a), n, pivots, as_lapack(b), n);
+}
+void gecon(lapack_int n, const double* a, double one_norm, double* reciprocal) {
+  LAPACKE_dgecon(LAPACK_COL_MAJOR, '1', n, a, n, one_norm, reciprocal);
+}
+void gecon(lapack_int n, const std::complex<double>* a, double one_norm, double* reciprocal) {
+  LAPACKE_zgecon(LAPACK_COL_MAJOR, '1', n, as_lapack(a), n, one_norm, reciprocal);
+}
+
+}  // namespace
+
+template <class Scalar>
+void LuFactors<Scalar>::factorise(Matrix matrix) {
   assert(matrix.rows() == matrix.cols());
   factors_ = std::move(matrix);
   status_ = Status::converged;
@@ -14,58 +45,59 @@ void DenseLu::factorise(Eigen::MatrixXd matrix) {
   pivots_.resize(static_cast<std::size_t>(n));
   if (n == 0) return;
   one_norm_ = factors_.cwiseAbs().colwise().sum().maxCoeff();
-  if (!factors_.allFinite()) {
+  if (!factors_.allFinite())
     status_ = Status::not_finite;
-    return;
-  }
-  const lapack_int info = LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, n, n, factors_.data(), n, pivots_.data());
-  if (info != 0) status_ = Status::singular;
+  else if (getrf(n, factors_.data(), pivots_.data()) != 0)
+    status_ = Status::singular;
 }
 
-Eigen::MatrixXd DenseLu::solve_with(char transposed, Eigen::MatrixXd right_hand_side) const {
+template <class Scalar>
+auto LuFactors<Scalar>::solve_with(char transposed, Matrix right_hand_side) const -> Matrix {
   assert(status_ == Status::converged && right_hand_side.rows() == size());
-  const auto n = static_cast<lapack_int>(size());
-  const auto m = static_cast<lapack_int>(right_hand_side.cols());
-  if (n == 0 || m == 0) return right_hand_side;
-  LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, transposed, n, m, factors_.data(), n, pivots_.data(), right_hand_side.data(),
-                      n);
+  if (right_hand_side.size() > 0)
+    getrs(transposed, static_cast<lapack_int>(size()), static_cast<lapack_int>(right_hand_side.cols()), factors_.data(),
+          pivots_.data(), right_hand_side.data());
   return right_hand_side;
 }
 
-Eigen::MatrixXd DenseLu::solve(Eigen::MatrixXd right_hand_side) const {
+template <class Scalar>
+auto LuFactors<Scalar>::solve(Matrix right_hand_side) const -> Matrix {
   return solve_with('N', std::move(right_hand_side));
 }
 
-Eigen::MatrixXd DenseLu::solve_transposed(Eigen::MatrixXd right_hand_side) const {
+template <class Scalar>
+auto LuFactors<Scalar>::solve_transposed(Matrix right_hand_side) const -> Matrix {
   return solve_with('T', std::move(right_hand_side));
 }
 
-double DenseLu::pivot_ratio() const {
+template <class Scalar>
+double LuFactors<Scalar>::pivot_ratio() const {
   if (status_ != Status::converged) return 0;
   if (size() == 0) return 1;
-  const Eigen::ArrayXd pivots = factors_.diagonal().array().abs();
+  const Eigen::ArrayXd pivots = factors_.diagonal().cwiseAbs();
   return pivots.minCoeff() / pivots.maxCoeff();
 }
 
-double DenseLu::reciprocal_condition() const {
+template <class Scalar>
+double LuFactors<Scalar>::reciprocal_condition() const {
   if (status_ != Status::converged) return 0;
-  if (size() == 0) return 1;
-  double reciprocal = 0;
-  const auto n = static_cast<lapack_int>(size());
-  std::vector<double> work(static_cast<std::size_t>(4 * n));
-  std::vector<lapack_int> whole(static_cast<std::size_t>(n));
-  LAPACKE_dgecon_work(LAPACK_COL_MAJOR, '1', n, factors_.data(), n, one_norm_, &reciprocal, work.data(), whole.data());
+  double reciprocal = 1;
+  if (size() > 0) gecon(static_cast<lapack_int>(size()), factors_.data(), one_norm_, &reciprocal);
   return reciprocal;
 }
 
-int DenseLu::determinant_sign() const {
+template <class Scalar>
+int LuFactors<Scalar>::determinant_sign() const {
   if (status_ != Status::converged) return 0;
   int sign = 1;
   for (Eigen::Index i = 0; i < size(); ++i) {
-    if (factors_(i, i) < 0) sign = -sign;
+    if (std::real(factors_(i, i)) < 0) sign = -sign;
     if (pivots_[static_cast<std::size_t>(i)] != static_cast<int>(i) + 1) sign = -sign;
   }
   return sign;
 }
+
+template class LuFactors<double>;
+template class LuFactors<std::complex<double>>;
 
 }  // namespace dovetail::numerics

@@ -61,12 +61,30 @@ Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& a, const Eigen::Matrix
   return c;
 }
 
+Eigen::MatrixXd product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  Eigen::MatrixXd c;
+  product(a, b, c);
+  return c;
+}
+
+Eigen::MatrixXd adjoint_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  return transposed_product(a, b);
+}
+
+Eigen::MatrixXd congruent(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  return transposed_product(b, product(a, b));
+}
+
 Eigen::MatrixXcd product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) {
   return complex_product(CblasNoTrans, a, b);
 }
 
 Eigen::MatrixXcd transposed_product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) {
   return complex_product(CblasTrans, a, b);
+}
+
+Eigen::MatrixXcd adjoint_product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) {
+  return complex_product(CblasConjTrans, a, b);
 }
 
 }  // namespace dovetail::numerics

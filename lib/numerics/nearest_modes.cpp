@@ -1,12 +1,8 @@
 #include "numerics/nearest_modes.hpp"
 
-#include <Spectra/SymGEigsShiftSolver.h>
-
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <new>
 #include <numeric>
 #include <random>
 #include <stdexcept>
@@ -14,16 +10,16 @@
 
 #include "numerics/block_modes.hpp"
 #include "numerics/deflated_inverse.hpp"
+#include "numerics/dense_product.hpp"
+#include "numerics/dense_symmetric.hpp"
+#include "numerics/lanczos.hpp"
 
 namespace dovetail::numerics {
 
 namespace {
 
 struct RunOptions {
-  Eigen::Index count = 1;
-  Eigen::Index vectors = 20;   // of the Krylov space
-  Eigen::Index restarts = 10;  // at most
-  double tolerance = 1e-11;
+  LanczosOptions lanczos;
   unsigned seed = 1;
 };
 
@@ -66,49 +62,42 @@ Run<Entry> run_spectra(const ShiftInverse<Entry>& inverse, const Eigen::SparseMa
     }
   }
 
-  DeflatedInverse<Entry> operation(inverse, found, scale);
-  Spectra::SymGEigsShiftSolver<DeflatedInverse<Entry>, const MassProduct<Entry>, Spectra::GEigsMode::ShiftInvert>
-      solver(operation, mass_product, options.count, std::min(options.vectors, operation.rows()), 0.0);
-  try {
-    solver.init(reinterpret_cast<const double*>(start.data()));
-    solver.compute(Spectra::SortRule::LargestMagn, options.restarts, options.tolerance,
-                   Spectra::SortRule::SmallestMagn);
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception&) {  // its own iterations failed
-    return run;
-  }
-  run.values = solver.eigenvalues() * scale;
-  const Eigen::MatrixXd reals = solver.eigenvectors();
-  run.vectors.resize(n, reals.cols());
-  for (Eigen::Index k = 0; k < reals.cols(); ++k) run.vectors.col(k) = vector_at<Entry>(reals.col(k).data(), n);
-  if (!run.values.allFinite() || !reals.allFinite())
-    run.status = Status::not_finite;
-  else if (run.values.size() == options.count)
-    run.status = Status::converged;
+  const DeflatedInverse<Entry> deflated(inverse, found, scale);
+  const LanczosPairs pairs =
+      lanczos({.size = deflated.rows(), .apply = [&](const double* b, double* x) { deflated.perform_op(b, x); }},
+              {.size = deflated.rows(), .apply = [&](const double* x, double* y) { mass_product.perform_op(x, y); }},
+              reinterpret_cast<const double*>(start.data()), options.lanczos);
+  run.status = pairs.status;
+  run.values = pairs.values * scale;
+  run.vectors.resize(n, pairs.vectors.cols());
+  for (Eigen::Index k = 0; k < run.vectors.cols(); ++k)
+    run.vectors.col(k) = vector_at<Entry>(pairs.vectors.col(k).data(), n);
   return run;
 }
 
 // All pairs with 1/(lambda - sigma) != 0 of M^(1/2) (K - sigma M)^{-1} M^(1/2); works for singular mass.
 template <class Entry>
 Found<Entry> dense_modes(const ShiftInverse<Entry>& inverse, const Eigen::SparseMatrix<Entry>& mass) {
-  const Eigen::SelfAdjointEigenSolver<Columns<Entry>> spectrum{Columns<Entry>(mass)};
+  const Pairs<Entry> spectrum = all_pairs<Entry>(mass);
   // Rounding may leave eigenvalues of a singular mass matrix slightly below zero.
-  const Eigen::VectorXd roots = spectrum.eigenvalues().cwiseMax(0).cwiseSqrt();
-  const Columns<Entry> root = spectrum.eigenvectors() * roots.asDiagonal() * spectrum.eigenvectors().adjoint();
+  const Columns<Entry> scaled = spectrum.vectors * spectrum.values.cwiseMax(0).cwiseSqrt().asDiagonal();
+  const Columns<Entry> root = product(scaled, spectrum.vectors.adjoint());
   Columns<Entry> flexible(mass.rows(), mass.rows());
   for (Eigen::Index k = 0; k < root.cols(); ++k) inverse.perform_op(root.col(k).data(), flexible.col(k).data());
-  const Columns<Entry> product = root * flexible;
-  const Eigen::SelfAdjointEigenSolver<Columns<Entry>> eigen(0.5 * (product + product.adjoint()));
-  const Eigen::VectorXd& theta = eigen.eigenvalues();
+  const Columns<Entry> between = product(root, flexible);
+  const Pairs<Entry> pairs = all_pairs<Entry>(0.5 * (between + between.adjoint()));
+  Found<Entry> found;
+  found.status = spectrum.status == Status::converged ? pairs.status : spectrum.status;
+  found.vectors.resize(mass.rows(), 0);
+  if (found.status != Status::converged) return found;
+  const Eigen::VectorXd& theta = pairs.values;
   const double threshold = 1e-14 * theta.cwiseAbs().maxCoeff();
   std::vector<Eigen::Index> kept;
   for (Eigen::Index k = 0; k < theta.size(); ++k)
     if (std::abs(theta(k)) > threshold) kept.push_back(k);
   const Eigen::VectorXd values = theta(kept).cwiseInverse();
-  Found<Entry> found;
   found.values.assign(values.begin(), values.end());
-  found.vectors = flexible * eigen.eigenvectors()(Eigen::all, kept) * values.asDiagonal();
+  found.vectors = product(flexible, pairs.vectors(Eigen::all, kept)) * values.asDiagonal();
   found.sort();
   return found;
 }
@@ -143,10 +132,10 @@ Status find_modes(const ShiftInverse<Entry>& inverse, const Eigen::SparseMatrix<
     if (missing <= 0) {
       last = std::abs(found.values[static_cast<std::size_t>(wanted - 1)]);
       const Run<Entry> look = run_spectra(bounded, mass, mass_product, found,
-                                          {.count = 1,
-                                           .vectors = kLookVectors,
-                                           .restarts = restarts_within(kLookLimit, kLookVectors, 1),
-                                           .tolerance = kLook,
+                                          {.lanczos = {.count = 1,
+                                                       .vectors = kLookVectors,
+                                                       .restarts = restarts_within(kLookLimit, kLookVectors, 1),
+                                                       .tolerance = kLook},
                                            .seed = round + 1});
       if (look.status != Status::converged) return look.status;
       if (std::abs(look.values(0)) > last * (1 + kLook)) return Status::converged;
@@ -155,10 +144,10 @@ Status find_modes(const ShiftInverse<Entry>& inverse, const Eigen::SparseMatrix<
     // Fewer vectors mean more restarts, more vectors solves that were not needed: measured to be best.
     const Eigen::Index vectors = 2 * count + 4;
     const Run<Entry> run = run_spectra(bounded, mass, mass_product, found,
-                                       {.count = count,
-                                        .vectors = vectors,
-                                        .restarts = restarts_within(limit, vectors, count),
-                                        .tolerance = options.tolerance,
+                                       {.lanczos = {.count = count,
+                                                    .vectors = vectors,
+                                                    .restarts = restarts_within(limit, vectors, count),
+                                                    .tolerance = options.tolerance},
                                         .seed = round + 1});
     if (run.status != Status::converged) return run.status;
     const double nearest = std::abs(found.size() == 0 ? run.values(0) : found.values.front());
@@ -193,7 +182,7 @@ Modes<Scalar> nearest_modes(const ShiftInverse<Scalar>& inverse, const Eigen::Sp
   found.weighted.resize(inverse.rows, 0);
   if (dense) {
     found = dense_modes(inverse, mass);
-    modes.status = found.vectors.allFinite() ? Status::converged : Status::not_finite;
+    modes.status = found.status;
   } else {
     modes.status = find_modes(inverse, mass, options, found);
   }

@@ -1,8 +1,11 @@
 #include "reduction/boundary_basis.hpp"
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <vector>
+
+#include "numerics/dense_general.hpp"
+#include "numerics/dense_product.hpp"
+#include "numerics/dense_symmetric.hpp"
 
 namespace dovetail::reduction {
 
@@ -16,17 +19,13 @@ Eigen::MatrixXd independent_loads(const FullModel& full) {
   for (Eigen::Index k = 0; k < loads.cols(); ++k)
     if (loads.col(k).squaredNorm() > 0) loaded.push_back(k);
   Eigen::MatrixXd unit = loads(Eigen::all, loaded);
-  if (unit.cols() == 0) return unit;
   unit.colwise().normalize();
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(unit);
-  qr.setThreshold(1e-12);
-  const Eigen::VectorXi kept = qr.colsPermutation().indices().head(qr.rank());
-  return unit(Eigen::all, kept);
+  return unit(Eigen::all, numerics::independent_columns(unit, 1e-12));
 }
 
 // Projects the M-component of `basis` out of `x`; twice, because once leaves what cancels.
 void remove(const Eigen::MatrixXd& basis, const Eigen::MatrixXd& mass_basis, Eigen::MatrixXd& x) {
-  for (int pass = 0; pass < 2; ++pass) x -= basis * (mass_basis.transpose() * x).eval();
+  for (int pass = 0; pass < 2; ++pass) x -= numerics::product(basis, numerics::transposed_product(mass_basis, x));
 }
 
 }  // namespace
@@ -39,11 +38,12 @@ Eigen::MatrixXd static_responses(const FullModel& full, const FloatingInverse& i
   const Eigen::SparseMatrix<double>& mass = inverse.mass();
   const Eigen::MatrixXd loads = independent_loads(full);
   const Eigen::MatrixXd mass_modes = mass * modes.vectors;
-  const Eigen::MatrixXd participation = modes.vectors.transpose() * loads;
+  const Eigen::MatrixXd participation = numerics::transposed_product(modes.vectors, loads);
   // Loads are freed of the soft modes before the solve, whose responses would dominate; only of these, because
   // the others are no exact eigenvectors and the static response is to be exact.
   const Eigen::Index soft = modes.soft();
-  const Eigen::MatrixXd remaining = loads - mass_modes.leftCols(soft) * participation.topRows(soft);
+  const Eigen::MatrixXd remaining =
+      loads - numerics::product(Eigen::MatrixXd(mass_modes.leftCols(soft)), participation.topRows(soft));
   Eigen::MatrixXd x = inverse.apply(remaining);
   const Eigen::VectorXd whole = (x.array() * remaining.array()).colwise().sum();
   remove(modes.vectors, mass_modes, x);
@@ -69,11 +69,10 @@ Eigen::MatrixXd static_responses(const FullModel& full, const FloatingInverse& i
 
 RitzBasis rayleigh_ritz(const Eigen::SparseMatrix<double>& stiffness, const Eigen::SparseMatrix<double>& mass,
                         const Eigen::MatrixXd& vectors) {
-  const Eigen::MatrixXd k = vectors.transpose() * (stiffness * vectors);
-  const Eigen::MatrixXd m = vectors.transpose() * (mass * vectors);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> ritz(0.5 * (k + k.transpose()),
-                                                                       0.5 * (m + m.transpose()));
-  return {.eigenvalues = ritz.eigenvalues(), .vectors = vectors * ritz.eigenvectors()};
+  const Eigen::MatrixXd k = numerics::transposed_product(vectors, stiffness * vectors);
+  const Eigen::MatrixXd m = numerics::transposed_product(vectors, mass * vectors);
+  numerics::SymmetricPairs ritz = numerics::all_pairs<double>(k, m);
+  return {.eigenvalues = std::move(ritz.values), .vectors = numerics::product(vectors, ritz.vectors)};
 }
 
 }  // namespace dovetail::reduction

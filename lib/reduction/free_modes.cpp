@@ -1,6 +1,5 @@
 #include "reduction/free_modes.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -39,7 +38,7 @@ FloatingInverse::FloatingInverse(const numerics::PartialCholesky& stiffness, con
   Eigen::VectorXd inverse = low.values.cwiseInverse();
   inverse.tail(low.values.size() - negative_).setZero();
   const auto along = [&](const Eigen::VectorXd& values) -> Eigen::MatrixXd {
-    return low.vectors * values.asDiagonal() * low.vectors.transpose();
+    return numerics::product(Eigen::MatrixXd(low.vectors * values.asDiagonal()), low.vectors.transpose());
   };
   schur_inverse_ += along(largest - low.values.array());
   status_ = numerics::invert_positive_definite(schur_inverse_);
@@ -49,22 +48,22 @@ FloatingInverse::FloatingInverse(const numerics::PartialCholesky& stiffness, con
   Eigen::MatrixXd field = Eigen::MatrixXd::Zero(n, low.values.size() - negative_);
   field.bottomRows(contact) = low.vectors.rightCols(field.cols());
   rigid_ = stiffness.substitute(field);
-  if (rigid_.cols() > 0) {
-    const Eigen::LLT<Eigen::MatrixXd> factor(rigid_.transpose() * (mass * rigid_));
-    rigid_ = factor.matrixU().solve<Eigen::OnTheRight>(rigid_).eval();
-  }
+  const numerics::DenseCholesky factor(numerics::transposed_product(rigid_, mass * rigid_));
+  status_ = factor.status();
+  if (status_ != Status::converged) return;
+  rigid_ = factor.times_inverse_upper(std::move(rigid_));
   mass_rigid_ = mass * rigid_;
 }
 
 Eigen::MatrixXd FloatingInverse::apply(const Eigen::Ref<const Eigen::MatrixXd>& b) const {
   Eigen::MatrixXd load = b;
-  if (rigid_.cols() > 0) load -= mass_rigid_ * (rigid_.transpose() * b).eval();
+  if (rigid_.cols() > 0) load -= numerics::product(mass_rigid_, numerics::transposed_product(rigid_, load));
   Eigen::MatrixXd x = stiffness_.eliminate(load);
   const Eigen::MatrixXd condensed = x.bottomRows(stiffness_.border());
   x.bottomRows(condensed.rows()).setZero();
   numerics::add_product(schur_inverse_, condensed, x.bottomRows(condensed.rows()));
   x = stiffness_.substitute(x);
-  if (rigid_.cols() > 0) x -= rigid_ * (mass_rigid_.transpose() * x).eval();
+  if (rigid_.cols() > 0) x -= numerics::product(rigid_, numerics::transposed_product(mass_rigid_, x));
   return x;
 }
 

@@ -1,9 +1,10 @@
 #include "reduction/massless_boundary.hpp"
 
-#include <Eigen/Dense>
 #include <chrono>
 #include <utility>
 
+#include "numerics/dense_product.hpp"
+#include "numerics/dense_symmetric.hpp"
 #include "reduction/boundary_basis.hpp"
 #include "reduction/contact_order.hpp"
 #include "reduction/free_modes.hpp"
@@ -51,9 +52,9 @@ TraceModel failed(TraceModel result, Status status, const char* message) {
 }
 
 /// Lambda + Phi_r^T G^-1 Phi_r [m, m].
-Eigen::MatrixXd glued_stiffness(const RitzBasis& basis, const Eigen::LLT<Eigen::MatrixXd>& flexibility,
+Eigen::MatrixXd glued_stiffness(const RitzBasis& basis, const numerics::DenseCholesky& flexibility,
                                 const Eigen::MatrixXd& on_contact) {
-  Eigen::MatrixXd glued = on_contact.transpose() * flexibility.solve(on_contact);
+  Eigen::MatrixXd glued = numerics::transposed_product(on_contact, flexibility.solve(on_contact));
   glued = (0.5 * (glued + glued.transpose())).eval();
   glued.diagonal() += basis.eigenvalues;
   return glued;
@@ -61,7 +62,7 @@ Eigen::MatrixXd glued_stiffness(const RitzBasis& basis, const Eigen::LLT<Eigen::
 
 /// Mass, damping and stiffness in contact displacements and glued modes of these squared frequencies, which move the
 /// contact of the free structure by `on_contact` [nc, m].
-ReducedModel in_glued_modes(const Eigen::LLT<Eigen::MatrixXd>& flexibility, const Eigen::MatrixXd& on_contact,
+ReducedModel in_glued_modes(const numerics::DenseCholesky& flexibility, const Eigen::MatrixXd& on_contact,
                             const Eigen::VectorXd& squares, double damping_ratio) {
   const Eigen::Index contact = on_contact.rows(), modes = on_contact.cols(), n = contact + modes;
   ReducedModel model;
@@ -84,11 +85,9 @@ ReducedModel in_glued_modes(const Eigen::LLT<Eigen::MatrixXd>& flexibility, cons
 Eigen::VectorXd glued_frequencies(const TraceModel& trace) {
   const RitzBasis& basis = trace.structure->basis();
   const Eigen::MatrixXd& flexibility = trace.structure->on_contact();
-  const Eigen::LLT<Eigen::MatrixXd> g(flexibility);
   const Eigen::MatrixXd on_contact = basis.vectors.bottomRows(flexibility.rows());
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(glued_stiffness(basis, g, on_contact),
-                                                             Eigen::EigenvaluesOnly);
-  return eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  const Eigen::MatrixXd glued = glued_stiffness(basis, numerics::DenseCholesky(flexibility), on_contact);
+  return numerics::all_values<double>(glued).values.cwiseMax(0.0).cwiseSqrt();
 }
 
 TraceModel trace_model(const FullModel& full, const ReductionOptions& options) {
@@ -118,6 +117,8 @@ TraceModel trace_model(const FullModel& full, const ReductionOptions& options) {
   vectors << modes.vectors, responses;
   RitzBasis basis = rayleigh_ritz(full.stiffness, mass, vectors);
   result.seconds_modes = lap(start);
+  if (basis.vectors.cols() < vectors.cols())
+    return failed(std::move(result), Status::singular, "the kept modes and static responses are not independent");
   result.first_neglected_eigenvalue = modes.first_neglected;
 
   result.structure = std::make_shared<ResidualFlexibility>(stiffness, mass, std::move(basis), modes.soft());
@@ -127,9 +128,9 @@ TraceModel trace_model(const FullModel& full, const ReductionOptions& options) {
                   "the stiffness is not positive definite on the complement of the kept modes");
   const Eigen::MatrixXd& phi = result.structure->basis().vectors;
   result.static_force = phi.transpose() * full.static_force;
-  result.cosine_force = phi.transpose() * full.cosine_force;
-  result.sine_force = phi.transpose() * full.sine_force;
-  result.outputs = phi.transpose() * full.outputs;
+  result.cosine_force = numerics::transposed_product(phi, full.cosine_force);
+  result.sine_force = numerics::transposed_product(phi, full.sine_force);
+  result.outputs = numerics::transposed_product(phi, full.outputs);
   result.output_names = full.output_names;
   result.contact = full.contact;
   return result;
@@ -152,32 +153,32 @@ Reduction reduce(const TraceModel& trace, const Eigen::SparseMatrix<double>& ave
   result.free_eigenvalues = basis.eigenvalues;
   const Eigen::SparseMatrix<double> a = for_directions(average, contact.directions());
   const Eigen::MatrixXd flexibility = a * trace.structure->on_contact() * a.transpose();
-  const Eigen::LLT<Eigen::MatrixXd> g(0.5 * (flexibility + flexibility.transpose()));
-  if (g.info() != Eigen::Success || !(g.rcond() > 1e-14)) {
+  const numerics::DenseCholesky g(0.5 * (flexibility + flexibility.transpose()));
+  if (!(g.reciprocal_condition() > 1e-14)) {
     result.status = Status::singular;
     result.message = "the residual flexibility of the contact is not positive definite: too many modes are kept";
     return result;
   }
   const Eigen::MatrixXd free_on_contact = a * basis.vectors.bottomRows(a.cols());
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(glued_stiffness(basis, g, free_on_contact));
-  if (basis.vectors.cols() > 0 && !(eigen.eigenvalues()(0) > 0)) {
+  const numerics::SymmetricPairs glued = numerics::all_pairs<double>(glued_stiffness(basis, g, free_on_contact));
+  if (glued.status != Status::converged || (basis.vectors.cols() > 0 && !(glued.values(0) > 0))) {
     result.status = Status::singular;
     result.message = "the glued structure is not positive definite";
     return result;
   }
   // Coordinates [u; q], q rotated to the glued modes.
-  const Eigen::MatrixXd& rotation = eigen.eigenvectors();
-  result.glued_frequencies = eigen.eigenvalues().cwiseSqrt();
+  const Eigen::MatrixXd& rotation = glued.vectors;
+  result.glued_frequencies = glued.values.cwiseSqrt();
   using Columns = Recovery::Columns;
   result.recovery.linear = [structure = trace.structure, rotation, a](const Columns& q, const Columns& lambda) {
     const Eigen::MatrixXd force = lambda.size() > 0 ? Eigen::MatrixXd(-a.transpose() * lambda) : Eigen::MatrixXd();
-    return structure->field(rotation * q.bottomRows(rotation.rows()), force);
+    return structure->field(numerics::product(rotation, q.bottomRows(rotation.rows())), force);
   };
-  result.model = in_glued_modes(g, free_on_contact * rotation, eigen.eigenvalues(), damping_ratio);
+  result.model = in_glued_modes(g, numerics::product(free_on_contact, rotation), glued.values, damping_ratio);
   result.model.contact = contact_first(std::move(contact));
   const auto rows_of = [&](const Eigen::MatrixXd& loads) {
     Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(loads.cols(), result.model.size());
-    rows.rightCols(rotation.cols()) = loads.transpose() * rotation;
+    rows.rightCols(rotation.cols()) = numerics::transposed_product(loads, rotation);
     return rows;
   };
   result.model.static_force = rows_of(trace.static_force).transpose();

@@ -1,6 +1,5 @@
 #include "reduction/residual_flexibility.hpp"
 
-#include <Eigen/Dense>
 #include <utility>
 
 #include "numerics/dense_product.hpp"
@@ -23,13 +22,11 @@ ResidualFlexibility::ResidualFlexibility(std::shared_ptr<const numerics::Partial
     const Eigen::MatrixXd eliminated = stiffness_->eliminate(mass * basis_.vectors.leftCols(low));
     inertia_ = eliminated.topRows(internal);
     const Eigen::MatrixXd border = eliminated.bottomRows(contact);
-    const Eigen::LLT<Eigen::MatrixXd> d(inertia_.transpose() * inertia_);
-    if (d.info() != Eigen::Success) {
-      status_ = Status::singular;
-      return;
-    }
+    const numerics::DenseCholesky d(numerics::transposed_product(inertia_, inertia_));
+    status_ = d.status();
+    if (status_ != Status::converged) return;
     multiplier_ = d.solve(border.transpose());
-    constrained_ += border * multiplier_;
+    numerics::add_product(border, multiplier_, constrained_);
   }
   status_ = numerics::invert_positive_definite(constrained_);
   if (status_ != Status::converged) return;
@@ -38,19 +35,19 @@ ResidualFlexibility::ResidualFlexibility(std::shared_ptr<const numerics::Partial
   Eigen::VectorXd softness = Eigen::VectorXd::Zero(m);
   softness.tail(m - low) = basis_.eigenvalues.tail(m - low).cwiseInverse();
   represented_ = softness.asDiagonal() * at_contact.transpose();
-  flexibility_ = constrained_ - at_contact * represented_;
+  flexibility_ = constrained_ - numerics::product(at_contact, represented_);
   flexibility_ = (0.5 * (flexibility_ + flexibility_.transpose())).eval();
   if (!flexibility_.allFinite()) status_ = Status::not_finite;
 }
 
 Eigen::MatrixXd ResidualFlexibility::field(const Eigen::Ref<const Eigen::MatrixXd>& q,
                                            const Eigen::Ref<const Eigen::MatrixXd>& f) const {
-  if (f.size() == 0) return basis_.vectors * q;
-  const Eigen::MatrixXd at_contact = constrained_ * f;
+  if (f.size() == 0) return numerics::product(basis_.vectors, q);
+  const Eigen::MatrixXd at_contact = numerics::product(constrained_, f);
   Eigen::MatrixXd x(stiffness_->size(), f.cols());
-  x << -inertia_ * (multiplier_ * at_contact).eval(), at_contact;
+  x << -numerics::product(inertia_, numerics::product(multiplier_, at_contact)), at_contact;
   x = stiffness_->substitute(x);
-  numerics::add_product(basis_.vectors, q - represented_ * f, x);
+  numerics::add_product(basis_.vectors, q - numerics::product(represented_, f), x);
   return x;
 }
 

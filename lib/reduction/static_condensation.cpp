@@ -1,9 +1,10 @@
 #include "reduction/static_condensation.hpp"
 
-#include <Eigen/Dense>
 #include <memory>
 #include <utility>
 
+#include "numerics/dense_product.hpp"
+#include "numerics/dense_symmetric.hpp"
 #include "numerics/partial_cholesky.hpp"
 #include "reduction/contact_order.hpp"
 #include "reduction/validation.hpp"
@@ -53,15 +54,15 @@ StaticCondensation on_contact(const StaticCondensation& trace, const Eigen::Spar
   const Eigen::SparseMatrix<double> a = for_directions(average, contact.directions());
   const double scale = trace.model.stiffness.diagonal().mean();
   const Eigen::MatrixXd held = trace.model.stiffness + scale * Eigen::MatrixXd(a.transpose() * a);
-  const Eigen::LLT<Eigen::MatrixXd> factor(held);
+  const numerics::DenseCholesky factor(held);
+  result.status = factor.status();
+  if (result.status != Status::converged) return result;
   const Eigen::MatrixXd response = factor.solve(Eigen::MatrixXd(a.transpose()));
-  const Eigen::LLT<Eigen::MatrixXd> flexibility(a * response);
-  if (factor.info() != Eigen::Success || flexibility.info() != Eigen::Success) {
-    result.status = Status::singular;
-    return result;
-  }
+  const numerics::DenseCholesky flexibility(a * response);
+  result.status = flexibility.status();
+  if (result.status != Status::converged) return result;
   const Eigen::MatrixXd stiffness = flexibility.solve(Eigen::MatrixXd::Identity(a.rows(), a.rows()));
-  const Eigen::MatrixXd shape = response * stiffness;  // v of unit u
+  const Eigen::MatrixXd shape = numerics::product(response, stiffness);  // v of unit u
   ReducedModel& model = result.model;
   model.stiffness = 0.5 * (stiffness + stiffness.transpose());
   model.stiffness.diagonal().array() -= scale;
@@ -69,14 +70,14 @@ StaticCondensation on_contact(const StaticCondensation& trace, const Eigen::Spar
   model.damping = model.mass;
   model.contact = contact_first(std::move(contact));
   model.static_force = shape.transpose() * trace.model.static_force;
-  model.cosine_force = trace.model.cosine_force * shape;
-  model.sine_force = trace.model.sine_force * shape;
-  model.output_vectors = trace.model.output_vectors * shape;
+  model.cosine_force = numerics::product(trace.model.cosine_force, shape);
+  model.sine_force = numerics::product(trace.model.sine_force, shape);
+  model.output_vectors = numerics::product(trace.model.output_vectors, shape);
   const Eigen::VectorXd free = factor.solve(trace.model.static_force);
   result.recovery.offset += trace.recovery.linear(free - shape * (a * free), Eigen::MatrixXd());
   using Columns = Recovery::Columns;
   result.recovery.linear = [of_trace = trace.recovery.linear, shape](const Columns& u, const Columns& lambda) {
-    return of_trace(shape * u, lambda);
+    return of_trace(numerics::product(shape, u), lambda);
   };
   return result;
 }

@@ -1,12 +1,11 @@
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <unsupported/Eigen/MatrixFunctions>
 
-#include "stability/perturbation.hpp"
-
+#include "numerics/dense_lu.hpp"
 #include "stability/params.hpp"
+#include "stability/perturbation.hpp"
 
 namespace dovetail::stability {
 namespace {
@@ -182,8 +181,8 @@ class Propagator {
       test.col(j) = at.test[static_cast<std::size_t>(j)];
     }
     const Eigen::MatrixXd loaded = test.transpose() * s_.stiffness;
-    const Eigen::PartialPivLU<Eigen::MatrixXd> lu(loaded * shape);
-    if (!(lu.rcond() > StabilityParams{}.regular)) {
+    const numerics::DenseLu lu(loaded * shape);
+    if (!(lu.reciprocal_condition() > StabilityParams{}.regular)) {
       failure_ = "contact dofs without mass are held by nothing, or wedged by friction, in one of the phases";
       return result;
     }

@@ -1,9 +1,8 @@
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
-#include "stability/perturbation.hpp"
-
+#include "numerics/dense_symmetric.hpp"
 #include "stability/params.hpp"
+#include "stability/perturbation.hpp"
 
 namespace dovetail::stability {
 namespace {
@@ -92,9 +91,10 @@ PerturbedStructure perturbed_structure(const reduction::ReducedModel& model, dou
   Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(mass.rows(), mass.cols());
   Eigen::VectorXd masses = mass.diagonal();
   if (!mass.isDiagonal(StabilityParams{}.diagonal)) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(mass);
-    basis = solver.eigenvectors();
-    masses = solver.eigenvalues();
+    numerics::SymmetricPairs pairs = numerics::all_pairs<double>(mass);
+    if (pairs.status != Status::converged) return refuse(false, "the mass matrix could not be decomposed");
+    basis = std::move(pairs.vectors);
+    masses = std::move(pairs.values);
   }
   std::vector<Eigen::Index> dynamic, still;
   for (Eigen::Index j = 0; j < masses.size(); ++j)

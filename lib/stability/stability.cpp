@@ -1,11 +1,11 @@
 #include "stability/stability.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
+#include "numerics/dense_general.hpp"
 #include "stability/contact_timeline.hpp"
 #include "stability/perturbation.hpp"
 
@@ -68,12 +68,12 @@ Pass pass(const reduction::ReducedModel& model, const steady::Tangent& tangent, 
   if (result.failure.empty() && !period.map.allFinite()) result.failure = "the perturbation overflows within a period";
   if (!result.failure.empty()) return result;
   result.norm = period.map.norm();
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(period.map, false);
-  if (solver.info() != Eigen::Success) {
+  numerics::Eigenvalues multipliers = numerics::eigenvalues(period.map);
+  if (multipliers.status != Status::converged) {
     result.failure = "the eigenvalues of the monodromy matrix did not converge";
     return result;
   }
-  result.multipliers = solver.eigenvalues();
+  result.multipliers = std::move(multipliers.values);
   std::stable_sort(
       result.multipliers.begin(), result.multipliers.end(),
       [](const std::complex<double>& a, const std::complex<double>& b) { return std::abs(a) > std::abs(b); });

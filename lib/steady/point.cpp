@@ -1,11 +1,11 @@
 #include "steady/point.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cassert>
 #include <limits>
 #include <numeric>
 
+#include "numerics/dense_symmetric.hpp"
 #include "steady/params.hpp"
 #include "steady/work.hpp"
 
@@ -120,7 +120,7 @@ bool is_held(const Point& point) {
     const bool carries = !of.released(i) && !point.nodes[static_cast<std::size_t>(i)].always_separated;
     for (Eigen::Index r = i * d; r < (i + 1) * d; ++r) stiffness(r, r) += carries ? of.dof_penalty()(r) : shift;
   }
-  return Eigen::LLT<Eigen::MatrixXd>(stiffness).info() == Eigen::Success;
+  return numerics::DenseCholesky(std::move(stiffness)).status() == Status::converged;
 }
 
 }  // namespace dovetail::steady

@@ -13,9 +13,9 @@ SeparatedNodes::SeparatedNodes(std::shared_ptr<const dynamics::HarmonicSystem> s
   if (open_.empty()) return;
   for (const dynamics::HarmonicStiffness& at : system_->harmonics) {
     const Eigen::MatrixXcd& z = at.stiffness;
-    factors_.emplace_back(z(open_, open_));
+    factors_.emplace_back(Eigen::MatrixXcd(z(open_, open_)));
     // Below this a floating part is told from a soft one by rounding alone.
-    reciprocal_condition_ = std::min(reciprocal_condition_, factors_.back().rcond());
+    reciprocal_condition_ = std::min(reciprocal_condition_, factors_.back().reciprocal_condition());
     if (!(reciprocal_condition_ > SingularityParams{}.singular)) {
       status_ = Status::singular;
       return;
@@ -28,12 +28,7 @@ SeparatedNodes::SeparatedNodes(std::shared_ptr<const dynamics::HarmonicSystem> s
 
 int SeparatedNodes::determinant_sign() const {
   if (status_ != Status::converged) return 0;
-  if (factors_.empty()) return 1;
-  int sign = factors_.front().permutationP().determinant() > 0 ? 1 : -1;
-  const Eigen::VectorXd pivots = factors_.front().matrixLU().diagonal().real();
-  for (Eigen::Index i = 0; i < pivots.size(); ++i)
-    if (pivots(i) < 0) sign = -sign;
-  return sign;
+  return factors_.empty() ? 1 : factors_.front().determinant_sign();
 }
 
 std::vector<const Eigen::MatrixXcd*> SeparatedNodes::stiffness() const {

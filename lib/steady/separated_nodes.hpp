@@ -1,13 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <memory>
 #include <vector>
 
 #include "core/status.hpp"
 #include "dynamics/harmonic_blocks.hpp"
 #include "dynamics/harmonic_system.hpp"
+#include "numerics/dense_lu.hpp"
 
 namespace dovetail::steady {
 
@@ -48,7 +48,7 @@ class SeparatedNodes {
   std::vector<Eigen::Index> open_, kept_;
   std::vector<Eigen::MatrixXcd> condensed_;  // Z~; empty when nothing is open
   std::vector<Eigen::MatrixXcd> shape_;      // S
-  std::vector<Eigen::PartialPivLU<Eigen::MatrixXcd>> factors_;
+  std::vector<numerics::ComplexLu> factors_;
   Status status_ = Status::converged;
   double reciprocal_condition_ = 1;
 };

@@ -1,9 +1,11 @@
 #include "tractions/traction_family.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <cassert>
+#include <limits>
 
+#include "numerics/dense_general.hpp"
+#include "numerics/dense_product.hpp"
+#include "numerics/dense_symmetric.hpp"
 #include "tractions/params.hpp"
 
 namespace dovetail::tractions {
@@ -12,11 +14,11 @@ namespace {
 // Inverse of a symmetric matrix on the directions it has stiffness in: others carry no residual traction.
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& matrix) {
   if (matrix.rows() == 0) return matrix;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver((matrix + matrix.transpose()) / 2);
-  const double largest = solver.eigenvalues().cwiseAbs().maxCoeff();
-  Eigen::VectorXd inverse = solver.eigenvalues();
+  const numerics::SymmetricPairs pairs = numerics::all_pairs<double>((matrix + matrix.transpose()) / 2);
+  const double largest = pairs.values.cwiseAbs().maxCoeff();
+  Eigen::VectorXd inverse = pairs.values;
   for (double& value : inverse) value = std::abs(value) > SearchParams{}.nothing * largest ? 1 / value : 0;
-  return solver.eigenvectors() * inverse.asDiagonal() * solver.eigenvectors().transpose();
+  return numerics::product(Eigen::MatrixXd(pairs.vectors * inverse.asDiagonal()), pairs.vectors.transpose());
 }
 
 }  // namespace
@@ -57,8 +59,9 @@ TractionFamily::TractionFamily(const steady::State& nominal) {
   Eigen::MatrixXd seen = stiffness(stuck, stuck);
   if (!free.empty()) {
     const Eigen::MatrixXd across = stiffness(free, stuck);
-    const Eigen::MatrixXd held = stiffness(free, free);
-    seen -= across.transpose() * Eigen::MatrixXd(held.completeOrthogonalDecomposition().solve(across));
+    constexpr double kRounding = std::numeric_limits<double>::epsilon();
+    const double threshold = kRounding * static_cast<double>(free.size());
+    seen -= numerics::transposed_product(across, numerics::least_squares(stiffness(free, free), across, threshold));
   }
   compliance_ = pseudo_inverse(seen);
   nominal_ = traction(nominal);

@@ -11,7 +11,7 @@
 #include "optimizer/evaluator.hpp"
 #include "paths/frequency_response.hpp"
 #include "paths/steady_state.hpp"
-#include "studies/report/design_record.hpp"
+#include "studies/report/record/design_record.hpp"
 #include "wear/asymptote/asymptote.hpp"
 #include "wear/asymptote/drift.hpp"
 #include "wear/history/history.hpp"

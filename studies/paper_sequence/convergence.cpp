@@ -9,8 +9,8 @@
 
 #include "optimizer/evaluator.hpp"
 #include "optimizer/stopwatch.hpp"
-#include "studies/report/html.hpp"
-#include "studies/report/units.hpp"
+#include "studies/report/pages/html.hpp"
+#include "studies/report/pages/units.hpp"
 #include "wear/asymptote/asymptote.hpp"
 
 namespace dovetail::paper_sequence {

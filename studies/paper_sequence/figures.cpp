@@ -8,8 +8,8 @@
 #include <limits>
 
 #include "studies/paper_sequence/findings.hpp"
-#include "studies/report/report_plots.hpp"
-#include "studies/report/units.hpp"
+#include "studies/report/pages/units.hpp"
+#include "studies/report/plots/report_plots.hpp"
 
 namespace dovetail::paper_sequence {
 namespace {

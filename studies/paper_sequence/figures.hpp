@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "studies/paper_sequence/results.hpp"
-#include "studies/report/flank_map.hpp"
-#include "studies/report/svg_plot.hpp"
+#include "studies/report/plots/flank_map.hpp"
+#include "studies/report/plots/svg_plot.hpp"
 
 namespace dovetail::paper_sequence {
 

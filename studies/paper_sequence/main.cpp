@@ -8,7 +8,7 @@
 #include "numerics/blas.hpp"
 #include "studies/paper_sequence/compute.hpp"
 #include "studies/paper_sequence/page.hpp"
-#include "studies/program/study.hpp"
+#include "studies/program/study_file/study.hpp"
 
 int main(int argc, char** argv) try {
   dovetail::numerics::prepare_blas(argv);

@@ -7,12 +7,12 @@
 #include "studies/paper_sequence/figures.hpp"
 #include "studies/paper_sequence/findings.hpp"
 #include "studies/paper_sequence/scene_words.hpp"
-#include "studies/report/html.hpp"
-#include "studies/report/page_style.hpp"
-#include "studies/report/report_plots.hpp"
-#include "studies/report/section_drawing.hpp"
-#include "studies/report/svg_plot.hpp"
-#include "studies/report/units.hpp"
+#include "studies/report/pages/html.hpp"
+#include "studies/report/pages/page_style.hpp"
+#include "studies/report/pages/units.hpp"
+#include "studies/report/plots/report_plots.hpp"
+#include "studies/report/plots/section_drawing.hpp"
+#include "studies/report/plots/svg_plot.hpp"
 
 namespace dovetail::paper_sequence {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "optimizer/scene.hpp"
 #include "studies/paper_sequence/convergence.hpp"
-#include "studies/report/run_record.hpp"
+#include "studies/report/record/run_record.hpp"
 
 namespace dovetail::paper_sequence {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "studies/paper_sequence/findings.hpp"
-#include "studies/report/units.hpp"
+#include "studies/report/pages/units.hpp"
 
 namespace dovetail::paper_sequence {
 

@@ -3,8 +3,8 @@
 #include <iostream>
 
 #include "numerics/blas.hpp"
-#include "studies/program/command_line.hpp"
-#include "studies/program/interrupt.hpp"
+#include "studies/program/commands/command_line.hpp"
+#include "studies/program/commands/interrupt.hpp"
 
 int main(int argc, char** argv) {
   dovetail::numerics::prepare_blas(argv);

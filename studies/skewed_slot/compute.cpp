@@ -6,7 +6,7 @@
 
 #include "optimizer/evaluator.hpp"
 #include "optimizer/stopwatch.hpp"
-#include "studies/report/design_record.hpp"
+#include "studies/report/record/design_record.hpp"
 
 namespace dovetail::skewed_slot {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "core/errors.hpp"
 #include "numerics/blas.hpp"
-#include "studies/program/study.hpp"
+#include "studies/program/study_file/study.hpp"
 #include "studies/skewed_slot/compute.hpp"
 
 int main(int argc, char** argv) try {

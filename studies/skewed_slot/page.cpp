@@ -8,12 +8,12 @@
 #include <nlohmann/json.hpp>
 
 #include "core/replace_file.hpp"
-#include "studies/report/flank_map.hpp"
-#include "studies/report/html.hpp"
-#include "studies/report/page_style.hpp"
-#include "studies/report/report_plots.hpp"
-#include "studies/report/svg_plot.hpp"
-#include "studies/report/units.hpp"
+#include "studies/report/pages/html.hpp"
+#include "studies/report/pages/page_style.hpp"
+#include "studies/report/pages/units.hpp"
+#include "studies/report/plots/flank_map.hpp"
+#include "studies/report/plots/report_plots.hpp"
+#include "studies/report/plots/svg_plot.hpp"
 #include "studies/skewed_slot/results.hpp"
 
 namespace dovetail::skewed_slot {

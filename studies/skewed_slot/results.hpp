@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "optimizer/scene.hpp"
-#include "studies/report/run_record.hpp"
+#include "studies/report/record/run_record.hpp"
 
 namespace dovetail::skewed_slot {
 

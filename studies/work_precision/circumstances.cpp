@@ -6,7 +6,7 @@
 #include <fstream>
 #include <string>
 
-#include "studies/report/run_record.hpp"
+#include "studies/report/record/run_record.hpp"
 #include "studies/work_precision/results.hpp"
 
 namespace dovetail::work_precision {

@@ -3,10 +3,10 @@
 #include <cmath>
 
 #include "core/replace_file.hpp"
-#include "studies/report/html.hpp"
-#include "studies/report/page_style.hpp"
-#include "studies/report/svg_plot.hpp"
-#include "studies/report/units.hpp"
+#include "studies/report/pages/html.hpp"
+#include "studies/report/pages/page_style.hpp"
+#include "studies/report/pages/units.hpp"
+#include "studies/report/plots/svg_plot.hpp"
 #include "studies/work_precision/figures.hpp"
 #include "studies/work_precision/results.hpp"
 

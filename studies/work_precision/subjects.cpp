@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "optimizer/candidate_model.hpp"
-#include "studies/program/study.hpp"
+#include "studies/program/study_file/study.hpp"
 #include "studies/work_precision/processor_time.hpp"
 
 namespace dovetail::work_precision {

@@ -8,7 +8,7 @@
 
 #include "optimizer/evaluator.hpp"
 #include "optimizer/random_stream.hpp"
-#include "studies/program/study.hpp"
+#include "studies/program/study_file/study.hpp"
 
 namespace dovetail {
 namespace {

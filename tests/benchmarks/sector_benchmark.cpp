@@ -18,7 +18,7 @@
 
 #include "numerics/blas.hpp"
 #include "optimizer/evaluator.hpp"
-#include "studies/program/study.hpp"
+#include "studies/program/study_file/study.hpp"
 
 namespace {
 

@@ -12,10 +12,10 @@
 #include "core/errors.hpp"
 #include "numerics/blas.hpp"
 #include "optimizer/evaluator.hpp"
-#include "studies/program/engine.hpp"
-#include "studies/program/study.hpp"
-#include "studies/report/html.hpp"
-#include "studies/report/svg_plot.hpp"
+#include "studies/program/engine/engine.hpp"
+#include "studies/program/study_file/study.hpp"
+#include "studies/report/pages/html.hpp"
+#include "studies/report/plots/svg_plot.hpp"
 #include "tests/benchmarks/largest_jump.hpp"
 
 namespace dovetail {

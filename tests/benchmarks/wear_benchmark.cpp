@@ -14,7 +14,7 @@
 #include "numerics/blas.hpp"
 #include "paths/frequency_response.hpp"
 #include "paths/resonance.hpp"
-#include "studies/program/engine.hpp"
+#include "studies/program/engine/engine.hpp"
 #include "studies/work_precision/contact_patch.hpp"
 #include "studies/work_precision/processor_time.hpp"
 #include "tests/verification/wear/verdict_scenes.hpp"

@@ -1,10 +1,10 @@
 #include "wear/asymptote/gross_sliding.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "numerics/dense_symmetric.hpp"
 #include "wear/measures.hpp"
 
 namespace dovetail::wear {
@@ -26,7 +26,7 @@ double bearing_area(const dynamics::CondensedModel& model, const steady::State& 
 bool held_without_contact(const dynamics::CondensedModel& model, double omega) {
   Eigen::MatrixXd stiffness = model.harmonic(0, omega).stiffness.real();
   stiffness.diagonal().array() -= BearingParams{}.nothing * stiffness.diagonal().cwiseAbs().maxCoeff();
-  return Eigen::LLT<Eigen::MatrixXd>(stiffness).info() == Eigen::Success;
+  return numerics::DenseCholesky(std::move(stiffness)).status() == Status::converged;
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 
 #include "steady/state.hpp"
-
 #include "wear/params.hpp"
 
 namespace dovetail::wear {

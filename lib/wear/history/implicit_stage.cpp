@@ -1,13 +1,12 @@
 #include "wear/history/implicit_stage.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <numeric>
 #include <utility>
 #include <vector>
 
+#include "numerics/dense_lu.hpp"
 #include "numerics/newton.hpp"
-
 #include "steady/params.hpp"
 #include "wear/params.hpp"
 
@@ -59,8 +58,9 @@ void ImplicitStage::factorise_at(const WearPoint& at) {
 }
 
 VectorXd ImplicitStage::damp(const VectorXd& cycles, const VectorXd& error) const {
-  const MatrixXd matrix = MatrixXd::Identity(error.size(), error.size()) - cycles.asDiagonal() * slope_;
-  const VectorXd damped = matrix.partialPivLu().solve(error);
+  const numerics::DenseLu lu(MatrixXd::Identity(error.size(), error.size()) - cycles.asDiagonal() * slope_);
+  if (lu.status() != Status::converged) return error;
+  const VectorXd damped = lu.solve(error);
   return damped.allFinite() ? damped : error;
 }
 
@@ -107,14 +107,12 @@ class ImplicitStage::Equations {
     ++stage_.jacobians_;
     stage_.adopt(tangent);
     stage_.factored_at_ = {.displacement = at_->displacement, .depth = depth_, .rate = {}};
-    step = direction();
-    return Status::converged;
+    return direction(step);
   }
 
   bool chord_step(VectorXd& step) {
     if (stage_.tangent_->regularised()) return false;
-    step = direction();
-    return true;
+    return direction(step) == Status::converged;
   }
 
   [[nodiscard]] const steady::Point& at() const { return *at_; }
@@ -124,18 +122,20 @@ class ImplicitStage::Equations {
   [[nodiscard]] MatrixXd shaped(const VectorXd& u) const { return u.reshaped(rows_, u.size() / rows_); }
 
   /// With the factors in use.
-  VectorXd direction() {
+  Status direction(VectorXd& step) {
     const Index nodes = base_.size();
     const VectorXd free = stage_.tangent_->solve(-at_->residual.reshaped());
     const VectorXd driven = stage_.tangent_->wear_rate_change(shaped(free), VectorXd::Zero(nodes));
     if (factored_ != stage_.tangent_.get()) {
-      rates_lu_.compute(MatrixXd::Identity(nodes, nodes) - cycles_.asDiagonal() * stage_.slope_);
+      rates_lu_.factorise(MatrixXd::Identity(nodes, nodes) - cycles_.asDiagonal() * stage_.slope_);
       factored_ = stage_.tangent_.get();
     }
+    if (rates_lu_.status() != Status::converged) return rates_lu_.status();
     const VectorXd deeper = rates_lu_.solve(cycles_.cwiseProduct(driven) - excess_);
-    VectorXd step(unit_.size());
+    step.resize(unit_.size());
     step << free + stage_.response_ * deeper, deeper;
-    return step.cwiseQuotient(unit_);
+    step = step.cwiseQuotient(unit_).eval();
+    return Status::converged;
   }
 
   ImplicitStage& stage_;
@@ -147,7 +147,7 @@ class ImplicitStage::Equations {
   VectorXd depth_;   // W, never below the base
   VectorXd excess_;  // g = x - B - c r
   VectorXd rates_;
-  Eigen::PartialPivLU<MatrixXd> rates_lu_;
+  numerics::DenseLu rates_lu_;
   const steady::Tangent* factored_ = nullptr;
 };
 

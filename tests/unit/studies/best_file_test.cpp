@@ -1,4 +1,4 @@
-#include "studies/program/best_file.hpp"
+#include "studies/program/study_file/best_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
-#include "studies/program/document.hpp"
+#include "studies/program/study_file/document.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "studies/program/study.hpp"
+#include "studies/program/study_file/study.hpp"
 #include "tests/unit/studies/sample_study.hpp"
 
 namespace dovetail::studies {

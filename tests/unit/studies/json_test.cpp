@@ -1,11 +1,11 @@
-#include "studies/program/json.hpp"
+#include "studies/program/answers/json.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "studies/program/wear_methods.hpp"
+#include "studies/program/engine/wear_methods.hpp"
 
 namespace dovetail::studies {
 namespace {

@@ -1,4 +1,4 @@
-#include "studies/program/model_toml.hpp"
+#include "studies/program/engine/model_toml.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "studies/report/design_record.hpp"
+#include "studies/report/record/design_record.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "studies/report/report_html.hpp"
+#include "studies/report/pages/report_html.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,9 +6,9 @@
 #include <limits>
 #include <regex>
 
-#include "studies/report/html.hpp"
-#include "studies/report/report_plots.hpp"
-#include "studies/report/report_words.hpp"
+#include "studies/report/pages/html.hpp"
+#include "studies/report/pages/report_words.hpp"
+#include "studies/report/plots/report_plots.hpp"
 #include "tests/unit/studies/report_markup.hpp"
 #include "tests/unit/studies/report_sample.hpp"
 

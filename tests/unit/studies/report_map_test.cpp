@@ -1,4 +1,4 @@
-#include "studies/report/flank_map.hpp"
+#include "studies/report/plots/flank_map.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <limits>
 #include <regex>
 
-#include "studies/report/report_plots.hpp"
+#include "studies/report/plots/report_plots.hpp"
 #include "tests/unit/studies/report_markup.hpp"
 
 namespace dovetail::report {

@@ -1,4 +1,4 @@
-#include "studies/report/svg_plot.hpp"
+#include "studies/report/plots/svg_plot.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 #include <random>
 #include <set>
 
-#include "studies/report/ticks.hpp"
-#include "studies/report/units.hpp"
+#include "studies/report/pages/units.hpp"
+#include "studies/report/plots/ticks.hpp"
 #include "tests/unit/studies/report_markup.hpp"
 
 namespace dovetail::report {

@@ -1,4 +1,4 @@
-#include "studies/report/results_file.hpp"
+#include "studies/report/record/results_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

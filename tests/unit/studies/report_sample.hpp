@@ -1,6 +1,6 @@
 #pragma once
 
-#include "studies/report/run_record.hpp"
+#include "studies/report/record/run_record.hpp"
 
 namespace dovetail::report {
 

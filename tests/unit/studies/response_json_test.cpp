@@ -4,7 +4,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "studies/program/response_curve.hpp"
+#include "studies/program/engine/response_curve.hpp"
 
 namespace dovetail::studies {
 namespace {

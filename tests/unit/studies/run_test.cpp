@@ -9,9 +9,9 @@
 
 #include "core/replace_file.hpp"
 #include "optimizer/journal.hpp"
-#include "studies/program/commands.hpp"
-#include "studies/program/interrupt.hpp"
-#include "studies/report/results_file.hpp"
+#include "studies/program/commands/commands.hpp"
+#include "studies/program/commands/interrupt.hpp"
+#include "studies/report/record/results_file.hpp"
 #include "tests/unit/studies/sample_study.hpp"
 
 namespace dovetail::studies {

@@ -4,7 +4,7 @@
 
 #include <sstream>
 
-#include "studies/program/study.hpp"
+#include "studies/program/study_file/study.hpp"
 
 namespace dovetail::studies {
 

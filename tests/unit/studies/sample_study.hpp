@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "studies/program/study_template.hpp"
+#include "studies/program/study_file/study_template.hpp"
 
 namespace dovetail::studies {
 

@@ -1,4 +1,4 @@
-#include "studies/program/study.hpp"
+#include "studies/program/study_file/study.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -8,8 +8,8 @@
 
 #include "optimizer/evaluator.hpp"
 #include "optimizer/other_meshes.hpp"
-#include "studies/program/engine.hpp"
-#include "studies/program/study.hpp"
+#include "studies/program/engine/engine.hpp"
+#include "studies/program/study_file/study.hpp"
 
 namespace dovetail::studies {
 namespace {

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "optimizer/evaluator.hpp"
-#include "studies/program/engine.hpp"
-#include "studies/program/study.hpp"
+#include "studies/program/engine/engine.hpp"
+#include "studies/program/study_file/study.hpp"
 
 namespace dovetail::studies {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "optimizer/run.hpp"
 #include "optimizer/verification.hpp"
-#include "studies/program/engine.hpp"
-#include "studies/program/study.hpp"
+#include "studies/program/engine/engine.hpp"
+#include "studies/program/study_file/study.hpp"
 #include "tests/verification/optimizer/random_search.hpp"
 
 namespace dovetail::studies {

@@ -1,0 +1,14 @@
+#include "studies/program/answers/json.hpp"
+
+#include "optimizer/evaluation_json.hpp"
+#include "studies/program/answers/json_values.hpp"
+
+namespace dovetail::studies {
+
+std::string evaluation_json(const optimizer::Evaluation& evaluation) {
+  Json json = json_of(evaluation);
+  if (evaluation.derivatives.empty()) json.erase("derivatives");
+  return text(json);
+}
+
+}  // namespace dovetail::studies

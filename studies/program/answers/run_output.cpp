@@ -1,0 +1,115 @@
+#include "studies/program/answers/run_output.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <ostream>
+#include <utility>
+
+#include "core/replace_file.hpp"
+#include "studies/program/answers/field_export.hpp"
+#include "studies/program/answers/geometry_export.hpp"
+#include "studies/program/commands/version.hpp"
+#include "studies/program/study_file/best_file.hpp"
+#include "studies/program/study_file/export.hpp"
+#include "studies/report/pages/report_html.hpp"
+#include "studies/report/record/results_file.hpp"
+
+namespace dovetail::studies {
+
+using optimizer::OptimizationResult;
+using optimizer::Scene;
+
+std::map<std::string, double> variable_values(const Study& study, const optimizer::Candidate& candidate) {
+  std::map<std::string, double> values;
+  const std::vector<std::string> keys = study.problem.space.keys();
+  for (std::size_t i = 0; i < keys.size(); ++i) values[keys[i]] = candidate.x[i];
+  return values;
+}
+
+Scene scene_of(const Study& study, const optimizer::Candidate& candidate) {
+  Scene scene = study.scene;
+  for (const auto& [key, value] : variable_values(study, candidate)) optimizer::set_parameter(scene, key, value);
+  return scene;
+}
+
+namespace {
+
+/// What the closer look says of a candidate. A search takes the direct worn state and no bars.
+void take_over(const Study& study, optimizer::Evaluation seen, optimizer::Candidate& candidate) {
+  const double tolerance = study.optimizer.constraint_tolerance, before = candidate.judgement.objective;
+  annotate(study.problem, tolerance, seen);
+  const optimizer::Judgement now = judge(study.problem, seen, tolerance);
+  if (!now.computed) {
+    candidate.evaluation.error_estimates = seen.error_estimates;
+    candidate.evaluation.messages = seen.messages;
+    candidate.evaluation.messages.push_back("Looked at more closely it ends with \"" + seen.status +
+                                            "\"; its values are those of the search.");
+    return;
+  }
+  if (now.objective != before)
+    seen.messages.push_back(
+        fmt::format("The search, which takes the direct worn state, had an objective of {:.4g}, now {:.4g}.", before,
+                    now.objective));
+  candidate.evaluation = std::move(seen);
+  candidate.judgement = now;
+}
+
+report::RunRecord record_of(const Study& study, OptimizationResult result, const RunEngine& engine, double seconds) {
+  std::optional<report::DesignRecord> best, baseline;
+  const auto look = [&](std::size_t index, std::optional<report::DesignRecord>& design) {
+    optimizer::Candidate& candidate = result.evaluations[index];
+    DescribedDesign seen = engine.describe(scene_of(study, candidate));
+    const auto known = static_cast<std::ptrdiff_t>(seen.evaluation.messages.size());
+    take_over(study, std::move(seen.evaluation), candidate);
+    design = std::move(seen.record);
+    const std::vector<std::string>& messages = candidate.evaluation.messages;
+    design->notes.insert(design->notes.begin() + known, messages.begin() + known, messages.end());
+  };
+  if (engine.describe && result.best) look(*result.best, best);
+  if (engine.describe && result.best == std::size_t{0})
+    baseline = best;
+  else if (engine.describe && !result.evaluations.empty())
+    look(0, baseline);
+  report::RunRecord record = report::record_run(study.problem, study.optimizer, result);
+  record.name = study.name;
+  record.title = study.title;
+  record.seconds = seconds;
+  record.provenance.program_version = version();
+  record.provenance.study_file = study.file;
+  record.provenance.study_text = study.text;
+  record.best_design = std::move(best);
+  record.baseline_design = std::move(baseline);
+  return record;
+}
+
+}  // namespace
+
+report::RunRecord write_run(const Study& study, const OptimizationResult& result, const RunEngine& engine,
+                            double seconds, const std::vector<report::VerificationRecord>& verifications,
+                            const std::filesystem::path& directory, std::ostream& err) {
+  // The design first: it costs nothing and must not be lost when describing it is cut short.
+  if (result.best) {
+    const optimizer::Candidate& best = result.evaluations[*result.best];
+    replace_file(directory / "best.toml",
+                 with_values(parse_document(study.text, study.file), variable_values(study, best)));
+  }
+  report::RunRecord record = record_of(study, result, engine, seconds);
+  record.verifications = verifications;
+  report::write_results(directory / "results.h5", record);
+  report::write_report(directory / "report.html", record);
+  if (!result.best) return record;
+  const Scene best = scene_of(study, result.evaluations[*result.best]);
+  for (const std::string& format : study.exports) {
+    const std::filesystem::path file = directory / ("best." + format);
+    if (!is_field_format(format))
+      export_geometry(best, format, {}, file);
+    else if (record.best_design && record.best_design->fields.mesh.element_count() > 0)
+      export_fields(record.best_design->fields, file);
+    else
+      err << "dovetail: " << file.string() << ": not written: the best design has no fields\n";
+  }
+  return record;
+}
+
+}  // namespace dovetail::studies

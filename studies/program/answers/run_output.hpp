@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <map>
+#include <string>
+
+#include "optimizer/run.hpp"
+#include "studies/program/engine/run_engine.hpp"
+
+namespace dovetail::studies {
+
+/// Writes what a run came to into its directory, finished or interrupted: best.toml and the exports the study asks for
+/// (when there is a feasible design), results.h5 and report.html. Each file whole or not at all. The start and the best
+/// design are recorded as evaluations with bars and the wear history have them; returns the record.
+report::RunRecord write_run(const Study& study, const optimizer::OptimizationResult& result, const RunEngine& engine,
+                            double seconds, const std::vector<report::VerificationRecord>& verifications,
+                            const std::filesystem::path& directory, std::ostream& err);
+
+/// The study's scene with the candidate's variables.
+[[nodiscard]] optimizer::Scene scene_of(const Study& study, const optimizer::Candidate& candidate);
+
+/// The variables' values of a candidate by key, file units.
+[[nodiscard]] std::map<std::string, double> variable_values(const Study& study, const optimizer::Candidate& candidate);
+
+}  // namespace dovetail::studies

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "optimizer/run.hpp"
+#include "studies/program/commands/interrupt.hpp"
+#include "studies/program/engine/run_engine.hpp"
+
+namespace dovetail::studies {
+
+/// Indices of the best feasible designs, best first. Neighbours within 2 % of every variable's range of a better one
+/// count as the same design: an algorithm ends among many of them.
+[[nodiscard]] std::vector<std::size_t> best_designs(const optimizer::Problem& problem,
+                                                    const optimizer::OptimizationResult& result, int count);
+
+/// The best designs verified, best first. Each is kept in `directory`/verification.jsonl as soon as it is done, one
+/// JSON object per line, and taken from there when it was done before for the same study (`fingerprint`). A line that
+/// is cut short counts for nothing. Stops between designs, and inside one, when interrupted.
+[[nodiscard]] std::vector<report::VerificationRecord> verify_best(const Study& study,
+                                                                  const optimizer::OptimizationResult& result,
+                                                                  const RunEngine& engine,
+                                                                  const std::string& fingerprint,
+                                                                  const std::filesystem::path& directory,
+                                                                  const OrderlyInterrupt& interrupt, std::ostream& err);
+
+}  // namespace dovetail::studies

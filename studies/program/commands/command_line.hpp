@@ -1,0 +1,11 @@
+#pragma once
+
+#include "studies/program/commands/commands.hpp"
+
+namespace dovetail::studies {
+
+/// The program: parses the arguments, runs the command, tells errors in sentences on `err`. Returns the exit status:
+/// 0 done, 2 wrong input, 3 not converged, 130 interrupted.
+int run_program(int argc, const char* const* argv, const Streams& streams);
+
+}  // namespace dovetail::studies

@@ -1,0 +1,178 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <ostream>
+
+#include "core/replace_file.hpp"
+#include "optimizer/fingerprint.hpp"
+#include "optimizer/journal.hpp"
+#include "optimizer/run.hpp"
+#include "studies/program/answers/run_output.hpp"
+#include "studies/program/answers/run_verification.hpp"
+#include "studies/program/commands/commands.hpp"
+#include "studies/program/commands/interrupt.hpp"
+#include "studies/program/commands/progress.hpp"
+#include "studies/program/commands/version.hpp"
+#include "studies/program/study_file/refusal.hpp"
+
+namespace dovetail::studies {
+namespace {
+
+namespace fs = std::filesystem;
+using optimizer::OptimizationResult;
+
+void require_runnable(const Study& study) {
+  Complaints wrong;
+  for (const auto& [none, what] : {std::pair{study.problem.space.size() == 0, "variable"},
+                                   std::pair{study.problem.objective.empty(), "objective"}})
+    if (none) wrong.add(study.file, fmt::format("has no [[{}]]; an optimisation needs at least one", what));
+  wrong.raise();
+}
+
+/// The directory of the results, created; an existing one is only touched to resume it.
+fs::path prepare_directory(const RunOptions& options, const Study& study) {
+  fs::path directory = options.directory.empty() ? fs::path("results") / study.name : fs::path(options.directory);
+  std::error_code error;
+  if (fs::exists(directory, error)) {
+    if (!fs::is_directory(directory, error)) refuse(directory.string(), "is not a directory");
+    if (!options.resume && !fs::is_empty(directory, error))
+      refuse(directory.string(), "exists already; give --resume to continue the run in it or -o another directory");
+  }
+  fs::create_directories(directory, error);
+  if (error) refuse(directory.string(), "cannot be created: " + error.message());
+  return directory;
+}
+
+std::string with_bar(double value, double bar, const char* unit = "") {
+  return std::isfinite(bar) ? fmt::format("{:.4g} +- {:.2g}{}", value, bar, unit)
+                            : fmt::format("{:.6g}{}", value, unit);
+}
+
+/// How far the best design stays from its limits, in per cent of them, here and on finer meshes.
+std::string limits_kept(const report::RunRecord& record) {
+  std::string text;
+  const std::vector<std::string> names = constraint_names(record.problem);
+  const report::EvaluationRecord& best = record.evaluations[*record.best];
+  const optimizer::JudgementBars bars = judgement_bars(record.problem, best.error_estimates);
+  for (std::size_t j = 0; j < names.size(); ++j) {
+    std::string finer;
+    for (const report::FinerRecord& check : record.finer)
+      if (check.evaluation == static_cast<std::int64_t>(*record.best))
+        finer += fmt::format(", {:.3g} % on {} edges", -100 * check.constraints[j], check.flank_elements);
+    const double room = -100 * best.constraints[j], bar = 100 * bars.constraints[j];
+    text += fmt::format("  {} {} by {} of its limit{}{}\n", names[j], room < 0 ? "broken" : "kept",
+                        with_bar(std::abs(room), bar, " %"), finer, std::abs(room) < bar ? ": undecided" : "");
+  }
+  return text;
+}
+
+std::string conclusion(const Study& study, const OptimizationResult& result, const report::RunRecord& record,
+                       const fs::path& directory) {
+  const optimizer::SearchStatistics& counts = result.statistics;
+  const auto all = static_cast<int>(result.evaluations.size());
+  const auto count = [&](const auto& of) { return static_cast<int>(std::ranges::count_if(result.evaluations, of)); };
+  const int feasible = count([](const optimizer::Candidate& c) { return c.judgement.feasible; });
+  const int failed = count([](const optimizer::Candidate& c) {
+    return c.evaluation.status != "converged" && c.evaluation.status != "infeasible";
+  });
+  std::string text = fmt::format(
+      "{}: {} evaluations, {} of them stored before; {} feasible, {} break a limit or a rule, {} failed; {}\n",
+      study.name, all, counts.replayed, feasible, all - feasible - failed, failed,
+      result.message.empty() ? std::string(to_string(result.status)) : result.message);
+  if (!result.best) return text;
+  const auto objective = [&](const report::EvaluationRecord& of) {
+    return with_bar(of.objective, judgement_bars(record.problem, of.error_estimates).objective);
+  };
+  text += fmt::format("best objective {} (evaluation {}), start {}\n", objective(record.evaluations[*record.best]),
+                      *result.best + 1, objective(record.evaluations.front()));
+  for (const auto& [key, value] : variable_values(study, result.evaluations[*result.best]))
+    text += fmt::format("  {} = {:.6g}\n", key, value);
+  return text + limits_kept(record) + fmt::format("written to {}\n", directory.string());
+}
+
+std::string verified(const std::vector<report::VerificationRecord>& verifications) {
+  std::string text;
+  for (const report::VerificationRecord& v : verifications)
+    text += fmt::format("evaluation {} by its wear history: {}, directly {:.6g} m^3 ({})\n", v.evaluation + 1,
+                        v.compared() ? fmt::format("{:.6g} m^3", v.history_volume_m3) : "not known", v.direct_volume_m3,
+                        v.agreement());
+  return text;
+}
+
+/// What keeps the best design from being an answer, or nothing.
+std::string shortcoming(const Study& study, const OptimizationResult& result, const report::RunRecord& record) {
+  if (!result.best)
+    return fmt::format("{}: no feasible design was found in {} evaluations", study.file, result.evaluations.size());
+  const bool stands = !record.best_design || record.best_design->status == "converged";
+  if (!stands || !record.evaluations[*result.best].feasible)
+    return fmt::format("the best design, evaluation {}, looked at with bars and its wear history: {}", *result.best + 1,
+                       stands ? "breaks a limit" : record.best_design->status);
+  for (const report::VerificationRecord& v : record.verifications)
+    if (v.evaluation == static_cast<std::int64_t>(*result.best) && v.status != "converged")
+      return fmt::format("the verification of the best design, evaluation {}: {}", v.evaluation + 1, v.status);
+  return {};
+}
+
+}  // namespace
+
+int run_study(const RunOptions& options, const Streams& streams, const RunEngineFactory& make_engine) {
+  const auto begin = std::chrono::steady_clock::now();
+  const Study study = load_study(options.study);
+  require_runnable(study);
+  for (const std::string& warning : warnings(study)) streams.err << options.study << ": warning: " << warning << "\n";
+  const RunEngine engine = make_engine(study);
+  const std::string fingerprint = optimizer::fingerprint(
+      study.problem, study.optimizer, std::string("dovetail ") + version() + "\n" + physics_text(study.scene));
+  const fs::path directory = prepare_directory(options, study);
+  const auto opened = [&](const char* name) {
+    const fs::path file = directory / name;
+    optimizer::Journal journal =
+        options.resume ? optimizer::Journal::resume(file, fingerprint) : optimizer::Journal::create(file, fingerprint);
+    if (!journal.note().empty()) streams.err << "dovetail: " << journal.note() << "\n";
+    return journal;
+  };
+  optimizer::Journal journal = opened("journal.jsonl"), finer_journal = opened("finer.jsonl");
+  replace_file(directory / "study.toml", study.text);
+
+  const OrderlyInterrupt interrupt;
+  OptimizationResult result;
+  {
+    RunProgress progress(streams.err, error_is_terminal(), study.optimizer.max_evaluations);
+    optimizer::RunHooks hooks{.journal = &journal,
+                              .progress = [&](const optimizer::Progress& at) { progress(at); },
+                              .stop = &interrupt.flag(),
+                              .finer = {},
+                              .finer_journal = &finer_journal};
+    if (engine.finer)
+      hooks.finer = [&](std::span<const double> x, int level) {
+        progress.note(fmt::format("looking at the limits on a mesh with {} edges per flank",
+                                  study.scene.mesh.flank_elements << level));
+        return engine.finer(x, level);
+      };
+    result = optimizer::run_optimization(study.problem, engine.evaluate, study.optimizer, hooks);
+  }
+
+  std::vector<report::VerificationRecord> verifications;
+  if (!interrupt.requested())
+    verifications = verify_best(study, result, engine, fingerprint, directory, interrupt, streams.err);
+
+  if (interrupt.requested())
+    streams.err << "dovetail: interrupted; writing what is finished (Ctrl-C again ends at once)" << std::endl;
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const report::RunRecord record = write_run(study, result, engine, seconds, verifications, directory, streams.err);
+  streams.out << conclusion(study, result, record, directory) << verified(verifications);
+  if (interrupt.requested()) {
+    streams.err << "dovetail: everything finished is kept; go on with --resume\n";
+    return kInterrupted;
+  }
+  if (const std::string open = shortcoming(study, result, record); !open.empty()) {
+    streams.err << "dovetail: " << open << "\n";
+    return kNotConverged;
+  }
+  return result.status == Status::converged || result.status == Status::iteration_limit ? kDone : kNotConverged;
+}
+
+}  // namespace dovetail::studies

@@ -1,0 +1,156 @@
+// Commands that read or write study files and compute nothing, or one candidate.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <ostream>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "core/replace_file.hpp"
+#include "optimizer/problem.hpp"
+#include "optimizer/responses.hpp"
+#include "reduction/model_file.hpp"
+#include "studies/program/answers/json.hpp"
+#include "studies/program/commands/commands.hpp"
+#include "studies/program/engine/engine.hpp"
+#include "studies/program/engine/truncation_choice.hpp"
+#include "studies/program/study_file/refusal.hpp"
+#include "studies/program/study_file/study_template.hpp"
+
+namespace dovetail::studies {
+
+void deliver_json(const std::string& where, const std::string& text, const Streams& streams) {
+  if (where.empty()) return;
+  if (where != "-") return replace_file(where, text);
+  streams.out << text << std::flush;
+  if (!streams.out) refuse("standard output", "cannot be written");
+}
+
+int not_converged(const std::string& input, const std::string& what, const Streams& streams) {
+  streams.err << "dovetail: " << input << ": " << what << "\n";
+  return kNotConverged;
+}
+
+int run_check(const CheckOptions& options, const Streams& streams) {
+  const Study study = load_study(options.study, options.overrides);
+  const optimizer::Problem& problem = study.problem;
+  for (const std::string& warning : warnings(study)) streams.err << options.study << ": warning: " << warning << "\n";
+  const auto counted = [](std::size_t count, const char* what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+  };
+  streams.out << fmt::format("{}: valid; {}, {}, {}\n", options.study, counted(problem.space.size(), "variable"),
+                             counted(problem.objective.size(), "objective"),
+                             counted(problem.constraints.size(), "constraint"));
+  return kDone;
+}
+
+int run_new(const NewOptions& options, const Streams& streams) {
+  const std::filesystem::path file(options.file);
+  if (std::filesystem::exists(file)) refuse(options.file, "exists already; choose another name");
+  std::string title = file.stem().string();
+  for (char& c : title)
+    if (c == '"' || c == '\\' || static_cast<unsigned char>(c) < 0x20) c = ' ';
+  replace_file(file, study_template(title));
+  streams.out << fmt::format("{}: written; try `dovetail evaluate {}`\n", options.file, options.file);
+  return kDone;
+}
+
+namespace {
+
+/// What the error bar of a constraint's response says of it, where that leaves it open.
+const char* sureness(const optimizer::Evaluation& evaluation, const std::string& constraint) {
+  if (std::ranges::count(evaluation.undecided_constraints, constraint) == 0) return "";
+  const bool none = std::ranges::any_of(evaluation.unbounded,
+                                        [&](const std::string& name) { return constraint.starts_with(name + ":"); });
+  return none ? "  its response has no error bar" : "  within its error bar";
+}
+
+std::string evaluation_table(const optimizer::Evaluation& evaluation) {
+  std::string text = fmt::format("status    {}\nfeasible  {}", evaluation.status, evaluation.feasible ? "yes" : "no");
+  const auto& undecided = evaluation.undecided_constraints;
+  const bool all =
+      std::ranges::all_of(undecided, [&](const auto& name) { return evaluation.constraints.contains(name); });
+  text += all ? "\n" : ", as far as limits are judged\n";
+  if (!evaluation.responses.empty()) text += "\nresponses\n";
+  for (const optimizer::ResponseName& response : optimizer::response_names()) {
+    const auto value = evaluation.responses.find(std::string(response.name));
+    if (value == evaluation.responses.end()) continue;
+    text += fmt::format("  {:<30} {:>14.7g}", response.name, value->second);
+    const auto error = evaluation.error_estimates.find(value->first);
+    if (error != evaluation.error_estimates.end()) text += fmt::format(" +- {:.2g}", error->second);
+    if (!response.unit.empty()) text += fmt::format(" {}", response.unit);
+    text += "\n";
+  }
+  const char* heading = "\nconstraints, satisfied when <= 0\n";
+  for (const auto& [name, value] : evaluation.constraints)
+    if (!name.starts_with(optimizer::kRulePrefix) || value > 0)
+      text +=
+          std::exchange(heading, "") + fmt::format("  {:<44} {:>12.5g}{}\n", name, value, sureness(evaluation, name));
+  for (const std::string& name : evaluation.unbounded) text += fmt::format("\n{} has no error bar", name);
+  return evaluation.unbounded.empty() ? text : text + "\n";
+}
+
+/// Leaves out what an evaluation without wear has no answer for, and says so.
+/// @return the names of the limits left out
+std::vector<std::string> keep_unworn(optimizer::Problem& problem, optimizer::Evaluation& evaluation) {
+  std::vector<std::string> unjudged = optimizer::constraint_names(problem);
+  std::set<std::string> left;
+  const auto missing = [&](const auto& term) {
+    if (evaluation.responses.contains(term.response)) return false;
+    left.insert(term.response);
+    return true;
+  };
+  std::erase_if(problem.objective, missing);
+  std::erase_if(problem.constraints, missing);
+  if (!left.empty())
+    evaluation.messages.push_back(
+        fmt::format("Without wear nothing is said of {}, nor of limits on it.", fmt::join(left, ", ")));
+  const std::vector<std::string> judged = optimizer::constraint_names(problem);
+  std::erase_if(unjudged, [&](const std::string& name) { return std::ranges::count(judged, name) > 0; });
+  return unjudged;
+}
+
+}  // namespace
+
+int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
+  check_accuracy(options.solver);
+  Study study = load_study(options.study, with_solver(options.overrides, options.solver));
+  for (const std::string& warning : warnings(study)) streams.err << options.study << ": warning: " << warning << "\n";
+  const std::shared_ptr<const optimizer::SceneEvaluator> evaluator = scene_evaluator(study);
+  const std::optional<Status> automatic = choose_truncation(study.scene, *evaluator, options.solver);
+  optimizer::Evaluation evaluation =
+      evaluator
+          ->evaluate(study.scene, {.bars = !options.no_bars, .history = !options.no_history, .wear = !options.unworn})
+          .evaluation;
+  if (automatic && *automatic != Status::converged)
+    evaluation.messages.push_back(
+        truncation_complaint(*automatic, optimizer::steady_options(study.scene.solver), options.solver));
+  std::vector<std::string> unjudged;
+  if (options.unworn && evaluation.converged()) unjudged = keep_unworn(study.problem, evaluation);
+  optimizer::annotate(study.problem, study.optimizer.constraint_tolerance, evaluation);
+  std::ranges::move(unjudged, std::back_inserter(evaluation.undecided_constraints));
+  deliver_json(options.json, evaluation_json(evaluation), streams);
+  if (options.json != "-") streams.out << evaluation_table(evaluation);
+  if (evaluation.status == "infeasible") throw infeasible(options.study, evaluation.messages);
+  for (const std::string& message : evaluation.messages) streams.err << "dovetail: " << message << "\n";
+  if (evaluation.converged()) return automatic && *automatic != Status::converged ? kNotConverged : kDone;
+  const char* what = evaluation.status.ends_with("no_asymptote")    ? "wear has no end"
+                     : evaluation.status.ends_with("gross_sliding") ? "the joint slides"
+                                                                    : "not converged";
+  return not_converged(options.study, fmt::format("{}: {}", what, evaluation.status), streams);
+}
+
+int run_reduce(const ReduceOptions& options, const Streams& streams) {
+  const LoadedModel loaded = load_model(options.study, options.overrides, {});
+  if (!loaded.failure.empty()) return not_converged(options.study, "not converged: " + loaded.failure, streams);
+  reduction::write_model(options.model, loaded.model);
+  streams.out << fmt::format("{}: {} coordinates, {} contact nodes\n", options.model, loaded.model.size(),
+                             loaded.model.contact.count());
+  return kDone;
+}
+
+}  // namespace dovetail::studies

@@ -1,0 +1,251 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+#include <ostream>
+#include <utility>
+
+#include "studies/program/commands/commands.hpp"
+#include "studies/program/commands/interrupt.hpp"
+#include "studies/program/commands/progress.hpp"
+#include "studies/program/engine/engine.hpp"
+#include "studies/program/engine/truncation_choice.hpp"
+#include "studies/program/engine/wear_quality.hpp"
+#include "studies/program/study_file/refusal.hpp"
+
+namespace dovetail::studies {
+namespace {
+
+void check_band(const WearOptions& options, Complaints& wrong) {
+  const bool band = options.follow == "band";
+  for (const auto& [option, hz] :
+       {std::pair{"--band-from", options.band_from_hz}, std::pair{"--band-to", options.band_to_hz}}) {
+    if (hz) wrong.require(option, *hz, kFrequencies);
+    if (!band && hz) wrong.add(option, "only has a meaning with --follow band");
+    if (band && !hz) wrong.add(option, "is needed with --follow band");
+  }
+  wrong.require("--band-points", options.band_points, {.lower = 1});
+  if (band && options.frequency_hz) wrong.add("--frequency", "has no meaning with --follow band");
+}
+
+void check_history(const WearOptions& options, Complaints& wrong) {
+  if (options.history_tolerance) wrong.require("--history-tolerance", *options.history_tolerance, {0, 0.5});
+  if (options.method != "history") {
+    if (options.cycles || options.steps || options.increment_m || options.history_tolerance)
+      wrong.add("--cycles, --steps, --increment, --history-tolerance", "only have a meaning with --method history");
+    if (options.integrator == "implicit" || !options.resume.empty() || options.curves > 0)
+      wrong.add("--integrator, --resume, --curves", "only have a meaning with --method history");
+  }
+  if (options.integrator == "implicit") {
+    if (options.history_tolerance == 0.0)
+      wrong.add("--history-tolerance", "must be > 0 with --integrator implicit", "0");
+    if (options.follow == "resonance") wrong.add("--follow", "needs --integrator explicit", options.follow);
+    if (options.increment_m)
+      wrong.add("--increment", "has no meaning with --integrator implicit: see --history-tolerance");
+  }
+  if (!options.resume.empty() && (options.follow == "band" || options.error_bars || options.spread))
+    wrong.add("--resume", "goes on with one history: no --follow band, --error-bars or --spread", options.resume);
+}
+
+void validate(const WearOptions& options) {
+  Complaints wrong;
+  if (options.frequency_hz) wrong.require("--frequency", *options.frequency_hz, kFrequencies);
+  if (options.cycles) wrong.require("--cycles", *options.cycles, kPositive);
+  if (options.increment_m) wrong.require("--increment", *options.increment_m, kPositive);
+  if (options.steps) wrong.require("--steps", *options.steps, {.lower = 1});
+  check_band(options, wrong);
+  check_history(options, wrong);
+  if (options.curves < 0 || options.curve_points < 1) wrong.add("--curves, --curve-points", "must be >= 0 and >= 1");
+  if (options.curve_from_hz.has_value() != options.curve_to_hz.has_value())
+    wrong.add("--curve-from, --curve-to", "need each other");
+  for (const auto& [option, hz] :
+       {std::pair{"--curve-from", options.curve_from_hz}, std::pair{"--curve-to", options.curve_to_hz}})
+    if (hz) wrong.require(option, *hz, kFrequencies);
+  wrong.raise();
+}
+
+std::string follow_words(const std::string& follow) {
+  if (follow == "band") return "the worst of the band";
+  return follow == "resonance" ? "at first; following the resonance" : "held";
+}
+
+/// The wear that goes on at the worn state, as a share of the unworn rate.
+std::string certificate_words(const wear::Asymptote& asymptote) {
+  std::string text = fmt::format("remaining_rate  {:.2g} of the unworn one", asymptote.certificate);
+  const wear::Certificate& finer = asymptote.finer;
+  if (finer.harmonics > 0) {
+    text += finer.status == Status::converged ? fmt::format("; {:.2g}", finer.remaining)
+                                              : "; not known (" + std::string(to_string(finer.status)) + ")";
+    text += fmt::format(" at {} harmonics, {} samples{}", finer.harmonics, finer.samples,
+                        asymptote.holds_finer ? "" : ": raise --harmonics and --samples");
+  }
+  text += "\n";
+  if (asymptote.doubt == wear::Doubt::none) return text;
+  text += fmt::format("doubt           {}: {}", to_string(asymptote.doubt), entry(asymptote.doubt).meaning);
+  if (asymptote.confirmed_by_history && asymptote.holds_finer) text += ", settled by the history at these settings";
+  for (const wear::OtherState& other : asymptote.other_states)
+    if (other.found_by == wear::FoundBy::release)
+      text += fmt::format("; the direct method ends with {:.6g} m^3", other.worn_volume);
+  return text + "\n";
+}
+
+std::string summary(const WearQuestion& question, const WearAnswer& answer) {
+  const char* unknown = answer.status == wear::Verdict::no_asymptote ? "none: wear goes on for ever" : "not known";
+  const auto known = [&](double value, double WearBars::*bar) {
+    if (!answer.known()) return std::string(unknown);
+    std::string text = fmt::format("{:.6g}", value);
+    if (!question.bars) return text;
+    const double size = *question.bars.*bar;
+    return text + (std::isfinite(size) ? fmt::format(" +- {:.2g}", size) : " +- not known");
+  };
+  const std::string status =
+      std::string(to_string(answer.status)) + (answer.reason.empty() ? "" : " (" + answer.reason + ")");
+  std::string text =
+      fmt::format("status          {}\nfrequency_hz    {:.9g} ({})\nworn_volume_m3  {}\n", status,
+                  question.frequency_hz, follow_words(question.follow), known(answer.volume, &WearBars::worn_volume));
+  text += fmt::format("largest_depth_m {}\nsolves          {}\n",
+                      known(answer.largest_depth(), &WearBars::largest_depth), answer.solves);
+  if (answer.asymptote && answer.worn_out()) text += certificate_words(*answer.asymptote);
+  if (!question.spread) return text;
+  for (const wear::SpreadRange& range : question.spread->ranges)
+    text += fmt::format("spread {:<18} volume {:.4g} to {:.4g} m^3, depth {:.4g} to {:.4g} m ({}{})\n", range.source,
+                        range.lowest_volume, range.highest_volume, range.lowest_depth, range.highest_depth,
+                        wear::to_string(range.verdict),
+                        range.failed > 0 ? fmt::format(", {} of {} failed", range.failed, range.members) : "");
+  return text;
+}
+
+int verdict(const std::string& input, const WearAnswer& answer, const Streams& streams) {
+  // Who asked for a number of cycles has them.
+  const bool has_cycles = answer.history && answer.history->end == wear::HistoryEnd::cycles;
+  if (answer.status != wear::Verdict::not_converged || has_cycles) return kDone;
+  const bool out_of_steps = answer.history && answer.history->end == wear::HistoryEnd::steps;
+  streams.err << fmt::format("dovetail: {}: the worn state did not converge: {}{}\n", input, to_string(answer.solver),
+                             !out_of_steps ? ""
+                             : answer.choice.options.integrator == "implicit"
+                                 ? ": allow more --steps"
+                                 : ": allow more --steps, or a larger --increment of depth");
+  return kNotConverged;
+}
+
+/// The choices of the command line, or else of the study and what its law asks for: under a threshold nodes come to
+/// rest in slip, and increments of depth end well beyond that.
+WearOptions with_choices(WearOptions options, const LoadedModel& loaded) {
+  if (options.follow.empty()) options.follow = loaded.follow;
+  if (!options.integrator.empty()) return options;
+  const Eigen::VectorXd& threshold = loaded.model.contact.wear_threshold;
+  const bool rests_in_slip = threshold.size() > 0 && threshold.maxCoeff() > 0;
+  options.integrator = rests_in_slip && options.follow != "resonance" && !options.increment_m ? "implicit" : "explicit";
+  return options;
+}
+
+/// What only the study and the model together can contradict.
+void check_model(const WearOptions& options, const LoadedModel& loaded) {
+  if (loaded.model.contact.count() == 0) refuse(options.input, "has no contact nodes: nothing can wear");
+  if (options.follow != "resonance") return;
+  if (options.integrator == "implicit") refuse("--follow", "needs --integrator explicit", options.follow);
+  if (loaded.model.mass.isZero(0.0))
+    refuse("--follow", "needs a model with mass: a quasi-static one has no resonance", options.follow);
+}
+
+/// Where the wear begins; of a band, the frequency at which harmonics and samples are chosen.
+WearStart begin(const WearOptions& options, const LoadedModel& loaded) {
+  return options.follow == "band" ? wear_start_at((*options.band_from_hz + *options.band_to_hz) / 2)
+                                  : wear_start(options, loaded);
+}
+
+/// What a computation of wear came to.
+struct WearResult {
+  WearQuestion question;
+  WearAnswer answer;
+  std::optional<WearBand> band = {};
+};
+
+WearResult computed(const WearOptions& options, const LoadedModel& loaded, WearStart at, const wear::Watcher& watcher) {
+  WearResult result{.question = {.frequency_hz = at.hz, .follow = options.follow, .settings = loaded.joint.options},
+                    .answer = {}};
+  WearQuestion& question = result.question;
+  WearAnswer& answer = result.answer;
+  if (options.follow == "band") {
+    result.band = wear_band(options, loaded, watcher);
+    answer = result.band->answer;
+    if (!result.band->frequencies_hz.empty()) question.frequency_hz = result.band->frequencies_hz[result.band->worst];
+    at = wear_start_at(question.frequency_hz);
+  } else {
+    answer = wear_answer(options, loaded, at, watcher);
+  }
+  if (answer.history && options.curves > 0) answer.curves = worn_curves(options, loaded, *answer.history, watcher);
+  if (options.error_bars) question.bars = worn_bars(options, loaded, at, answer, watcher);
+  if (options.spread) question.spread = worn_spread(options, loaded, at, answer, watcher);
+  return result;
+}
+
+/// A computation that ends before it has a state leaves an answer, too.
+WearResult without_state(const WearOptions& options, const LoadedModel& loaded, Status status, const std::string& why) {
+  WearResult result{
+      .question = {.frequency_hz = std::nan(""), .follow = options.follow, .settings = loaded.joint.options},
+      .answer = unknown_answer(options, loaded.model.contact.count(), status)};
+  result.answer.reason = why;
+  return result;
+}
+
+void present(const WearOptions& options, WearResult& result, const Streams& streams) {
+  if (result.band) result.question.band = &*result.band;
+  if (options.json.empty())
+    streams.out << summary(result.question, result.answer);
+  else
+    deliver_json(options.json, wear_json(result.question, result.answer), streams);
+}
+
+}  // namespace
+
+int run_wear(const WearOptions& given, const Streams& streams) {
+  validate(given);
+  check_accuracy(given.solver);
+  LoadedModel loaded = load_model(given.input, given.overrides, given.solver);
+  const WearOptions options = with_choices(given, loaded);
+  const auto failed = [&](const std::string& why) { return not_converged(options.input, why, streams); };
+  const auto stateless = [&](Status status, const std::string& why, int solves) {
+    WearResult result = without_state(options, loaded, status, why);
+    result.answer.solves = solves;
+    if (!options.json.empty()) present(options, result, streams);
+    return failed("not converged: " + why);
+  };
+  if (!loaded.failure.empty()) return stateless(Status::iteration_limit, loaded.failure, 0);
+  check_model(options, loaded);
+  WearStart at = begin(options, loaded);
+  std::optional<Status> automatic;
+  if (at.found() && options.solver.automatic()) {
+    automatic = choose_truncation(loaded, {at.hz}, options.solver);
+    at = begin(options, loaded);
+  }
+  if (!at.found())
+    return stateless(at.resonance->status,
+                     "unworn resonance: " + std::string(to_string(at.resonance->status)) + "; give --frequency HZ",
+                     at.resonance->solves);
+
+  const OrderlyInterrupt interrupt;
+  const bool terminal = error_is_terminal();
+  wear::Watcher watcher{.stop = [&] { return interrupt.requested(); }};
+  if (terminal)
+    watcher.progress = [&](int step, double volume, double rate) {
+      streams.err << fmt::format("\r\033[Kstep {}, worn volume {:.4g} m^3, largest rate {:.3g} m per cycle", step,
+                                 volume, rate)
+                  << std::flush;
+    };
+  WearResult result = computed(options, loaded, at, watcher);
+  if (terminal) streams.err << "\r\033[K" << std::flush;
+  if (automatic) result.question.automatic = WearQuestion::Automatic{*automatic, accuracy(options.solver)};
+  present(options, result, streams);
+  if (interrupt.requested()) return kInterrupted;
+  if (const int end = verdict(options.input, result.answer, streams); end != kDone) return end;
+  if (automatic && *automatic != Status::converged)
+    return failed(truncation_complaint(*automatic, loaded.joint.options, options.solver));
+  if (const auto& spread = result.question.spread;
+      spread && !spread->ranges.empty() && spread->ranges.back().failed > 0)
+    return failed(fmt::format("{} of {} members of the spread did not converge", spread->ranges.back().failed,
+                              spread->ranges.back().members));
+  return kDone;
+}
+
+}  // namespace dovetail::studies

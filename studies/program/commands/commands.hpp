@@ -1,0 +1,164 @@
+#pragma once
+
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/options.hpp"
+#include "studies/program/answers/geometry_export.hpp"
+#include "studies/program/engine/run_engine.hpp"
+#include "studies/program/study_file/study.hpp"
+
+namespace dovetail::studies {
+
+/// Exit statuses of the program; 130 is an interruption.
+enum ExitStatus : int { kDone = 0, kWrongInput = 2, kNotConverged = 3 };
+
+/// Where a command talks to: answers to `out`, progress and remarks to `err`.
+struct Streams {
+  std::ostream& out;
+  std::ostream& err;
+};
+
+/// Frequencies that may be asked for, in Hz: their squares and those of rad/s stay far from overflow.
+inline constexpr Range kFrequencies{.lower = 0, .upper = 1e9, .lower_open = true};
+
+/// Each command is a function from its options to an exit status; it throws InputError for wrong input, before it
+/// computes or writes anything.
+
+struct CheckOptions {
+  std::string study;
+  std::vector<Override> overrides;
+};
+int run_check(const CheckOptions& options, const Streams& streams);
+
+struct NewOptions {
+  std::string file;
+};
+int run_new(const NewOptions& options, const Streams& streams);
+
+/// Settings shared by the commands that take a model or a study; absent ones keep the file's or the default.
+struct SolverOverrides {
+  std::optional<int> harmonics, samples;
+  bool automatic_harmonics = false, automatic_samples = false;  ///< "auto": chosen by refinement
+  std::optional<double> tolerance;
+  std::optional<double> pseudo_penalty, pseudo_penalty_normal;  ///< N/m
+  std::optional<std::string> solver;
+
+  std::optional<double> accuracy;  ///< of what is chosen automatically
+
+  [[nodiscard]] bool automatic() const { return automatic_harmonics || automatic_samples; }
+};
+
+struct EvaluateOptions {
+  std::string study;
+  std::vector<Override> overrides;
+  SolverOverrides solver;
+  std::string json;  ///< file, "-" for standard output, empty for a table on standard output
+  bool no_bars = false, no_history = false, unworn = false;
+};
+int run_evaluate(const EvaluateOptions& options, const Streams& streams);
+
+struct ReduceOptions {
+  std::string study;
+  std::string model;
+  std::vector<Override> overrides;
+};
+int run_reduce(const ReduceOptions& options, const Streams& streams);
+
+/// What is computed of each point of a response besides itself.
+struct AnalysisChoice {
+  bool error_bars = false, penalty_sensitivity = false, stability = false, traction_bounds = false;
+
+  [[nodiscard]] bool any() const { return error_bars || penalty_sensitivity || stability || traction_bounds; }
+};
+
+struct ResponseOptions {
+  std::string input;  ///< MODEL.h5 or STUDY.toml
+  std::vector<Override> overrides;
+  SolverOverrides solver;
+  double from_hz = 0, to_hz = 0;
+  int points = 1;
+  bool arclength = false;
+  AnalysisChoice choice;
+  std::string json;
+};
+int run_response(const ResponseOptions& options, const Streams& streams);
+
+struct BackboneOptions {
+  std::string input;  ///< MODEL or STUDY.toml
+  std::vector<Override> overrides;
+  SolverOverrides solver;
+  std::string over = "force";  ///< force: factor of its harmonics; wear: largest depth, m
+  double from = 0, to = 0;
+  int points = 1;
+  bool logarithmic = false;
+  std::optional<std::string> output;   ///< absent: the first
+  std::optional<double> frequency_hz;  ///< where the first resonance is searched
+  std::string json;
+};
+int run_backbone(const BackboneOptions& options, const Streams& streams);
+
+struct WearOptions {
+  std::string input;  ///< MODEL.h5 or STUDY.toml
+  std::vector<Override> overrides;
+  SolverOverrides solver;
+  std::string method = "asymptote";
+  std::string follow;                  ///< fixed | resonance | band; empty: as the study says, or fixed
+  std::optional<double> frequency_hz;  ///< absent: the unworn resonance
+  std::optional<double> band_from_hz, band_to_hz;
+  int band_points = 11;
+  std::optional<double> cycles;       ///< history
+  std::optional<int> steps;           ///< history
+  std::optional<double> increment_m;  ///< history; absent: a hundredth of the depth that release comes to
+  std::optional<double> history_tolerance;
+  std::string integrator;             ///< of a history: explicit | implicit; empty: as the wear law asks for
+  std::string resume;                 ///< JSON of the history to go on with, or empty
+  int curves = 0, curve_points = 60;  ///< response curves along a history
+  std::optional<double> curve_from_hz, curve_to_hz;
+  bool error_bars = false;
+  bool spread = false;
+  std::string json;
+};
+int run_wear(const WearOptions& options, const Streams& streams);
+
+struct RunOptions {
+  std::string study;
+  std::string directory;  ///< empty: results/NAME
+  bool resume = false;
+};
+int run_study(const RunOptions& options, const Streams& streams, const RunEngineFactory& engine);
+
+/// The format of the command export that writes a reduced model, not a drawing.
+inline constexpr std::string_view kMatrixMarket = "matrix-market";
+
+struct ImportOptions {
+  std::string input;  ///< MODEL.toml
+  std::string model;  ///< MODEL.h5
+};
+int run_import(const ImportOptions& options, const Streams& streams);
+
+struct ExportOptions {
+  std::string input;  ///< results directory, STUDY.toml, MODEL.h5 or MODEL.toml
+  std::vector<Override> overrides;
+  std::string format;
+  std::string file;
+  DeckOptions deck;  ///< of the format inp
+};
+int run_export(const ExportOptions& options, const Streams& streams);
+
+struct ReportOptions {
+  std::string directory;
+  std::string file;
+};
+int run_report(const ReportOptions& options, const Streams& streams);
+
+/// Writes a command's JSON to where --json says: nowhere when empty, `out` for "-", else a file. Throws InputError.
+void deliver_json(const std::string& where, const std::string& text, const Streams& streams);
+
+/// Says that of `input` on the error stream. @return the exit status for it
+int not_converged(const std::string& input, const std::string& what, const Streams& streams);
+
+}  // namespace dovetail::studies

@@ -1,0 +1,45 @@
+#include "studies/program/commands/interrupt.hpp"
+
+#include <unistd.h>
+
+#include <csignal>
+
+#include "core/replace_file.hpp"
+
+namespace dovetail::studies {
+namespace {
+
+// What a signal handler may touch: lock-free atomics.
+std::atomic<bool> stop_requested{false};
+std::atomic<bool> orderly{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+extern "C" void on_interrupt(int) {
+  if (orderly.load() && !stop_requested.exchange(true)) return;
+  remove_unfinished_file();
+  ::_exit(kInterrupted);
+}
+
+}  // namespace
+
+OrderlyInterrupt::OrderlyInterrupt() {
+  stop_requested = false;
+  orderly = true;
+}
+OrderlyInterrupt::~OrderlyInterrupt() {
+  orderly = false;
+}
+const std::atomic<bool>& OrderlyInterrupt::flag() const {
+  return stop_requested;
+}
+
+void install_interrupt_handler() {
+  struct sigaction action {};
+  action.sa_handler = on_interrupt;
+  sigemptyset(&action.sa_mask);
+  action.sa_flags = SA_RESTART;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+}  // namespace dovetail::studies

@@ -1,0 +1,217 @@
+#include "studies/program/engine/engine.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <string_view>
+
+#include "dynamics/condensed_model.hpp"
+#include "quality/truncation.hpp"
+#include "reduction/model_file.hpp"
+#include "studies/program/engine/model_toml.hpp"
+#include "studies/program/study_file/refusal.hpp"
+#include "studies/report/record/design_record.hpp"
+
+namespace dovetail::studies {
+
+using optimizer::Scene;
+using optimizer::SceneEvaluator;
+
+Scene reference_scene(const Study& study) {
+  Scene scene = study.scene;
+  for (const optimizer::DesignVariable& variable : study.problem.space.variables())
+    optimizer::set_parameter(scene, variable.key, variable.lower + (variable.upper - variable.lower) / 2);
+  return scene;
+}
+
+std::shared_ptr<const SceneEvaluator> scene_evaluator(const Study& study) {
+  return std::make_shared<const SceneEvaluator>(reference_scene(study));
+}
+
+RunEngine study_engine(const Study& study) {
+  const std::shared_ptr<const SceneEvaluator> evaluator = scene_evaluator(study);
+  RunEngine engine;
+  const auto scene_at = [base = study.scene, keys = study.problem.space.keys()](std::span<const double> x) {
+    Scene scene = base;
+    for (std::size_t i = 0; i < keys.size(); ++i) optimizer::set_parameter(scene, keys[i], x[i]);
+    return scene;
+  };
+  engine.evaluate = [evaluator, scene_at](std::span<const double> x) {
+    return evaluator->evaluate(scene_at(x), optimizer::kSearch).evaluation;
+  };
+  engine.finer = [evaluator, scene_at](std::span<const double> x, int level) {
+    return optimizer::evaluated_finer(*evaluator, scene_at(x), level).evaluation;
+  };
+  engine.describe = [evaluator](const Scene& scene) {
+    const optimizer::CandidateResult result = evaluator->evaluate(scene);
+    return DescribedDesign{.evaluation = result.evaluation, .record = report::make_design_record(scene, result)};
+  };
+  engine.verify = [evaluator](const Scene& scene, const wear::Watcher& watcher) {
+    const optimizer::Verification verification = optimizer::verify(*evaluator, scene, {}, watcher);
+    return report::make_verification_record(verification, verification.model);
+  };
+  return engine;
+}
+
+report::DesignRecord describe_fields(const Study& study) {
+  return report::make_design_record(study.scene, scene_evaluator(study)->evaluate(study.scene),
+                                    {.curve_points = 0, .nodal_diameter_modes = 0, .history_steps = 0});
+}
+
+bool is_hdf5_file(const std::string& file) {
+  constexpr std::string_view signature("\x89HDF\r\n\x1a\n", 8);
+  std::ifstream stream(file, std::ios::binary);
+  std::array<char, 8> first{};
+  if (stream.read(first.data(), first.size())) return std::string_view(first.data(), first.size()) == signature;
+  return file.ends_with(".h5") || file.ends_with(".hdf5");
+}
+
+std::vector<Override> with_solver(std::vector<Override> overrides, const SolverOverrides& solver) {
+  const auto add = [&](const char* option, const char* key, const std::string& value) {
+    overrides.push_back({.key = key, .value = value, .origin = std::string(option) + " " + value});
+  };
+  if (solver.harmonics) add("--harmonics", "solver.harmonics", std::to_string(*solver.harmonics));
+  if (solver.samples) add("--samples", "solver.samples", std::to_string(*solver.samples));
+  if (solver.tolerance) add("--tolerance", "solver.tolerance", shortest(*solver.tolerance));
+  if (solver.solver) add("--solver", "solver.solver", *solver.solver);
+  if (solver.pseudo_penalty) add("--pseudo-penalty", "solver.pseudo_penalty_n_per_m", shortest(*solver.pseudo_penalty));
+  if (solver.pseudo_penalty_normal)
+    add("--pseudo-penalty-normal", "solver.pseudo_penalty_normal_n_per_m", shortest(*solver.pseudo_penalty_normal));
+  return overrides;
+}
+
+InputError infeasible(const std::string& file, const std::vector<std::string>& messages) {
+  std::vector<Violation> found;
+  for (const std::string& message : messages)
+    found.push_back({.file = file, .key = "the design is infeasible", .value = {}, .allowed = message});
+  if (found.empty()) found.push_back({.file = {}, .key = file, .value = {}, .allowed = "the design is infeasible"});
+  return InputError(std::move(found));
+}
+
+namespace {
+
+LoadedModel from_study(const std::string& file, const std::vector<Override>& overrides) {
+  const Study study = load_study(file, overrides);
+  optimizer::CandidateModel candidate = scene_evaluator(study)->builder().build(study.scene);
+  if (candidate.status == "infeasible") throw infeasible(file, candidate.messages);
+  LoadedModel loaded;
+  loaded.joint.options = optimizer::steady_options(study.scene.solver);
+  loaded.follow = study.scene.loading.follow;
+  if (!candidate.converged()) {
+    loaded.failure = candidate.status;
+    return loaded;
+  }
+  // The same contact nodes as an evaluation has, so that whatever is computed is of one model.
+  optimizer::fit_contact(study.scene, {}, candidate);
+  if (!candidate.converged()) {
+    loaded.failure = candidate.status;
+    return loaded;
+  }
+  loaded.model = candidate.model;
+  loaded.joint.model = candidate.condensed;
+  loaded.glued_omega = candidate.reduction.glued_frequencies(study.scene.loading.mode - 1);
+  return loaded;
+}
+
+/// The settings of a model, within the ranges that a study file keeps. Throws InputError naming the options.
+optimizer::SolverSettings settings_of(const SolverOverrides& solver) {
+  optimizer::SolverSettings settings;
+  Complaints wrong;
+  const std::string section = "solver.";
+  for (const Override& given : with_solver({}, solver))
+    for (const Field<optimizer::SolverSettings>& field : option_table<optimizer::SolverSettings>()) {
+      if (given.key != section + std::string(field.key)) continue;
+      if (const auto* text = std::get_if<std::string optimizer::SolverSettings::*>(&field.member)) {
+        settings.*(*text) = given.value;
+        continue;
+      }
+      const double value = std::strtod(given.value.c_str(), nullptr);
+      if (!field.range.contains(value))
+        wrong.add(given.origin, field.range.phrase());
+      else if (const auto* whole = std::get_if<int optimizer::SolverSettings::*>(&field.member))
+        settings.*(*whole) = static_cast<int>(value);
+      else if (const auto* real = std::get_if<double optimizer::SolverSettings::*>(&field.member))
+        settings.*(*real) = value;
+    }
+  wrong.raise();
+  return settings;
+}
+
+/// Before a model is read: options that do not fit are told whatever the file is like.
+steady::Options model_options(const std::string& file, const std::vector<Override>& overrides,
+                              const SolverOverrides& solver) {
+  if (!overrides.empty())
+    refuse(overrides.front().origin, "sets a key of a study file, but the input is a reduced model", {}, file);
+  return optimizer::steady_options(settings_of(solver));
+}
+
+/// The largest harmonic in which the model is forced.
+int largest_harmonic(const reduction::ReducedModel& model) {
+  for (Eigen::Index h = model.cosine_force.rows(); h > 0; --h)
+    if (!model.cosine_force.row(h - 1).isZero(0) || !model.sine_force.row(h - 1).isZero(0)) return static_cast<int>(h);
+  return 0;
+}
+
+/// No harmonic of the force may be left out: the default rises to it, and fewer are refused. The default samples
+/// rise with the harmonics. Throws InputError.
+void fit_to_force(const std::string& file, const SolverOverrides& solver, const reduction::ReducedModel& model,
+                  steady::Options& steady) {
+  const int forced = largest_harmonic(model);
+  const auto wrong = [&](const std::string& key, int value, const std::string& allowed) {
+    refuse(key, allowed, std::to_string(value), file);
+  };
+  if (!solver.harmonics) steady.harmonics = std::max(steady.harmonics, forced);
+  if (steady.harmonics < forced)
+    wrong("--harmonics", steady.harmonics, "must be >= " + std::to_string(forced) + ", the largest of the force");
+  const Range& harmonics = optimizer::find_parameter("solver.harmonics")->range;
+  if (!harmonics.contains(steady.harmonics))
+    wrong("/force/cosine, harmonics", forced, "of the force with harmonics " + harmonics.phrase());
+  if (!solver.samples) steady.samples = quality::samples_for(steady.harmonics, steady.samples);
+  if (steady.samples < 2 * steady.harmonics + 2)
+    wrong("--samples", steady.samples,
+          "must be >= 2 * harmonics + 2 = " + std::to_string(2 * steady.harmonics + 2) + " for " +
+              std::to_string(steady.harmonics) + " harmonics");
+}
+
+LoadedModel from_model(const std::string& file, reduction::ReducedModel model, steady::Options steady,
+                       const SolverOverrides& solver) {
+  fit_to_force(file, solver, model, steady);
+  LoadedModel loaded;
+  loaded.joint.options = steady;
+  loaded.model = std::move(model);
+  loaded.joint.model = std::make_shared<const dynamics::CondensedModel>(loaded.model);
+  // Ascending; those of free motion are no resonance to start from.
+  constexpr double kFree = 1e-6;
+  const Eigen::VectorXd glued = loaded.joint.model->glued_frequencies();
+  for (const double omega : glued)
+    if (std::isfinite(omega) && omega > kFree * glued.maxCoeff()) {
+      loaded.glued_omega = omega;
+      break;
+    }
+  return loaded;
+}
+
+}  // namespace
+
+std::optional<reduction::ReducedModel> read_any_model(const std::string& input) {
+  if (is_hdf5_file(input)) return reduction::read_model(input);
+  const Document document = load_document(input);
+  if (!is_model_document(document)) return std::nullopt;
+  return read_model_document(document);
+}
+
+LoadedModel load_model(const std::string& input, const std::vector<Override>& overrides,
+                       const SolverOverrides& solver) {
+  if (is_hdf5_file(input)) {
+    const steady::Options steady = model_options(input, overrides, solver);
+    return from_model(input, reduction::read_model(input), steady, solver);
+  }
+  const Document document = load_document(input);
+  if (!is_model_document(document)) return from_study(input, with_solver(overrides, solver));
+  const steady::Options steady = model_options(input, overrides, solver);
+  return from_model(input, read_model_document(document), steady, solver);
+}
+
+}  // namespace dovetail::studies

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "dynamics/condensed_model.hpp"
+#include "optimizer/evaluator.hpp"
+#include "reduction/reduced_model.hpp"
+#include "steady/options.hpp"
+#include "studies/program/commands/commands.hpp"
+
+namespace dovetail::studies {
+
+/// The scene whose geometry fixes the mesh topology of a study: every variable in the middle of its bounds. It does not
+/// depend on the values of the variables, so that a best design evaluates in its own file as it did in the run.
+[[nodiscard]] optimizer::Scene reference_scene(const Study& study);
+
+/// The evaluator of a study, on the reference scene's mesh topology, or on the scene's own where the reference cannot
+/// be meshed. Throws InputError when neither can.
+[[nodiscard]] std::shared_ptr<const optimizer::SceneEvaluator> scene_evaluator(const Study& study);
+
+/// The study's design with its fields and without curves.
+[[nodiscard]] report::DesignRecord describe_fields(const Study& study);
+
+/// A reduced model to compute with, from a model file or from a study's candidate.
+struct LoadedModel {
+  reduction::ReducedModel model;
+  steady::Joint joint;           ///< of that model, unworn
+  double glued_omega = 0;        ///< rad/s, of the followed mode (a file: the lowest); 0 when the model has none
+  std::string follow = "fixed";  ///< the study's choice of what drives the wear
+  std::string failure;           ///< not empty: the candidate's model did not converge, and why
+};
+
+/// Whether the file is HDF5 rather than a text: by its first bytes, or its ending when it cannot be read.
+[[nodiscard]] bool is_hdf5_file(const std::string& file);
+
+/// The reduced model in an HDF5 or TOML file; nothing when the file is a text but no model (then it should be a study).
+/// Throws InputError when it is a model and wrong, or cannot be read.
+[[nodiscard]] std::optional<reduction::ReducedModel> read_any_model(const std::string& input);
+
+/// Throws InputError for wrong input and for a study whose geometry is infeasible.
+[[nodiscard]] LoadedModel load_model(const std::string& input, const std::vector<Override>& overrides,
+                                     const SolverOverrides& solver);
+
+/// The solver settings as overrides of a study file's keys.
+[[nodiscard]] std::vector<Override> with_solver(std::vector<Override> overrides, const SolverOverrides& solver);
+
+/// The broken rules of an infeasible candidate as input errors of that file.
+[[nodiscard]] InputError infeasible(const std::string& file, const std::vector<std::string>& messages);
+
+}  // namespace dovetail::studies

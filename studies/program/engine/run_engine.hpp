@@ -1,0 +1,37 @@
+#pragma once
+
+#include <functional>
+
+#include "optimizer/evaluation.hpp"
+#include "optimizer/scene.hpp"
+#include "studies/program/study_file/study.hpp"
+#include "studies/report/record/run_record.hpp"
+#include "wear/watcher.hpp"
+
+namespace dovetail::studies {
+
+/// A design looked at more closely than a search does.
+struct DescribedDesign {
+  optimizer::Evaluation evaluation;
+  report::DesignRecord record;
+};
+
+/// What a run computes with.
+struct RunEngine {
+  optimizer::Evaluator evaluate;  ///< design variables in, evaluation out
+  /// The same on finer meshes; empty: limits are kept on one mesh.
+  optimizer::FinerEvaluator finer = {};
+  /// The design with bars and what the wear history decides, and with the curves and fields that results and report
+  /// show; empty: they show none.
+  std::function<DescribedDesign(const optimizer::Scene&)> describe;
+  /// The design's wear by the full history; empty: designs are not verified.
+  std::function<report::VerificationRecord(const optimizer::Scene&, const wear::Watcher&)> verify = {};
+};
+
+/// Makes the engine of a study.
+using RunEngineFactory = std::function<RunEngine(const Study&)>;
+
+/// The physics.
+[[nodiscard]] RunEngine study_engine(const Study& study);
+
+}  // namespace dovetail::studies

@@ -1,0 +1,69 @@
+#include "studies/program/engine/truncation_choice.hpp"
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "paths/resonance.hpp"
+#include "quality/automatic.hpp"
+#include "studies/program/study_file/refusal.hpp"
+
+namespace dovetail::studies {
+namespace {
+
+constexpr Range kAccuracies{.lower = 1e-8, .upper = 1};
+
+}  // namespace
+
+double accuracy(const SolverOverrides& solver) {
+  return solver.accuracy.value_or(quality::AutomaticOptions{}.amplitude_tolerance);
+}
+
+void check_accuracy(const SolverOverrides& solver) {
+  if (!solver.accuracy) return;
+  const std::string given = shortest(*solver.accuracy);
+  if (!kAccuracies.contains(*solver.accuracy)) refuse("--accuracy", kAccuracies.phrase(), given);
+  if (!solver.automatic()) refuse("--accuracy", "only has a meaning with --harmonics auto or --samples auto", given);
+}
+
+std::optional<Status> choose_truncation(LoadedModel& loaded, const std::vector<double>& hz,
+                                        const SolverOverrides& solver) {
+  if (!solver.automatic()) return std::nullopt;
+  std::vector<double> omega;
+  for (const double f : hz) omega.push_back(2 * std::numbers::pi * f);
+  quality::AutomaticOptions options;
+  options.harmonics = solver.automatic_harmonics;
+  options.samples = solver.automatic_samples;
+  options.amplitude_tolerance = accuracy(solver);
+  options.energy_tolerance = 10 * accuracy(solver);
+  const quality::AutomaticSettings chosen = quality::automatic_settings(loaded.joint, omega, options);
+  loaded.joint.options = chosen.options;
+  return chosen.status;
+}
+
+std::optional<Status> choose_truncation(optimizer::Scene& scene, const optimizer::SceneEvaluator& evaluator,
+                                        const SolverOverrides& solver) {
+  if (!solver.automatic()) return std::nullopt;
+  const optimizer::CandidateModel candidate = evaluator.builder().build(scene);
+  if (!candidate.converged()) return std::nullopt;
+  LoadedModel loaded;
+  loaded.joint.model = candidate.condensed;
+  loaded.joint.options = optimizer::steady_options(scene.solver);
+  const double glued = candidate.reduction.glued_frequencies(scene.loading.mode - 1);
+  const paths::Resonance resonance = paths::resonance(loaded.joint, glued);
+  if (resonance.status != Status::converged) return std::nullopt;
+  const std::optional<Status> status = choose_truncation(loaded, {resonance.omega / (2 * std::numbers::pi)}, solver);
+  scene.solver.harmonics = loaded.joint.options.harmonics;
+  scene.solver.samples = loaded.joint.options.samples;
+  return status;
+}
+
+std::string truncation_complaint(Status status, const steady::Options& reached, const SolverOverrides& solver) {
+  if (status == Status::iteration_limit)
+    return fmt::format("the accuracy {:g} is not reached with {} harmonics and {} samples", accuracy(solver),
+                       reached.harmonics, reached.samples);
+  return fmt::format("harmonics and samples could not be chosen: a state needed for it did not converge: {}",
+                     to_string(status));
+}
+
+}  // namespace dovetail::studies

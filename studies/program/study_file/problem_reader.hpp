@@ -1,0 +1,13 @@
+#pragma once
+
+#include "optimizer/problem.hpp"
+#include "optimizer/scene.hpp"
+#include "studies/program/study_file/section_reader.hpp"
+
+namespace dovetail::studies {
+
+/// Reads [[variable]], [[objective]] and [[constraint]]. `scene` gives the start of a variable that names none. What is
+/// wrong goes to `problems`; the result is meaningful only when nothing was.
+[[nodiscard]] optimizer::Problem read_problem(SectionReader& root, const optimizer::Scene& scene, Problems& problems);
+
+}  // namespace dovetail::studies

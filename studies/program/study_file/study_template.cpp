@@ -1,0 +1,186 @@
+#include "studies/program/study_file/study_template.hpp"
+
+#include <array>
+#include <utility>
+
+#include "optimizer/optimizer_options.hpp"
+#include "optimizer/responses.hpp"
+#include "optimizer/scene.hpp"
+#include "studies/program/study_file/export.hpp"
+
+namespace dovetail::studies {
+namespace {
+
+using optimizer::Scene;
+
+template <class S>
+std::string value_text(const S& object, const Field<S>& field) {
+  if (const auto* text = std::get_if<std::string S::*>(&field.member)) return '"' + object.*(*text) + '"';
+  if (const auto* truth = std::get_if<bool S::*>(&field.member)) return object.*(*truth) ? "true" : "false";
+  if (const auto* whole = std::get_if<int S::*>(&field.member)) return std::to_string(object.*(*whole));
+  return shortest(value_in_file_unit(object, field));
+}
+
+std::string joined(const std::vector<std::string_view>& words) {
+  std::string text;
+  for (const std::string_view word : words) {
+    if (!text.empty()) text += " | ";
+    text += word;
+  }
+  return text;
+}
+
+/// "mm, > 0 and <= 1000, required": what the key may be.
+template <class S>
+std::string allowed(const Field<S>& field) {
+  std::vector<std::string> parts;
+  if (const std::string unit = unit_of_key(field.key); !unit.empty()) parts.push_back(unit);
+  if (!field.choices.empty()) parts.push_back(joined(field.choices));
+  const bool number =
+      !std::holds_alternative<std::string S::*>(field.member) && !std::holds_alternative<bool S::*>(field.member);
+  if (number && (std::isfinite(field.range.lower) || std::isfinite(field.range.upper)))
+    parts.push_back(field.range.phrase().substr(std::string("must be ").size()));
+  if (field.required) parts.push_back("required");
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
+  return text;
+}
+
+std::string capitalised(std::string_view help) {
+  std::string text(help);
+  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  if (!text.empty() && text.back() != '.') text += '.';
+  return text;
+}
+
+/// Comment and assignment of each field; `mark` is put before the assignment ("# " leaves it to its default).
+template <class S>
+std::string lines(const S& object, std::span<const Field<S>> fields, const std::string& mark = "") {
+  std::string text;
+  for (const Field<S>& field : fields) {
+    const std::string may_be = allowed(field);
+    text += "# " + capitalised(field.help) + (may_be.empty() ? "" : " (" + may_be + ")") + "\n";
+    text += mark + std::string(field.key) + " = " + value_text(object, field) + "\n";
+  }
+  return text;
+}
+
+std::string header(const std::string& section, const std::string& comment) {
+  return "\n# " + comment + "\n[" + section + "]\n";
+}
+
+std::string scene_sections() {
+  Scene scene;
+  scene.disk = scene.blade;
+  const auto flanks = option_table<geometry::FlankParameters>();
+  std::string text = header("scene", "What is modelled and how it vibrates.");
+  text += lines(scene, option_table<Scene>()) + lines(scene.loading, optimizer::scene_loading_fields());
+  text += header("geometry", "Dimensions of the section of one sector; x is tangential, y radial.");
+  text += lines(scene.geometry, option_table<geometry::ProfileParameters>());
+  text += "\n# What only a sector in space has; a plane section leaves it aside.\n";
+  text += lines(scene.solid, option_table<geometry::SolidParameters>());
+  text += "\n# Both flanks; a section [geometry.left] or [geometry.right] with the same keys overrides one of them.\n";
+  text += lines(scene.geometry.left, flanks);
+  text += header("limits", "Rules every design has to keep besides fitting together.");
+  text += lines(scene.limits, option_table<geometry::FeasibilityLimits>());
+  text += header("material.blade",
+                 "Ti-6Al-4V, annealed. The disk's material is the blade's unless [material.disk] differs.");
+  text += lines(scene.blade, option_table<fem::Material>());
+  text += "\n[material.disk]\n" + lines(scene.disk, option_table<fem::Material>(), "# ");
+  text += header("contact", "Friction and wear on the flanks.");
+  text += lines(scene.contact, option_table<optimizer::ContactProperties>());
+  text += header("loading", "What excites the blade, besides the rotation.");
+  text += lines(scene.loading, optimizer::loading_fields());
+  text += header("mesh", "Sizes of the finite elements.");
+  text += lines(scene.mesh, option_table<geometry::MeshSizes>());
+  text += "\n# Along the slot, and of the contact on it.\n";
+  text += lines(scene.solid_mesh, option_table<geometry::SolidSizes>());
+  text += header("solver", "Sizes and tolerances of the contact computation.");
+  text += lines(scene.solver, option_table<optimizer::SolverSettings>());
+  return text;
+}
+
+std::string response_list() {
+  std::string text;
+  for (const optimizer::ResponseName& response : optimizer::response_names())
+    text += "#   " + std::string(response.name) + ": " + std::string(response.help) + "\n";
+  return text;
+}
+
+std::string problem_sections() {
+  return R"(
+# What the optimiser may change: any real number above by its dotted key, between two bounds in the key's unit. It
+# starts from the value above, or from `start` if given.
+[[variable]]
+key = "geometry.flank_mismatch_um"
+lower = -5
+upper = 25
+
+[[variable]]
+key = "geometry.flank_crown_um"
+lower = -3
+upper = 10
+
+[[variable]]
+key = "geometry.neck_width_mm"
+lower = 8
+upper = 9.5
+
+# What is minimised: the sum of weight * response / scale over all [[objective]]; a negative weight maximises.
+# The responses, SI units:
+)" + response_list() +
+         R"([[objective]]
+response = "asymptotic_wear_volume_m3"
+weight = 1
+
+# What has to hold: an upper or a lower limit on a response, or both, in its SI unit.
+[[constraint]]
+response = "contact_pressure_mean_pa"
+upper = 300e6
+
+[[constraint]]
+response = "post_width_m"
+lower = 4e-3
+)";
+}
+
+}  // namespace
+
+std::string unit_of_key(std::string_view key) {
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 13> endings{{{"_m3_per_j", "m^3/J"},
+                                                                                          {"_j_per_m2", "J/m^2"},
+                                                                                          {"_n_per_m3", "N/m^3"},
+                                                                                          {"_kg_m3", "kg/m^3"},
+                                                                                          {"_n_per_m", "N/m"},
+                                                                                          {"_per_pa", "1/Pa"},
+                                                                                          {"_gpa", "GPa"},
+                                                                                          {"_rpm", "1/min"},
+                                                                                          {"_deg", "degrees"},
+                                                                                          {"_mm", "mm"},
+                                                                                          {"_um", "um"},
+                                                                                          {"_hz", "Hz"},
+                                                                                          {"_n", "N"}}};
+  for (const auto& [ending, unit] : endings)
+    if (key.ends_with(ending)) return std::string(unit);
+  return {};
+}
+
+std::string study_template(const std::string& title) {
+  std::string text =
+      "# A study of dovetail. Check it with `dovetail check`, compute the design it describes with `dovetail "
+      "evaluate`,\n"
+      "# optimise with `dovetail run`. Every key ends with the unit it is written in. Keys marked `required` must be\n"
+      "# given; all others may be left out and then have the value shown here.\n"
+      "title = \"" +
+      title + "\"\n";
+  text += scene_sections() + problem_sections();
+  text += header("optimizer", "How the optimiser searches.");
+  text += lines(optimizer::OptimizerOptions{}, option_table<optimizer::OptimizerOptions>());
+  std::string formats;
+  for (const std::string_view format : export_formats()) formats += (formats.empty() ? "" : ", ") + std::string(format);
+  text += header("export", "Files of the best design a run writes besides its results: " + formats + ".");
+  text += "formats = [\"dxf\"]\n";
+  return text;
+}
+
+}  // namespace dovetail::studies

@@ -1,9 +1,0 @@
-#include "studies/program/version.hpp"
-
-namespace dovetail::studies {
-
-const char* version() {
-  return DOVETAIL_VERSION;
-}
-
-}  // namespace dovetail::studies

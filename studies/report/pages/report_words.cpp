@@ -1,0 +1,252 @@
+#include "studies/report/pages/report_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "optimizer/responses.hpp"
+
+namespace dovetail::report {
+
+namespace {
+
+double value_of(const std::map<std::string, double>& values, const std::string& name) {
+  const auto found = values.find(name);
+  return found == values.end() ? std::numeric_limits<double>::quiet_NaN() : found->second;
+}
+
+std::string percent(double ratio) {
+  const double change = 100 * (ratio - 1);
+  return (change > 0 ? "+" : "") + significant(change, std::abs(change) >= 10 ? 2 : 1) + "\u00a0%";
+}
+
+/// Is the difference more than both error bars together?
+std::string against_errors(double from, double to, double error) {
+  if (std::isnan(error)) return "No error bar is known for it.";
+  if (std::isinf(error)) return "Its error bar could not be computed.";
+  const double change = std::abs(to - from);
+  if (!(error > 0)) return "";
+  if (change <= error)
+    return "The change is within the error bars of the two values, so it may be no improvement at all.";
+  const double times = change / error;
+  if (times < 3)
+    return fmt::format("The change is {} times the error bars of the two values together.", significant(times, 2));
+  return fmt::format("The change is far beyond the error bars of the two values ({} times their sum).",
+                     times >= 1000 ? std::string("over 1000") : significant(times, times >= 10 ? 2 : 1));
+}
+
+std::string verb(double from, double to) {
+  return to < from ? "fell" : to > from ? "rose" : "stayed";
+}
+
+std::string single_term(const RunRecord& record, const EvaluationRecord& base, const EvaluationRecord& best) {
+  const optimizer::ObjectiveTerm& term = record.problem.objective.front();
+  const double from = response(base, term.response), to = response(best, term.response);
+  const Unit unit = response_unit(term.response, std::max(std::abs(from), std::abs(to)));
+  const std::string symbol = unit.symbol.empty() ? "" : "\u00a0" + unit.symbol;
+  std::string text = fmt::format("The {} {} from {} to {}{}", words(term.response), verb(from, to),
+                                 significant(from / unit.si, 3), significant(to / unit.si, 3), symbol);
+  if (from > 0 && to > 0) text += " (" + percent(to / from) + ")";
+  const std::string errors = against_errors(from, to, error_bar(base, term.response) + error_bar(best, term.response));
+  return text + "." + (errors.empty() ? "" : " " + errors);
+}
+
+std::string several_terms(const RunRecord& record, const EvaluationRecord& base, const EvaluationRecord& best) {
+  double error = 0;
+  for (const optimizer::ObjectiveTerm& term : record.problem.objective)
+    error += std::abs(term.weight) / (term.scale > 0 ? term.scale : 1) *
+             (error_bar(base, term.response) + error_bar(best, term.response));
+  const std::string errors = against_errors(base.objective, best.objective, error);
+  return fmt::format("The objective, a {}, {} from {} to {}.{}", objective_words(record.problem),
+                     verb(base.objective, best.objective), significant(base.objective, 3),
+                     significant(best.objective, 3), errors.empty() ? "" : " " + errors);
+}
+
+std::string objective_value(const RunRecord& record, const EvaluationRecord& best) {
+  if (record.problem.objective.size() != 1) return fmt::format("an objective of {}", significant(best.objective, 3));
+  const std::string& name = record.problem.objective.front().response;
+  const double value = response(best, name);
+  const std::string said = words(name);
+  const char* article = std::string_view("aeiou").find(said.front()) == std::string_view::npos ? "a" : "an";
+  return fmt::format("{} {} of {}", article, said,
+                     with_error(value, error_bar(best, name), response_unit(name, value)));
+}
+
+/// "peak_amplitude_m:upper" -> "upper limit of the peak amplitude (8.0 mm)".
+std::string limit_words(const std::string& name, const optimizer::Problem& problem) {
+  const std::size_t colon = name.rfind(':');
+  const std::string limited = name.substr(0, colon);
+  const std::string side = colon == std::string::npos ? "" : name.substr(colon + 1);
+  std::string text = fmt::format("the {} limit of the {}", side, words(limited));
+  for (const optimizer::ResponseConstraint& constraint : problem.constraints) {
+    if (constraint.response != limited) continue;
+    const std::optional<double> limit = side == "upper" ? constraint.upper : constraint.lower;
+    if (limit) text += " (" + plain(*limit, response_unit(limited, *limit)) + ")";
+    break;
+  }
+  return text;
+}
+
+}  // namespace
+
+const EvaluationRecord* baseline_of(const RunRecord& record) {
+  return record.baseline && *record.baseline < record.evaluations.size() ? &record.evaluations[*record.baseline]
+                                                                         : nullptr;
+}
+
+const EvaluationRecord* best_of(const RunRecord& record) {
+  return record.best && *record.best < record.evaluations.size() ? &record.evaluations[*record.best] : nullptr;
+}
+
+double response(const EvaluationRecord& evaluation, const std::string& name) {
+  return value_of(evaluation.responses, name);
+}
+
+double error_bar(const EvaluationRecord& evaluation, const std::string& name) {
+  return value_of(evaluation.error_estimates, name);
+}
+
+Unit response_unit(const std::string& name, double largest) {
+  if (name.ends_with("drift")) return {.symbol = "%", .si = 0.01};
+  const optimizer::ResponseName* known = optimizer::find_response(name);
+  std::string si = known ? std::string(known->unit) : si_unit_of(name);
+  if (!name.ends_with("_per_cycle")) return readable_unit(si, largest);
+  if (const std::size_t slash = si.find('/'); slash != std::string::npos) si.resize(slash);
+  Unit unit = readable_unit(si, largest);
+  unit.symbol += "/cycle";
+  return unit;
+}
+
+std::string objective_words(const optimizer::Problem& problem) {
+  std::vector<std::string> parts;
+  for (const optimizer::ObjectiveTerm& term : problem.objective) parts.push_back(words(term.response));
+  if (parts.empty()) return "objective";
+  return parts.size() == 1 ? parts.front() : "weighted sum of " + listed(parts);
+}
+
+ObjectiveScale objective_scale(const RunRecord& record) {
+  if (record.problem.objective.size() != 1) return {};
+  const optimizer::ObjectiveTerm& term = record.problem.objective.front();
+  const double si = (term.scale > 0 ? term.scale : 1) / (term.weight != 0 ? term.weight : 1);
+  double largest = 0;
+  for (const EvaluationRecord& e : record.evaluations)
+    if (std::isfinite(e.objective)) largest = std::max(largest, std::abs(e.objective * si));
+  const Unit unit = response_unit(term.response, largest);
+  return {.factor = si / unit.si, .unit = unit.symbol, .label = words(term.response)};
+}
+
+namespace {
+
+/// What speaks against the best design: what the closer look at it came to, and its verification.
+std::string refutation(const RunRecord& record) {
+  std::string text;
+  const EvaluationRecord* best = best_of(record);
+  if (best != nullptr && !best->feasible)
+    text += "Looked at with its wear history the best design does not keep every limit. ";
+  if (record.best_design && record.best_design->status != "converged")
+    text += "Looked at with bars and its wear history the best design ends with \u201c" + record.best_design->status +
+            "\u201d. ";
+  for (const VerificationRecord& v : record.verifications) {
+    if (!record.best || v.evaluation != static_cast<std::int64_t>(*record.best) || v.status == "converged") continue;
+    text += v.status.starts_with("disagrees")
+                ? "The verification does not confirm the best design: it " + v.status + ". "
+                : "The best design could not be verified (" + v.status + "). ";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string headline(const RunRecord& record) {
+  const EvaluationRecord* base = baseline_of(record);
+  const EvaluationRecord* best = best_of(record);
+  if (record.evaluations.empty()) return "No candidate was evaluated.";
+  if (!best) {
+    std::string text = "No feasible design was found: none of the candidates keeps every limit.";
+    if (record.least_broken && *record.least_broken < record.evaluations.size())
+      text += fmt::format(" The nearest is candidate {}.", *record.least_broken + 1);
+    return text;
+  }
+  const std::string doubt = refutation(record);
+  if (record.best == record.baseline)
+    return doubt + "No candidate was better than the start: it stays the best feasible design, with " +
+           objective_value(record, *best) + ".";
+  if (!base || !std::isfinite(base->objective))
+    return doubt + fmt::format(
+                       "The best design reaches {}. The start could not be evaluated ({}), so there is nothing to "
+                       "compare it with.",
+                       objective_value(record, *best), base ? base->status : "no start");
+  std::string text = doubt;
+  text +=
+      record.problem.objective.size() == 1 ? single_term(record, *base, *best) : several_terms(record, *base, *best);
+  if (!base->feasible && best->feasible) text += " The start itself breaks a limit, the best design keeps them all.";
+  return text;
+}
+
+std::vector<std::string> holding(const RunRecord& record) {
+  constexpr double kNear = 0.005;
+  std::vector<std::string> found;
+  const EvaluationRecord* best = best_of(record);
+  if (!best) return found;
+  const std::vector<std::string> names = constraint_names(record.problem);
+  for (std::size_t i = 0; i < std::min(names.size(), best->constraints.size()); ++i)
+    if (best->constraints[i] > -kNear) found.push_back(limit_words(names[i], record.problem));
+  for (const auto& [name, c] : best->rules)
+    if (c > -kNear && c != 0) found.push_back("the geometric rule \u201c" + words(name) + "\u201d");
+  const std::vector<optimizer::DesignVariable>& variables = record.problem.space.variables();
+  for (std::size_t i = 0; i < std::min(variables.size(), best->x.size()); ++i) {
+    const std::string bound = at_bound(variables[i], best->x[i]);
+    if (!bound.empty()) found.push_back(fmt::format("the {} bound of the {}", bound, key_words(variables[i].key)));
+  }
+  return found;
+}
+
+std::vector<std::string> without_bar(const RunRecord& record) {
+  std::vector<std::string> found;
+  const EvaluationRecord* best = best_of(record);
+  if (!best || best->error_estimates.empty()) return found;
+  const auto ask = [&](const std::string& response) {
+    const std::string name = "the " + words(response);
+    if (!best->error_estimates.contains(response) && std::ranges::find(found, name) == found.end())
+      found.push_back(name);
+  };
+  for (const optimizer::ObjectiveTerm& term : record.problem.objective) ask(term.response);
+  for (const optimizer::ResponseConstraint& limit : record.problem.constraints) ask(limit.response);
+  return found;
+}
+
+std::string ending(const RunRecord& record) {
+  std::size_t feasible = 0, failed = 0;
+  for (const EvaluationRecord& e : record.evaluations) {
+    feasible += e.feasible ? 1 : 0;
+    failed += e.status != "converged" && e.status != "infeasible" ? 1 : 0;
+  }
+  const std::size_t all = record.evaluations.size();
+  const std::string how =
+      record.status == "interrupted" ? "The run was interrupted; what follows is the state until then."
+      : record.status == "converged" ? "The search converged."
+      : record.status == "iteration_limit"
+          ? "The search used up the evaluations it was allowed; more may find better designs."
+          : "The search stopped early: " + (record.message.empty() ? record.status : record.message) +
+                (record.message.ends_with(".") ? "" : ".");
+  return fmt::format(
+      "{} It looked at {} candidate{}: {} feasible, {} breaking a limit or a geometric rule, {} not computed.", how,
+      all, all == 1 ? "" : "s", feasible, all - feasible - failed, failed);
+}
+
+std::string at_bound(const optimizer::DesignVariable& variable, double value) {
+  const double near = 0.005 * (variable.upper - variable.lower);
+  if (value <= variable.lower + near) return "lower";
+  return value >= variable.upper - near ? "upper" : "";
+}
+
+std::string listed(const std::vector<std::string>& items) {
+  std::string text;
+  for (std::size_t i = 0; i < items.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == items.size() ? " and " : ", ") + items[i];
+  return text;
+}
+
+}  // namespace dovetail::report

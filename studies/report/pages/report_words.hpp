@@ -1,0 +1,51 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "studies/report/pages/units.hpp"
+#include "studies/report/record/run_record.hpp"
+
+namespace dovetail::report {
+
+/// The evaluation of the start and of the best feasible design, or null.
+[[nodiscard]] const EvaluationRecord* baseline_of(const RunRecord& record);
+[[nodiscard]] const EvaluationRecord* best_of(const RunRecord& record);
+
+/// Value of a response, its error bar or its unit fit for reading; NaN when absent.
+[[nodiscard]] double response(const EvaluationRecord& evaluation, const std::string& name);
+[[nodiscard]] double error_bar(const EvaluationRecord& evaluation, const std::string& name);
+[[nodiscard]] Unit response_unit(const std::string& name, double largest);
+
+/// The objective in words: "asymptotic wear volume" or "weighted sum of ...".
+[[nodiscard]] std::string objective_words(const optimizer::Problem& problem);
+
+/// The objective in the unit of its response, or as it is when it has several terms.
+struct ObjectiveScale {
+  double factor = 1;  ///< shown = factor * objective
+  std::string unit;
+  std::string label = "objective";
+};
+[[nodiscard]] ObjectiveScale objective_scale(const RunRecord& record);
+
+/// What was optimised, from what to what, and whether that is beyond the error bars. Plain text sentences; says so when
+/// no feasible design was found.
+[[nodiscard]] std::string headline(const RunRecord& record);
+
+/// What holds the best design: active limits, geometric rules and bounds by name. A limit or rule counts as active
+/// within 0.5 % of its scale, a bound within 0.5 % of the variable's range.
+[[nodiscard]] std::vector<std::string> holding(const RunRecord& record);
+
+/// What the objective or a limit rests on while its value at the best design has no error bar, though others have one.
+[[nodiscard]] std::vector<std::string> without_bar(const RunRecord& record);
+
+/// How the run ended, and how many candidates it saw.
+[[nodiscard]] std::string ending(const RunRecord& record);
+
+/// "lower" or "upper" when the value is at that bound, else empty.
+[[nodiscard]] std::string at_bound(const optimizer::DesignVariable& variable, double value);
+
+/// "a, b and c".
+[[nodiscard]] std::string listed(const std::vector<std::string>& items);
+
+}  // namespace dovetail::report

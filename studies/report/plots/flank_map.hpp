@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "studies/report/pages/units.hpp"
+
+namespace dovetail::report {
+
+/// One bearing flank seen from its blade: values at contact nodes, which stand in strips across the slot; every strip
+/// has places of its own.
+struct FlankPanel {
+  std::string name = {};            ///< "left flank"
+  std::vector<double> along = {};   ///< [n] m, along the flank from its neck side
+  std::vector<double> across = {};  ///< [n] m, along the slot
+  std::vector<double> values = {};  ///< [n] SI; NaN: not known
+};
+
+/// A quantity over the flanks of a joint in space, side by side with one scale of colours from 0 to the largest value.
+struct FlankMap {
+  std::string title = {};
+  std::string description = {};  ///< a sentence below
+  std::string quantity = {};     ///< "pressure"
+  Unit unit = {};
+  std::vector<FlankPanel> panels = {};
+  double full_scale = 0;  ///< SI, of the darkest colour when it is above the largest value: for maps to be compared
+};
+
+/// No finite value, or none above zero.
+[[nodiscard]] bool is_empty(const FlankMap& map);
+
+/// The map as one inline <svg>: a cell around each contact node with its numbers as tooltip, axes in mm, colour bar.
+[[nodiscard]] std::string flank_map_svg(const FlankMap& map);
+
+/// <figure>: title, drawing, description, and the numbers as a table under <details>. An empty map becomes a sentence.
+[[nodiscard]] std::string flank_map_figure(const FlankMap& map);
+
+}  // namespace dovetail::report

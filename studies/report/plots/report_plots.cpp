@@ -1,0 +1,252 @@
+#include "studies/report/plots/report_plots.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "studies/report/pages/report_words.hpp"
+#include "studies/report/pages/units.hpp"
+
+namespace dovetail::report {
+
+namespace {
+
+std::string name_of(const Comparison& designs, Role role, const std::string& variant) {
+  const std::string design = designs.before ? (role == Role::before ? "before" : "after") : "";
+  return design + (design.empty() || variant.empty() ? "" : ", ") + variant;
+}
+
+/// The designs with their roles, the older one first so that the newer is drawn on top.
+std::vector<std::pair<const DesignRecord*, Role>> in_order(const Comparison& designs) {
+  std::vector<std::pair<const DesignRecord*, Role>> result;
+  if (designs.before) result.emplace_back(designs.before, Role::before);
+  result.emplace_back(designs.after, Role::after);
+  return result;
+}
+
+/// Two flanks that are mirror images to within half a per cent of the largest value.
+bool flanks_alike(const ContactRecord& contact, const Numbers& values) {
+  if (contact.flank_names.size() != 2) return false;
+  std::array<Numbers, 2> sides, along;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto side = static_cast<std::size_t>(contact.flank[i] == 0 ? 0 : 1);
+    sides[side].push_back(values[i]);
+    along[side].push_back(contact.along_m[i]);
+  }
+  const auto near = [](const Numbers& a, const Numbers& b, double tolerance) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [&](double x, double y) { return std::abs(x - y) <= tolerance; });
+  };
+  return near(sides[0], sides[1], 0.005 * largest(values)) &&
+         near(along[0], along[1], 0.001 * largest(contact.along_m));
+}
+
+/// A quantity of the contact nodes along both flanks, in space where along the slot it is largest: left solid, right
+/// dashed.
+Plot flank_plot(const Comparison& designs, Numbers ContactRecord::*quantity, const std::string& si_unit, Plot plot) {
+  double most = 0;
+  for (const auto& [design, role] : in_order(designs)) most = std::max(most, largest(design->contact.*quantity));
+  const Unit unit = readable_unit(si_unit, most);
+  plot.x = {.label = "along the flank, from its neck side", .unit = "mm"};
+  plot.y.unit = unit.symbol;
+  plot.y.from_zero = true;
+  for (const auto& [design, role] : in_order(designs)) {
+    const ContactRecord& contact = design->contact;
+    const Numbers& values = contact.*quantity;
+    if (values.size() != contact.flank.size()) continue;
+    const bool alike = flanks_alike(contact, values);
+    for (std::size_t flank = 0; flank < (alike ? 1 : contact.flank_names.size()); ++flank) {
+      PlotLine line{.name = name_of(designs, role, alike ? "both flanks" : contact.flank_names[flank]), .role = role};
+      line.stroke = flank == 0 ? Stroke::solid : Stroke::dashed;
+      for (const std::size_t i :
+           worst_line(contact.flank, contact.across_m, values, static_cast<std::int64_t>(flank))) {
+        line.x.push_back(contact.along_m[i] / 1e-3);
+        line.y.push_back(values[i] / unit.si);
+      }
+      plot.lines.push_back(std::move(line));
+    }
+  }
+  return plot;
+}
+
+FlankMap flank_map(const ContactRecord& contact, const Numbers& values, const std::string& si_unit, FlankMap map) {
+  map.unit = readable_unit(si_unit, largest(values));
+  map.panels = flank_panels(contact, values);
+  return map;
+}
+
+}  // namespace
+
+std::vector<FlankPanel> flank_panels(const ContactRecord& contact, const Numbers& values) {
+  std::vector<FlankPanel> panels;
+  for (std::size_t f = 0; f < contact.flank_names.size(); ++f) {
+    FlankPanel& panel = panels.emplace_back();
+    panel.name = contact.flank_names[f] + " flank";
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (contact.flank[i] != static_cast<std::int64_t>(f)) continue;
+      panel.along.push_back(contact.along_m[i]);
+      panel.across.push_back(contact.across_m[i]);
+      panel.values.push_back(values[i]);
+    }
+  }
+  return panels;
+}
+
+bool in_space(const ContactRecord& contact) {
+  const auto [least, most] = std::minmax_element(contact.across_m.begin(), contact.across_m.end());
+  return least != contact.across_m.end() && *most > *least;
+}
+
+std::vector<FlankMap> contact_maps(const DesignRecord& design) {
+  const ContactRecord& contact = design.contact;
+  if (!in_space(contact)) return {};
+  return {flank_map(contact, contact.depth_m, "m",
+                    {.title = "Wear depth over the flanks",
+                     .description = "When wear has come to rest; worn off both surfaces together.",
+                     .quantity = "worn depth"}),
+          flank_map(contact, contact.preload_pressure_pa, "Pa",
+                    {.title = "Pressure over the flanks after spin-up",
+                     .description = "Under the centrifugal load alone, before any vibration.",
+                     .quantity = "pressure"})};
+}
+
+double largest(const Numbers& values) {
+  double result = 0;
+  for (const double value : values)
+    if (std::isfinite(value)) result = std::max(result, std::abs(value));
+  return result;
+}
+
+Numbers scaled(const Numbers& values, double si) {
+  Numbers result = values;
+  for (double& value : result) value /= si;
+  return result;
+}
+
+Plot wear_depth_plot(const Comparison& designs) {
+  return flank_plot(
+      designs, &ContactRecord::depth_m, "m",
+      {
+          .title = "Wear depth when wear has come to rest",
+          .description = "Depth worn off both surfaces together. Where it is zero, the surfaces stick or do not touch.",
+          .y = {.label = "worn depth"},
+      });
+}
+
+Plot pressure_plot(const Comparison& designs) {
+  return flank_plot(designs, &ContactRecord::preload_pressure_pa, "Pa",
+                    {
+                        .title = "Pressure after spin-up",
+                        .description = "Contact pressure under the centrifugal load alone, before any vibration.",
+                        .y = {.label = "pressure"},
+                    });
+}
+
+Plot gap_plot(const Comparison& designs) {
+  return flank_plot(
+      designs, &ContactRecord::gap_m, "m",
+      {
+          .title = "Form of the flanks",
+          .description =
+              "Gap between blade and disk before loading: mismatch, crown, relief and rounded ends together.",
+          .y = {.label = "gap"},
+      });
+}
+
+Plot response_plot(const Comparison& designs) {
+  Plot plot{
+      .title = "Response around the resonance",
+      .description =
+          "Amplitude of the aerofoil's tip. Solid: new joint; dashed: worn joint; dotted: the same blade "
+          "glued to the disk, without friction.",
+      .x = {.label = "frequency", .unit = "Hz"},
+  };
+  double most = 0;
+  for (const auto& [design, role] : in_order(designs))
+    for (const ResponseCurve* curve : {&design->unworn, &design->worn, &design->glued})
+      most = std::max(most, largest(curve->amplitude_m));
+  const Unit unit = readable_unit("m", most);
+  plot.y = {
+      .label = "amplitude",
+      .unit = unit.symbol,
+      .from_zero = true,
+  };
+  for (const auto& [design, role] : in_order(designs)) {
+    constexpr std::array kCurves{std::pair{&DesignRecord::glued, "glued"}, std::pair{&DesignRecord::unworn, "new"},
+                                 std::pair{&DesignRecord::worn, "worn"}};
+    for (std::size_t i = 0; i < kCurves.size(); ++i) {
+      const ResponseCurve& curve = design->*kCurves[i].first;
+      if (curve.frequency_hz.empty()) continue;
+      PlotLine line{.name = name_of(designs, role, kCurves[i].second),
+                    .x = curve.frequency_hz,
+                    .y = scaled(curve.amplitude_m, unit.si),
+                    .role = role};
+      line.stroke = i == 0 ? Stroke::dotted : i == 1 ? Stroke::solid : Stroke::dashed;
+      plot.lines.push_back(std::move(line));
+    }
+  }
+  return plot;
+}
+
+Plot nodal_diameter_plot(const DesignRecord& design) {
+  const NodalDiameterRecord& record = design.nodal_diameters;
+  Plot plot{
+      .title = "Natural frequencies of the glued bladed disk",
+      .description = "At speed, over the number of nodal diameters; flat stretches are blade modes.",
+      .x = {.label = "nodal diameters", .whole = true},
+      .y =
+          {
+              .label = "frequency",
+              .unit = "Hz",
+              .from_zero = true,
+          },
+  };
+  const auto modes = static_cast<std::size_t>(std::max<std::int64_t>(record.modes, 0));
+  if (record.frequency_hz.size() != modes * record.nodal_diameter.size()) return plot;
+  for (std::size_t mode = 0; mode < modes; ++mode) {
+    PlotLine line{.name = {}, .role = Role::after};
+    line.dots = true;
+    for (std::size_t d = 0; d < record.nodal_diameter.size(); ++d) {
+      const bool known = record.status[d] == "converged";
+      line.x.push_back(static_cast<double>(record.nodal_diameter[d]));
+      line.y.push_back(known ? record.frequency_hz[d * modes + mode] : std::numeric_limits<double>::quiet_NaN());
+    }
+    plot.lines.push_back(std::move(line));
+  }
+  return plot;
+}
+
+Plot fillet_plot(const Comparison& designs) {
+  Plot plot{.title = "Stress in the fillets",
+            .description =
+                "Largest von Mises stress over one period of the resonance, along the more loaded fillet of the "
+                "blade's neck (solid) and of the disk's slot (dashed).",
+            .x = {.label = "height above the fillet's lower end", .unit = "mm"},
+            .y = {.label = "von Mises stress", .unit = "MPa", .from_zero = true}};
+  for (const auto& [design, role] : in_order(designs)) {
+    for (const FilletRecord& fillet : design->fillets) {
+      const std::size_t count = fillet.von_mises_pa.size();
+      if (count == 0 || fillet.x_m.size() != count || fillet.y_m.size() != count) continue;
+      const auto peak = static_cast<std::size_t>(
+          std::max_element(fillet.von_mises_pa.begin(), fillet.von_mises_pa.end()) - fillet.von_mises_pa.begin());
+      std::vector<std::pair<double, double>> points;  // height, stress
+      for (std::size_t i = 0; i < count; ++i)
+        if ((fillet.x_m[i] > 0) == (fillet.x_m[peak] > 0)) points.emplace_back(fillet.y_m[i], fillet.von_mises_pa[i]);
+      std::sort(points.begin(), points.end());
+      PlotLine line{.name = name_of(designs, role, fillet.name), .role = role};
+      line.stroke = fillet.name == "blade" ? Stroke::solid : Stroke::dashed;
+      for (const auto& [height, stress] : points) {
+        line.x.push_back((height - points.front().first) / 1e-3);
+        line.y.push_back(stress / 1e6);
+      }
+      plot.lines.push_back(std::move(line));
+    }
+  }
+  return plot;
+}
+
+}  // namespace dovetail::report

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <vector>
+
+#include "studies/report/plots/flank_map.hpp"
+#include "studies/report/plots/svg_plot.hpp"
+#include "studies/report/record/run_record.hpp"
+
+namespace dovetail::report {
+
+/// Largest finite magnitude, 0 when there is none.
+[[nodiscard]] double largest(const Numbers& values);
+/// Values in a unit of `si`.
+[[nodiscard]] Numbers scaled(const Numbers& values, double si);
+
+/// The two designs a figure compares; `before` null: only one design is shown. `after` is never null.
+struct Comparison {
+  const DesignRecord* before = nullptr;
+  const DesignRecord* after = nullptr;
+};
+
+/// A quantity of the contact nodes, flank by flank, for a map.
+[[nodiscard]] std::vector<FlankPanel> flank_panels(const ContactRecord& contact, const Numbers& values);
+
+/// The contact nodes spread along the slot too.
+[[nodiscard]] bool in_space(const ContactRecord& contact);
+/// Wear depth and pressure over the flanks of a joint in space; none in the plane.
+[[nodiscard]] std::vector<FlankMap> contact_maps(const DesignRecord& design);
+
+// Each plot is empty (is_empty) when the designs do not hold what it shows. Colours tell before from after; line
+// styles tell the rest.
+[[nodiscard]] Plot wear_depth_plot(const Comparison& designs);
+[[nodiscard]] Plot pressure_plot(const Comparison& designs);
+[[nodiscard]] Plot gap_plot(const Comparison& designs);
+/// Largest stress over a period along the fillets, of the side where it is larger.
+[[nodiscard]] Plot fillet_plot(const Comparison& designs);
+[[nodiscard]] Plot response_plot(const Comparison& designs);
+[[nodiscard]] Plot nodal_diameter_plot(const DesignRecord& design);
+[[nodiscard]] Plot history_plot(const DesignRecord& design);
+[[nodiscard]] Plot history_depth_plot(const DesignRecord& design);
+[[nodiscard]] Plot history_amplitude_plot(const DesignRecord& design);
+[[nodiscard]] Plot history_profile_plot(const DesignRecord& design);
+
+/// Worn profiles of a verified design over each other: history, direct method, search.
+[[nodiscard]] Plot verification_plot(const VerificationRecord& record);
+
+/// Objective over evaluations: feasible, infeasible and best so far.
+[[nodiscard]] Plot objective_plot(const RunRecord& record);
+/// One plot for each response that has limits: its value over evaluations with the limits as lines.
+[[nodiscard]] std::vector<Plot> limit_plots(const RunRecord& record);
+
+}  // namespace dovetail::report
