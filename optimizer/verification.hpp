@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "optimizer/evaluator.hpp"
-#include "optimizer/run.hpp"
 #include "wear/control.hpp"
 
 namespace dovetail::optimizer {

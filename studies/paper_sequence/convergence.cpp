@@ -7,8 +7,8 @@
 #include <numbers>
 #include <optional>
 
+#include "optimizer/candidate/stopwatch.hpp"
 #include "optimizer/evaluator.hpp"
-#include "optimizer/stopwatch.hpp"
 #include "studies/report/html.hpp"
 #include "studies/report/units.hpp"
 #include "wear/asymptote.hpp"

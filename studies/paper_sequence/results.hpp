@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "optimizer/scene.hpp"
+#include "optimizer/scene/scene.hpp"
 #include "studies/paper_sequence/convergence.hpp"
 #include "studies/report/run_record.hpp"
 

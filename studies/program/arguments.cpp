@@ -1,6 +1,6 @@
 #include "studies/program/arguments.hpp"
 
-#include "optimizer/evaluation_json.hpp"
+#include "optimizer/journal/evaluation_json.hpp"
 #include "studies/program/engine.hpp"
 #include "studies/program/export.hpp"
 #include "studies/program/refusal.hpp"

@@ -8,8 +8,8 @@
 #include "geometry/exports/layer.hpp"
 #include "geometry/exports/stl.hpp"
 #include "geometry/exports/svg.hpp"
-#include "geometry/solid_family.hpp"
-#include "optimizer/candidate_model.hpp"
+#include "geometry/solid/solid_family.hpp"
+#include "optimizer/candidate/candidate_model.hpp"
 #include "studies/program/export.hpp"
 #include "studies/program/refusal.hpp"
 

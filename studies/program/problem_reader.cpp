@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "optimizer/responses.hpp"
+#include "optimizer/scene/responses.hpp"
 
 namespace dovetail::studies {
 namespace {

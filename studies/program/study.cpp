@@ -4,7 +4,7 @@
 #include <array>
 #include <filesystem>
 
-#include "optimizer/responses.hpp"
+#include "optimizer/scene/responses.hpp"
 #include "studies/program/export.hpp"
 #include "studies/program/problem_reader.hpp"
 #include "studies/program/section_reader.hpp"

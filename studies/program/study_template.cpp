@@ -3,9 +3,9 @@
 #include <array>
 #include <utility>
 
-#include "optimizer/optimizer_options.hpp"
-#include "optimizer/responses.hpp"
-#include "optimizer/scene.hpp"
+#include "optimizer/problem/optimizer_options.hpp"
+#include "optimizer/scene/responses.hpp"
+#include "optimizer/scene/scene.hpp"
 #include "studies/program/export.hpp"
 
 namespace dovetail::studies {

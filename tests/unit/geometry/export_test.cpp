@@ -12,7 +12,7 @@
 #include "core/errors.hpp"
 #include "geometry/exports/dxf.hpp"
 #include "geometry/exports/svg.hpp"
-#include "geometry/measures.hpp"
+#include "geometry/profile/measures.hpp"
 
 namespace dovetail::geometry {
 namespace {

@@ -1,12 +1,12 @@
-#include "geometry/exact_section.hpp"
+#include "geometry/profile/exact_section.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "geometry/chain.hpp"
-#include "geometry/measures.hpp"
+#include "geometry/profile/chain.hpp"
+#include "geometry/profile/measures.hpp"
 
 namespace dovetail::geometry {
 namespace {

@@ -1,4 +1,4 @@
-#include "geometry/feasibility.hpp"
+#include "geometry/rules/feasibility.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 #include <random>
 #include <set>
 
-#include "geometry/exact_section.hpp"
-#include "geometry/measures.hpp"
+#include "geometry/profile/exact_section.hpp"
+#include "geometry/profile/measures.hpp"
 #include "tests/unit/geometry/random_design.hpp"
 
 namespace dovetail::geometry {

@@ -1,12 +1,12 @@
-#include "geometry/flank_fractions.hpp"
+#include "geometry/mesh/flank_fractions.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/contact_grid.hpp"
-#include "geometry/flank_form.hpp"
+#include "geometry/mesh/contact_grid.hpp"
+#include "geometry/profile/flank_form.hpp"
 
 namespace dovetail::geometry {
 namespace {

@@ -7,8 +7,8 @@
 #include "core/errors.hpp"
 #include "geometry/exports/inp.hpp"
 #include "geometry/exports/inp_layer.hpp"
-#include "geometry/flank_form.hpp"
-#include "geometry/mesh_motion.hpp"
+#include "geometry/mesh/mesh_motion.hpp"
+#include "geometry/profile/flank_form.hpp"
 
 namespace dovetail::geometry {
 namespace {

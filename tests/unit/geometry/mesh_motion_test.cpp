@@ -6,9 +6,9 @@
 #include <random>
 #include <vector>
 
-#include "geometry/elastic_motion.hpp"
-#include "geometry/flank_fractions.hpp"
-#include "geometry/mesh_motion.hpp"
+#include "geometry/mesh/elastic_motion.hpp"
+#include "geometry/mesh/flank_fractions.hpp"
+#include "geometry/mesh/mesh_motion.hpp"
 
 namespace dovetail::geometry {
 namespace {

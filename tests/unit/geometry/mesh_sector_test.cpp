@@ -8,10 +8,10 @@
 #include <set>
 
 #include "core/errors.hpp"
-#include "geometry/fillet_share.hpp"
-#include "geometry/flank_form.hpp"
-#include "geometry/flank_fractions.hpp"
-#include "geometry/mesh_motion.hpp"
+#include "geometry/mesh/flank_fractions.hpp"
+#include "geometry/mesh/mesh_motion.hpp"
+#include "geometry/profile/fillet_share.hpp"
+#include "geometry/profile/flank_form.hpp"
 #include "mesh_checks.hpp"
 
 namespace dovetail::geometry {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <random>
 
-#include "geometry/exact_section.hpp"
-#include "geometry/flank_form.hpp"
-#include "geometry/measures.hpp"
+#include "geometry/profile/exact_section.hpp"
+#include "geometry/profile/flank_form.hpp"
+#include "geometry/profile/measures.hpp"
 #include "tests/unit/geometry/random_design.hpp"
 
 namespace dovetail::geometry {

@@ -1,4 +1,4 @@
-#include "geometry/profile.hpp"
+#include "geometry/profile/profile.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
-#include "geometry/chain.hpp"
-#include "geometry/measures.hpp"
+#include "geometry/profile/chain.hpp"
+#include "geometry/profile/measures.hpp"
 #include "tests/unit/geometry/random_design.hpp"
 
 namespace dovetail::geometry {

@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "geometry/parameters.hpp"
+#include "geometry/profile/parameters.hpp"
 
 namespace dovetail::geometry {
 

@@ -1,4 +1,4 @@
-#include "geometry/solid_family.hpp"
+#include "geometry/solid/solid_family.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <functional>
 #include <random>
 
-#include "geometry/solid_rules.hpp"
+#include "geometry/rules/solid_rules.hpp"
 #include "tests/unit/geometry/random_design.hpp"
 #include "tests/unit/geometry/solid_checks.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "geometry/solid_flank.hpp"
+#include "geometry/solid/solid_flank.hpp"
 #include "tests/unit/geometry/solid_checks.hpp"
 
 namespace dovetail::geometry {

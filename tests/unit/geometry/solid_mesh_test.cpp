@@ -8,10 +8,10 @@
 #include <set>
 
 #include "fem/element.hpp"
-#include "geometry/flank_fractions.hpp"
-#include "geometry/solid_flank.hpp"
-#include "geometry/solid_measures.hpp"
-#include "geometry/solid_rules.hpp"
+#include "geometry/mesh/flank_fractions.hpp"
+#include "geometry/rules/solid_rules.hpp"
+#include "geometry/solid/solid_flank.hpp"
+#include "geometry/solid/solid_measures.hpp"
 #include "tests/unit/geometry/solid_checks.hpp"
 
 namespace dovetail::geometry {

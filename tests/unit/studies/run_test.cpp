@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "core/replace_file.hpp"
-#include "optimizer/journal.hpp"
+#include "optimizer/journal/journal.hpp"
 #include "studies/program/commands.hpp"
 #include "studies/program/interrupt.hpp"
 #include "studies/report/results_file.hpp"

@@ -1,4 +1,4 @@
-#include "optimizer/scene.hpp"
+#include "optimizer/scene/scene.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "fem/stress_aggregate.hpp"
-#include "geometry/contact_grid.hpp"
-#include "geometry/flank_form.hpp"
-#include "geometry/flank_fractions.hpp"
+#include "geometry/mesh/contact_grid.hpp"
+#include "geometry/mesh/flank_fractions.hpp"
+#include "geometry/profile/flank_form.hpp"
 #include "reduction/static_condensation.hpp"
 #include "steady/preload.hpp"
 #include "tests/unit/fem/structured_mesh.hpp"

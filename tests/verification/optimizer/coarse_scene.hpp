@@ -1,6 +1,6 @@
 #pragma once
 
-#include "optimizer/scene.hpp"
+#include "optimizer/scene/scene.hpp"
 
 namespace dovetail::optimizer {
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "optimizer/problem.hpp"
+#include "optimizer/problem/problem.hpp"
 #include "paths/steady_state.hpp"
 #include "tests/unit/reduction/stiffness_error.hpp"
 #include "tests/verification/optimizer/coarse_scene.hpp"

@@ -1,4 +1,4 @@
-#include "optimizer/fillet_stress.hpp"
+#include "optimizer/candidate/fillet_stress.hpp"
 
 #include <gtest/gtest.h>
 

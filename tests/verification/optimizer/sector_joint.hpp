@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "optimizer/candidate_model.hpp"
+#include "optimizer/candidate/candidate_model.hpp"
 
 namespace dovetail::optimizer::testing {
 
