@@ -31,9 +31,9 @@ Zone rounding_zone(const FlankParameters& flank, double length) {
 
 std::vector<Zone> zones(const ProfileParameters& reference, double grading) {
   std::vector<Zone> found;
-  const double length = (reference.left.length + reference.right.length) / 2;
-  for (const FlankParameters* flank : {&reference.left, &reference.right})
-    if (flank->edge_radius > 0) found.push_back(rounding_zone(*flank, length));
+  const double length = reference.mean(&FlankParameters::length);
+  for (const FlankParameters& flank : reference.flanks)
+    if (flank.edge_radius > 0) found.push_back(rounding_zone(flank, length));
   if (found.empty()) found.push_back({.from = 0, .to = 0, .core = 0.5 / (grading - 1)});
   return found;
 }
@@ -74,7 +74,8 @@ std::vector<double> bounded_integral(const std::vector<Zone>& zones) {
 
 std::vector<double> flank_fractions(const ProfileParameters& reference, const MeshSizes& sizes) {
   const int parts = sizes.flank_elements;
-  const bool rounded = reference.left.edge_radius > 0 || reference.right.edge_radius > 0;
+  const bool rounded =
+      std::ranges::any_of(reference.flanks, [](const FlankParameters& f) { return f.edge_radius > 0; });
   if (!rounded && sizes.flank_grading == 1) return equal_fractions(parts);
   std::vector<Zone> wanted = zones(reference, sizes.flank_grading);
   const auto integrated = [&] {

@@ -13,10 +13,13 @@
 namespace dovetail::geometry {
 namespace {
 
-/// The design whose two flanks are the mean of the given ones: mirror-symmetric.
+/// The design whose flanks are the mean of the given ones: mirror-symmetric.
 ProfileParameters symmetric(ProfileParameters p) {
-  p.left.angle = p.right.angle = (p.left.angle + p.right.angle) / 2;
-  p.left.length = p.right.length = (p.left.length + p.right.length) / 2;
+  const double angle = p.mean(&FlankParameters::angle), length = p.mean(&FlankParameters::length);
+  for (FlankParameters& flank : p.flanks) {
+    flank.angle = angle;
+    flank.length = length;
+  }
   return p;
 }
 

@@ -40,8 +40,7 @@ SectorTopology::SectorTopology(const CornerMesh& blade, const CornerMesh& disk, 
   blade_ = add_body(blade, profile.blade, 0);
   disk_ = add_body(disk, profile.disk, 2);
   flank_fractions_ = blade.fractions[position(profile.blade, "flank_left")];
-  add_flank("left", profile);
-  add_flank("right", profile);
+  for (const FlankPlace& place : kFlanks) add_flank(place, profile);
 
   const std::vector<int> left = reversed(disk_.along[position(profile.disk, "cut_left")]);
   const std::vector<int>& right = disk_.along[position(profile.disk, "cut_right")];
@@ -94,19 +93,18 @@ SectorTopology::Body SectorTopology::add_body(const CornerMesh& corners, const C
   return body;
 }
 
-void SectorTopology::add_flank(const char* side, const Profile& profile) {
-  const std::string name = std::string("flank_") + side;
+void SectorTopology::add_flank(const FlankPlace& place, const Profile& profile) {
+  const std::string name = "flank_" + std::string(place.name);
   std::vector<int> blade = blade_.along[position(profile.blade, name)];
   std::vector<int> disk = disk_.along[position(profile.disk, name)];
   assert(blade.size() == disk.size());
   // With material on the left, the blade's left flank runs from neck to root; the other three follow from that.
-  const bool left = name == "flank_left";
-  if (left)
+  if (place.left)
     disk = reversed(std::move(disk));
   else
     blade = reversed(std::move(blade));
   fem::Flank flank;
-  flank.name = side;
+  flank.name = place.name;
   for (std::size_t k = 0; k < blade.size(); ++k) flank.pairs.push_back({blade[k], disk[k]});
   sector_.flanks.push_back(std::move(flank));
 }
@@ -169,14 +167,15 @@ fem::SectorMesh SectorTopology::place(const Profile& profile, const ProfileParam
   share_fillets(profile, sector);
 
   const std::vector<double> pairs = with_middles(flank_fractions_);
-  for (fem::Flank& flank : sector.flanks) {
-    const bool left = flank.name == "left";
+  for (std::size_t f = 0; f < kFlanks.size(); ++f) {
+    fem::Flank& flank = sector.flanks[f];
     const Vector2d along = sector.mesh.nodes.col(flank.pairs.back()[0]) - sector.mesh.nodes.col(flank.pairs.front()[0]);
     flank.tangents = along.normalized();
-    flank.normal = left ? Vector2d(along.y(), -along.x()).normalized() : Vector2d(-along.y(), along.x()).normalized();
+    flank.normal =
+        kFlanks[f].left ? Vector2d(along.y(), -along.x()).normalized() : Vector2d(-along.y(), along.x()).normalized();
     flank.grid = {static_cast<int>(flank_fractions_.size()), 1};
     flank.interpolation = bilinear_interpolation(flank_fractions_, {0}, pairs, {0});
-    const FlankForm form(left ? parameters.left : parameters.right);
+    const FlankForm form(parameters.flanks[f]);
     flank.position.resize(2, flank.contact_count());
     flank.gap.resize(flank.contact_count());
     for (std::size_t k = 0; k < flank_fractions_.size(); ++k) {

@@ -44,7 +44,7 @@ class SectorTopology {
   };
 
   Body add_body(const CornerMesh& corners, const Chain& chain, int regions_before);
-  void add_flank(const char* side, const Profile& profile);
+  void add_flank(const FlankPlace& place, const Profile& profile);
   void share_fillets(const Profile& profile, fem::SectorMesh& sector) const;
 
   Body blade_, disk_;

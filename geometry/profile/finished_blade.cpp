@@ -102,8 +102,8 @@ void finish(Chain& blade, const std::string& name, const FlankForm& form, bool f
 
 Chain finished_blade(const ProfileParameters& parameters) {
   Chain blade = build_profile(parameters).blade;
-  finish(blade, "flank_right", FlankForm(parameters.right), true);
-  finish(blade, "flank_left", FlankForm(parameters.left), false);
+  for (std::size_t f = 0; f < kFlanks.size(); ++f)
+    finish(blade, "flank_" + std::string(kFlanks[f].name), FlankForm(parameters.flanks[f]), !kFlanks[f].left);
   return blade;
 }
 

@@ -110,8 +110,8 @@ Measures measure(const Profile& profile, const ProfileParameters& parameters) {
   Measures m{};
   m.neck_straight = {along(blade("neck_left"), {0, -1}), along(blade("neck_right"), {0, 1})};
   m.mouth_straight = {along(disk("mouth_left"), {0, 1}), along(disk("mouth_right"), {0, -1})};
-  m.runout = {along(disk("runout_left"), runout_direction(parameters.left, -1)),
-              along(disk("runout_right"), runout_direction(parameters.right, 1))};
+  m.runout = {along(disk("runout_left"), runout_direction(parameters.flank("left"), -1)),
+              along(disk("runout_right"), runout_direction(parameters.flank("right"), 1))};
   m.slot_to_cut = {to_cut_fillet(disk("slot_fillet_left"), -1), to_cut_fillet(disk("slot_fillet_right"), 1)};
   m.mouth_to_cut = {to_cut(disk("mouth_left").end), to_cut(disk("mouth_right").start)};
   m.post = m.slot_to_cut[0] + m.slot_to_cut[1];

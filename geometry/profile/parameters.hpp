@@ -1,10 +1,30 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <functional>
+#include <string_view>
+
 #include "core/options.hpp"
 
 namespace dovetail::geometry {
 
-/// Dimensions of one bearing flank (left and right may differ).
+/// A bearing flank of the section. Its section in a study file is [geometry.NAME], its edges end with _NAME.
+struct FlankPlace {
+  std::string_view name;
+  bool left;  ///< of the blade's centre line
+};
+/// All of them, in the order of ProfileParameters::flanks and of the flanks of meshes.
+inline constexpr std::array kFlanks{FlankPlace{"left", true}, FlankPlace{"right", false}};
+/// Index of the flank of that name. Asserts that there is one.
+[[nodiscard]] inline std::size_t flank_index(std::string_view name) {
+  const auto place = std::ranges::find(kFlanks, name, &FlankPlace::name);
+  assert(place != kFlanks.end());
+  return static_cast<std::size_t>(place - kFlanks.begin());
+}
+
+/// Dimensions of one bearing flank; those of others may differ.
 struct FlankParameters {
   double angle = 0.8726646259971648;  ///< between flank and radial direction, rad
   double length = 5.5e-3;             ///< straight part, m
@@ -38,7 +58,17 @@ struct ProfileParameters {
   double aerofoil_tip_thickness = 3e-3;
   double chord = 40e-3;        ///< thickness of the aerofoil region out of the plane
   double slot_length = 40e-3;  ///< thickness of blade root and disk out of the plane
-  FlankParameters left, right;
+  std::array<FlankParameters, kFlanks.size()> flanks;
+
+  [[nodiscard]] const FlankParameters& flank(std::string_view name) const { return flanks[flank_index(name)]; }
+  [[nodiscard]] FlankParameters& flank(std::string_view name) { return flanks[flank_index(name)]; }
+  /// Mean over the flanks of a member or a function of them.
+  template <class Of>
+  [[nodiscard]] double mean(Of&& of) const {
+    double sum = 0;
+    for (const FlankParameters& flank : flanks) sum += std::invoke(of, flank);
+    return sum / static_cast<double>(flanks.size());
+  }
 };
 
 /// Rules a design has to keep besides fitting together.

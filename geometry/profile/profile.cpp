@@ -24,9 +24,9 @@ double flank_rise(const ProfileParameters& p, const FlankParameters& f) {
 }
 
 Levels levels(const ProfileParameters& p) {
-  const double mean_sine = (std::sin(p.left.angle) + std::sin(p.right.angle)) / 2;
+  const double mean_sine = p.mean([](const FlankParameters& f) { return std::sin(f.angle); });
   const double flank_top = p.rim_radius - p.lobe_depth;
-  const double bottom = flank_top - (flank_rise(p, p.left) + flank_rise(p, p.right)) / 2;
+  const double bottom = flank_top - p.mean([&](const FlankParameters& f) { return flank_rise(p, f); });
   return {.root_bottom = bottom,
           .slot_floor = bottom - p.bottom_clearance - (p.slot_fillet_radius - p.root_corner_radius) * (1 + mean_sine),
           .neck_top = flank_top + p.neck_fillet_radius * mean_sine + p.neck_height};
@@ -123,11 +123,12 @@ Vector2d mirrored(const Vector2d& at) {
 
 void check(const ProfileParameters& p) {
   std::vector<Violation> found = violations(p, "geometry");
-  for (const auto& [flank, name] : {std::pair{&p.left, "left"}, std::pair{&p.right, "right"}})
-    for (Violation& violation : violations(*flank, std::string("geometry.") + name)) found.push_back(violation);
+  for (std::size_t f = 0; f < kFlanks.size(); ++f)
+    for (Violation& violation : violations(p.flanks[f], "geometry." + std::string(kFlanks[f].name)))
+      found.push_back(violation);
   if (!found.empty()) throw InputError(std::move(found));
-  for (const FlankParameters* f : {&p.left, &p.right}) {
-    const double mouth = p.neck_width / 2 + (p.neck_fillet_radius - p.lobe_radius) * (1 - std::cos(f->angle));
+  for (const FlankParameters& f : p.flanks) {
+    const double mouth = p.neck_width / 2 + (p.neck_fillet_radius - p.lobe_radius) * (1 - std::cos(f.angle));
     if (std::abs(mouth) >= p.rim_radius)
       throw InputError({.file = {},
                         .key = "geometry.rim_radius_mm",
@@ -143,13 +144,13 @@ Profile build_profile(const ProfileParameters& parameters) {
   const Levels level = levels(parameters);
   Profile profile;
 
-  Chain right = blade_side(parameters, parameters.right, level);
-  Chain left = blade_side(parameters, parameters.left, level);
+  Chain right = blade_side(parameters, parameters.flank("right"), level);
+  Chain left = blade_side(parameters, parameters.flank("left"), level);
   Edge first = line("root_bottom", mirrored(left.front().start), right.front().start);
   profile.blade = closed(std::move(first), std::move(right), std::move(left), "tip");
 
-  right = disk_side(parameters, parameters.right, level);
-  left = disk_side(parameters, parameters.left, level);
+  right = disk_side(parameters, parameters.flank("right"), level);
+  left = disk_side(parameters, parameters.flank("left"), level);
   first = arc("bore", mirrored(left.front().start), right.front().start, Vector2d(0, 0), -2 * kPi / parameters.sectors);
   profile.disk = closed(std::move(first), std::move(right), std::move(left), "slot_floor");
   return profile;

@@ -72,7 +72,7 @@ Feasibility check_feasibility(const ProfileParameters& parameters, const Feasibi
   } else {
     const double overlap = overlap_area(profile.blade, profile.disk);
     result.overlap_area = overlap > kOverlapNoise ? overlap : 0;
-    result.rules.push_back(overlap_rule(result.overlap_area, parameters.left.length + parameters.right.length));
+    result.rules.push_back(overlap_rule(result.overlap_area, 2 * parameters.mean(&FlankParameters::length)));
   }
   result.feasible = all_kept(result.rules);
   return result;

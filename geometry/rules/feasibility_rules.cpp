@@ -93,8 +93,8 @@ std::vector<Rule> closed_form_rules(const ProfileParameters& parameters, const F
   fits(rules, m);
   clearances(rules, m);
   radii(rules, parameters, limits.minimum_cutter_radius);
-  flank(rules, parameters.left, "left", limits.friction);
-  flank(rules, parameters.right, "right", limits.friction);
+  for (std::size_t f = 0; f < kFlanks.size(); ++f)
+    flank(rules, parameters.flanks[f], std::string(kFlanks[f].name), limits.friction);
   return rules.take();
 }
 

@@ -27,8 +27,12 @@ class RuleList {
   [[nodiscard]] std::vector<Rule> take() { return std::move(rules_); }
 
  private:
-  void add(std::string name, const std::string& what, double value, double bound, const std::string& of_what,
-           const char* unit, double margin);
+  /// What a sentence says of a rule.
+  struct Shown {
+    double value, bound;
+    const char* unit;
+  };
+  void add(std::string name, const std::string& what, const Shown& shown, const std::string& of_what, double margin);
 
   std::vector<Rule> rules_;
 };

@@ -105,9 +105,7 @@ MeshedSector swept(const SolidReference& reference, MeshedSector plane, const Pr
   mesh.nodes.resize(3, count * static_cast<Eigen::Index>(heights.size()));
   for (std::size_t l = 0; l < heights.size(); ++l)
     mesh.nodes.middleCols(count * static_cast<Eigen::Index>(l), count) = sweep.at(heights[l]);
-  for (std::size_t f = 0; f < result.sector.flanks.size(); ++f)
-    lay_contact(result.sector.flanks[f], plane.sector.flanks[f], reference.section->topology.flank_fractions(), mesh,
-                parameters, solid, sizes);
+  lay_contact(result.sector, plane.sector, reference.section->topology.flank_fractions(), parameters, solid, sizes);
   result.quality = assess(mesh);
   result.note = plane.note + " Its sweep: " + figures(result.quality) + ".";
   return result;

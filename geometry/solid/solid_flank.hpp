@@ -40,12 +40,11 @@ class SolidFlankForm {
   FlankForm across_, along_;
 };
 
-/// Fills what solid_layers left of a flank whose nodes are placed: directions (slot_sweep.hpp), the contact grid with
-/// its positions and gaps, and the interpolation. Contact nodes divide the flank like the mesh's edges across the slot
-/// and like the layers of elements along it; sizes of 0 give the mesh's own corner nodes. `section`: the plane flank,
-/// whose pairs go from neck to root side, corners (at `fractions`) and mid-sides in turn.
-void lay_contact(fem::Flank& flank, const fem::Flank& section, const std::vector<double>& fractions,
-                 const fem::Mesh& mesh, const ProfileParameters& parameters, const SolidParameters& solid,
-                 const SolidSizes& sizes);
+/// Fills what solid_layers left of the flanks, whose nodes are placed: directions (slot_sweep.hpp), the contact grid
+/// with its positions and gaps, and the interpolation. Contact nodes divide a flank like the mesh's edges across the
+/// slot and like the layers of elements along it; sizes of 0 give the mesh's own corner nodes. `plane`: the section, on
+/// whose flanks pairs go from neck to root side, corners (at `fractions`) and mid-sides in turn.
+void lay_contact(fem::SectorMesh& sector, const fem::SectorMesh& plane, const std::vector<double>& fractions,
+                 const ProfileParameters& parameters, const SolidParameters& solid, const SolidSizes& sizes);
 
 }  // namespace dovetail::geometry

@@ -47,7 +47,7 @@ const ResponseName* find_response(std::string_view name) {
 }
 
 std::vector<std::string> responses_without_limit(const Scene& scene) {
-  const bool sharp = scene.geometry.left.edge_radius == 0 || scene.geometry.right.edge_radius == 0;
+  const bool sharp = scene.geometry.flank("left").edge_radius == 0 || scene.geometry.flank("right").edge_radius == 0;
   // How well a mesh in space resolves rough flanks at their corners has not been measured.
   const bool rough = scene.contact.normal_stiffness > 0 && !scene.in_space();
   return sharp && !rough ? std::vector<std::string>{"contact_pressure_max_pa"} : std::vector<std::string>{};

@@ -138,7 +138,7 @@ std::map<std::string, double> parameters(const Scene& scene) {
         continue;
       const double value = number(object, field);
       if constexpr (std::is_same_v<S, geometry::FlankParameters>) {
-        if (number(scene.geometry.left, field) == number(scene.geometry.right, field)) {
+        if (number(scene.geometry.flank("left"), field) == number(scene.geometry.flank("right"), field)) {
           values[joined(kBothFlanks, field.key)] = value;
           continue;
         }

@@ -64,7 +64,7 @@ struct Scene {
   [[nodiscard]] bool in_space() const { return type == "sector"; }
   /// Of the flank with this index in meshes and contact cells.
   [[nodiscard]] const geometry::FlankParameters& flank(std::size_t index) const {
-    return index == 0 ? geometry.left : geometry.right;
+    return index == 0 ? geometry.flank("left") : geometry.flank("right");
   }
 };
 
@@ -150,8 +150,8 @@ void visit_tables(AnyScene& scene, Visitor&& visit) {
   visit("scene", scene.loading, scene_loading_fields());
   visit("geometry", scene.geometry, option_table<geometry::ProfileParameters>());
   visit("geometry", scene.solid, option_table<geometry::SolidParameters>());
-  visit("geometry.left", scene.geometry.left, option_table<geometry::FlankParameters>());
-  visit("geometry.right", scene.geometry.right, option_table<geometry::FlankParameters>());
+  visit("geometry.left", scene.geometry.flank("left"), option_table<geometry::FlankParameters>());
+  visit("geometry.right", scene.geometry.flank("right"), option_table<geometry::FlankParameters>());
   visit("limits", scene.limits, option_table<geometry::FeasibilityLimits>());
   visit("material.blade", scene.blade, option_table<fem::Material>());
   visit("material.disk", scene.disk, option_table<fem::Material>());

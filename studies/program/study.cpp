@@ -33,11 +33,11 @@ void read_flanks(SectionReader& geometry, optimizer::Scene& scene, Problems& pro
   const auto table = option_table<FlankParameters>();
   FlankParameters both;
   geometry.fields(both, table, false);
-  scene.geometry.left = scene.geometry.right = both;
+  scene.geometry.flank("left") = scene.geometry.flank("right") = both;
   SectionReader left(geometry.take("left"), geometry.path("left"), problems);
   SectionReader right(geometry.take("right"), geometry.path("right"), problems);
-  left.fields(scene.geometry.left, table, false);
-  right.fields(scene.geometry.right, table, false);
+  left.fields(scene.geometry.flank("left"), table, false);
+  right.fields(scene.geometry.flank("right"), table, false);
   for (const Field<FlankParameters>& field : table) {
     const std::string key(field.key);
     const auto given = [&](const SectionReader& section) { return section.node() && section.node()->find(key); };

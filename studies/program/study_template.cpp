@@ -80,7 +80,7 @@ std::string scene_sections() {
   text += "\n# What only a sector in space has; a plane section leaves it aside.\n";
   text += lines(scene.solid, option_table<geometry::SolidParameters>());
   text += "\n# Both flanks; a section [geometry.left] or [geometry.right] with the same keys overrides one of them.\n";
-  text += lines(scene.geometry.left, flanks);
+  text += lines(scene.geometry.flank("left"), flanks);
   text += header("limits", "Rules every design has to keep besides fitting together.");
   text += lines(scene.limits, option_table<geometry::FeasibilityLimits>());
   text += header("material.blade",

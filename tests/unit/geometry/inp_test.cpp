@@ -71,7 +71,7 @@ TEST(InputDeck, LeavesTheFaceCentresOfWedgesOut) {
 
 TEST(InputDeck, SetsTheBladeBackByTheGapWhenItsFlanksAreInContact) {
   ProfileParameters parameters;
-  parameters.left.mismatch = 20e-6;
+  parameters.flank("left").mismatch = 20e-6;
   const fem::SectorMesh sector = section(parameters);
   const std::map<int, Eigen::Vector3d> glued = nodes_of(inp(sector, kMaterials));
   const std::string deck = inp(sector, kMaterials, {.joint = FlankJoint::contact, .friction = 0.4});

@@ -25,10 +25,10 @@ TEST(Scene, DefaultsAreValid) {
 TEST(Scene, AFlankKeySetsBothFlanksOrOne) {
   Scene scene;
   set_parameter(scene, "geometry.flank_angle_deg", 48);
-  EXPECT_EQ(scene.geometry.left.angle, scene.geometry.right.angle);
+  EXPECT_EQ(scene.geometry.flank("left").angle, scene.geometry.flank("right").angle);
   EXPECT_EQ(parameters(scene).count("geometry.left.flank_angle_deg"), 0U);
   set_parameter(scene, "geometry.right.flank_angle_deg", 52);
-  EXPECT_DOUBLE_EQ(scene.geometry.left.angle, 48 * std::numbers::pi / 180);
+  EXPECT_DOUBLE_EQ(scene.geometry.flank("left").angle, 48 * std::numbers::pi / 180);
   EXPECT_EQ(parameters(scene).at("geometry.right.flank_angle_deg"), 52);
   EXPECT_EQ(parameters(scene).count("geometry.flank_angle_deg"), 0U);
 }

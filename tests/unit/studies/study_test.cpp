@@ -65,7 +65,7 @@ TEST(Study, WarnsOfAResponseWithoutLimit) {
   ASSERT_EQ(sharp.size(), 1U);
   EXPECT_THAT(sharp.front(), HasSubstr("contact_pressure_max_pa"));
   Study rounded = read(sample() + limit);
-  rounded.scene.geometry.left.edge_radius = rounded.scene.geometry.right.edge_radius = 5e-3;
+  rounded.scene.geometry.flank("left").edge_radius = rounded.scene.geometry.flank("right").edge_radius = 5e-3;
   // A limit that only a fine mesh sees.
   ASSERT_EQ(warnings(rounded).size(), 1U);
   EXPECT_THAT(warnings(rounded).front(), testing::HasSubstr("look at its error bar"));
@@ -211,11 +211,11 @@ TEST(Study, AContactGridFinerThanTheMeshIsRefused) {
 
 TEST(Study, FlankKeysSetBothSidesAndOneSideOverrides) {
   const Study study = read(sample() + "\n[geometry.left]\nflank_angle_deg = 48.0\n");
-  EXPECT_DOUBLE_EQ(study.scene.geometry.left.angle, 48 * std::numbers::pi / 180);
-  EXPECT_DOUBLE_EQ(study.scene.geometry.right.angle, 50 * std::numbers::pi / 180);
+  EXPECT_DOUBLE_EQ(study.scene.geometry.flank("left").angle, 48 * std::numbers::pi / 180);
+  EXPECT_DOUBLE_EQ(study.scene.geometry.flank("right").angle, 50 * std::numbers::pi / 180);
   const std::string both_sides = "[geometry.left]\nflank_angle_deg = 48\n[geometry.right]\nflank_angle_deg = 52\n";
   const Study split = read(without(sample(), "flank_angle_deg") + both_sides);
-  EXPECT_DOUBLE_EQ(split.scene.geometry.right.angle, 52 * std::numbers::pi / 180);
+  EXPECT_DOUBLE_EQ(split.scene.geometry.flank("right").angle, 52 * std::numbers::pi / 180);
   EXPECT_THAT(complaints(without(sample(), "flank_angle_deg") + "[geometry.left]\nflank_angle_deg = 48\n"),
               HasSubstr("geometry.flank_angle_deg: is missing"));
 }
