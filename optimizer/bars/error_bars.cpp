@@ -24,31 +24,6 @@ namespace {
 
 constexpr double kGridRatio = 1.5;
 
-// The orders were chosen while looking at random designs against meshes four times as fine (studies/error_bars, seeds
-// 1 and 2; in space seed 3).
-double mesh_order(const std::string& response, bool in_space) {
-  const bool fillet = response.ends_with("_fillet_stress_pa");
-  if (in_space) {
-    // Two or three elements on a fillet are too few for the order of finer meshes.
-    if (fillet || response == "contact_pressure_mean_pa" || response == "neck_tension_pa") return 1.5;
-    if (response == "glued_frequency_hz" || response.ends_with("resonance_hz")) return 2.5;
-  }
-  // Forces that follow from equilibrium know of the mesh only through its quadratic arcs.
-  if (response == "contact_pressure_mean_pa" || response == "neck_tension_pa") return 2;
-  // Stresses of fillets, for which what the free surface says of them counts besides.
-  if (fillet) return 2.8;
-  if (response == "peak_stress_pa") return 1.3;
-  // Most of the worn joint bears on its inner parts.
-  if (response == "resonance_drift") return 2.5;
-  if (response == "asymptotic_wear_depth_max_m") return 2;
-  // Slip next to the sharp ends of flanks, and the wear that comes of it.
-  if (response == "dissipated_energy_j" || response == "initial_wear_rate_m3_per_cycle" ||
-      response == "peak_amplitude_m")
-    return 1.6;
-  // Frequencies, worn amplitude and volume.
-  return 1.5;
-}
-
 /// Of what nodes 1.5 times as long on the same mesh change. `again`: the part that counts of it.
 Factor grid_factor(double again) {
   return [again](const std::string& response) {
@@ -122,8 +97,8 @@ class ErrorBarSources {
       const double ratio = static_cast<double>(scene_.mesh.flank_elements) / there.mesh.flank_elements;
       answers_.push_back(companion(there, on_it.build(there), as_here_));
       if (finer_ || ratio == 1) continue;  // 1: a mesh that is as large as meshes may be
-      meshes.push_back({&answers_.back(), [ratio, in_space = scene_.in_space()](const std::string& response) {
-                          return left_over(mesh_order(response, in_space), ratio);
+      meshes.push_back({&answers_.back(), [ratio, order = scene_.kind->mesh_order](const std::string& response) {
+                          return left_over(order(response), ratio);
                         }});
       finer_ = ratio < 1 && answers_.back().converged();
     }
@@ -133,7 +108,9 @@ class ErrorBarSources {
       Computation how;
       how.wear = false;
       const Evaluation finer = companion(scene_, on_it->build(resized_section(scene_, kRatio)), how);
-      const Factor factor = [](const std::string& name) { return left_over(mesh_order(name, true), kRatio); };
+      const Factor factor = [this](const std::string& name) {
+        return left_over(scene_.kind->mesh_order(name), kRatio);
+      };
       bars_.add("mesh", {{&finer, factor}}, result_.evaluation);
     }
   }
@@ -176,12 +153,12 @@ class ErrorBarSources {
   }
 
   /// What the other settings leave hardly depends on the mesh: it is asked where a design costs least, and where that
-  /// has no answer on a finer one. In space a coarser mesh has two or three cells in a worn zone, which come and go
-  /// with the harmonics.
+  /// has no answer on a finer one.
   void ask_settings() {
     std::vector<Base> bases;
     for (std::size_t i = 0; i < answers_.size(); ++i)
-      if (const auto& [ratio, on_it] = others_.meshes()[i]; ratio > 1 && answers_[i].converged() && !scene_.in_space())
+      if (const auto& [ratio, on_it] = others_.meshes()[i];
+          ratio > 1 && answers_[i].converged() && scene_.kind->coarse_answers)
         bases.push_back({&on_it, resized(scene_, ratio), &answers_[i], {}});
     bases.push_back({&builder_, scene_, &result_.evaluation, result_.model});
     // Contact nodes of a study have no mass.

@@ -7,8 +7,8 @@
 
 namespace dovetail::optimizer {
 
-/// The design's scene on another mesh: all sizes `ratio` times as large. In space those of the flanks, the layers and
-/// the aerofoil: the rest of the section is as coarse as elements of the sweep allow.
+/// The design's scene on another mesh: all sizes that the kind of the scene lets another mesh change `ratio` times as
+/// large.
 [[nodiscard]] Scene resized(Scene scene, double ratio);
 
 /// The design on a mesh whose elements in the section, but for those along the flanks, are `ratio` times as large.
@@ -17,17 +17,16 @@ namespace dovetail::optimizer {
 /// Makes the models of a study's designs on the other meshes that error bars are asked of.
 class OtherMeshes {
  public:
-  static constexpr double kSectionRatio = 1 / 1.5;  ///< of the finer section in space
+  static constexpr double kSectionRatio = 1 / 1.5;  ///< of the finer section
   struct Mesh {
     double ratio;  ///< of the sizes of its elements to those of the design's own
     ModelBuilder builder;
   };
 
   explicit OtherMeshes(const Scene& reference);
-  /// In the plane a finer one and a coarser one, in the order in which the error by the mesh is asked for; in space,
-  /// where a finer one would cost more than all else, two coarser ones.
+  /// Those of the scene's kind, in the order in which the error by the mesh is asked for.
   [[nodiscard]] const std::vector<Mesh>& meshes() const { return meshes_; }
-  /// In space, where those do not resize the section beside the flanks: one that has it finer. Else null.
+  /// Where those do not resize the section beside the flanks: one that has it finer. Else null.
   [[nodiscard]] const ModelBuilder* finer_section() const { return finer_section_ ? &*finer_section_ : nullptr; }
 
  private:

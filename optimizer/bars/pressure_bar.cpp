@@ -29,7 +29,7 @@ double node_at_peak(const Scene& scene, const CandidateResult& result) {
   const auto node = static_cast<std::size_t>(at_peak);
   for (const fem::CellStrip& strip : result.model.cells.strips()) {
     if (node < strip.first || node >= strip.first + strip.count()) continue;
-    const geometry::FlankParameters& form = scene.flank(strip.flank);
+    const geometry::FlankParameters& form = scene.geometry.flanks[strip.flank];
     const double rounded =
         std::max(geometry::rounded_length(form.edge_radius), roughness > 0 ? 1 / (roughness * compliance) : 0);
     const double beside = kBeside * rounded / form.length;

@@ -27,8 +27,8 @@ std::vector<EndNode> end_nodes(const Scene& scene, const CandidateResult& result
     while (low < high && !nodes[strip.first + low].carries_load) ++low;
     while (low < high && !nodes[strip.first + high].carries_load) --high;
     for (const std::size_t end : {low, high})
-      found.push_back(
-          {.node = strip.first + end, .half_length = strip.length(end) * scene.flank(strip.flank).length / 2});
+      found.push_back({.node = strip.first + end,
+                       .half_length = strip.length(end) * scene.geometry.flanks[strip.flank].length / 2});
   }
   return found;
 }

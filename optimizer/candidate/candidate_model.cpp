@@ -5,7 +5,6 @@
 
 #include "fem/flank_trace.hpp"
 #include "fem/stress.hpp"
-#include "geometry/rules/solid_rules.hpp"
 #include "optimizer/candidate/cell_grid.hpp"
 #include "optimizer/candidate/stopwatch.hpp"
 #include "reduction/rough_interface.hpp"
@@ -86,12 +85,10 @@ Status geometric_stiffness(const Scene& scene, const CandidateModel& candidate, 
   return Status::converged;
 }
 
-/// The rules of the section, and in space those of the solid.
 geometry::Feasibility feasibility_of(const Scene& scene) {
   geometry::FeasibilityLimits limits = scene.limits;
   limits.friction = scene.contact.friction;
-  return scene.in_space() ? geometry::check_feasibility(scene.geometry, scene.solid, limits)
-                          : geometry::check_feasibility(scene.geometry, limits);
+  return scene.kind->feasibility(scene, limits);
 }
 
 std::string first_broken(const geometry::Feasibility& feasibility, std::vector<std::string>& messages) {
@@ -120,10 +117,6 @@ std::map<std::string, double> sizes_of(const Scene& scene, const CandidateModel&
 }
 
 }  // namespace
-
-std::vector<fem::Material> materials(const Scene& scene) {
-  return {scene.blade, scene.disk};
-}
 
 SharedBudget new_budget(const SolverSettings& solver, const CandidateModel& candidate, double times) {
   return std::make_shared<Budget>(
@@ -157,24 +150,18 @@ void lay_contact(const Scene& scene, const std::vector<fem::FlankCells>& flanks,
   candidate.condensed = std::make_shared<const dynamics::CondensedModel>(candidate.model);
 }
 
-ModelBuilder::ModelBuilder(const Scene& reference) : sizes_(reference.mesh), solid_sizes_(reference.solid_mesh) {
+ModelBuilder::ModelBuilder(const Scene& reference) {
   if (std::vector<Violation> found = violations(reference); !found.empty()) throw InputError(std::move(found));
   try {
-    if (reference.in_space())
-      solid_family_.emplace(reference.geometry, sizes_, solid_sizes_);
-    else
-      section_family_.emplace(reference.geometry, sizes_);
+    mesher_ = reference.kind->mesher(reference);
   } catch (const InputError&) {
     // All ranges hold, so the boundary crosses itself: no reason to refuse candidates whose own does not.
   }
 }
 
 geometry::MeshedSector ModelBuilder::mesh_of(const Scene& scene) const {
-  if (section_family_) return section_family_->mesh_of(scene.geometry);
-  if (solid_family_) return solid_family_->mesh_of(scene.geometry, scene.solid);
-  geometry::MeshedSector own = scene.in_space()
-                                   ? geometry::mesh_solid(scene.geometry, scene.solid, sizes_, solid_sizes_)
-                                   : geometry::mesh_sector(scene.geometry, sizes_);
+  if (mesher_) return mesher_(scene);
+  geometry::MeshedSector own = scene.kind->mesher(scene)(scene);
   own.remeshed = true;
   own.note = "The reference design cannot be meshed, so this design is its own reference. " + own.note;
   return own;

@@ -2,7 +2,6 @@
 
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,8 +10,8 @@
 #include "fem/sector_system.hpp"
 #include "geometry/mesh/mesh_motion.hpp"
 #include "geometry/rules/feasibility.hpp"
-#include "geometry/solid/solid_family.hpp"
 #include "optimizer/scene/scene.hpp"
+#include "optimizer/scene/scene_kind.hpp"
 #include "reduction/massless_boundary.hpp"
 #include "steady/preload.hpp"
 
@@ -65,21 +64,14 @@ class ModelBuilder {
   explicit ModelBuilder(const Scene& reference);
 
   /// Stages in order: feasibility, mesh motion, assembly, preload without geometric stiffness (for the stresses it
-  /// comes from), stiffness at speed, reduction to the trace, contact nodes by the sizes of the scene. The scene's type
+  /// comes from), stiffness at speed, reduction to the trace, contact nodes by the sizes of the scene. The scene's kind
   /// and mesh sizes must be the reference's. Throws InputError for a scene that violates its ranges.
   [[nodiscard]] CandidateModel build(const Scene& scene) const;
 
  private:
   [[nodiscard]] geometry::MeshedSector mesh_of(const Scene& scene) const;
 
-  geometry::MeshSizes sizes_;
-  geometry::SolidSizes solid_sizes_;
-  // The one of the reference's type; absent when the reference cannot be meshed.
-  std::optional<geometry::MeshFamily> section_family_;
-  std::optional<geometry::SolidFamily> solid_family_;
+  Mesher mesher_;  // empty when the reference cannot be meshed
 };
-
-/// The section at standstill as finite elements, no preload: for exports and frequencies of the bare geometry.
-[[nodiscard]] std::vector<fem::Material> materials(const Scene& scene);
 
 }  // namespace dovetail::optimizer

@@ -28,9 +28,7 @@ void static_responses(const Scene& scene, const CandidateModel& model, Evaluatio
   std::map<std::string, double>& responses = evaluation.responses;
   const geometry::Profile profile = geometry::build_profile(scene.geometry);
   const std::vector<fem::Material> bodies = materials(scene);
-  responses["mass_kg"] = scene.in_space()
-                             ? fem::body_mass(model.mesh.sector.mesh, bodies, 0)
-                             : geometry::mass(scene.geometry, scene.blade.density, scene.disk.density).blade;
+  responses["mass_kg"] = scene.kind->blade_mass(scene, model.mesh.sector.mesh);
   responses["post_width_m"] = geometry::measure(profile, scene.geometry).post;
 
   const double load = scene.loading.speed * scene.loading.speed;

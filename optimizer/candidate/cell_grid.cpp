@@ -5,11 +5,12 @@
 #include <utility>
 
 #include "geometry/mesh/flank_fractions.hpp"
+#include "optimizer/scene/scene_kind.hpp"
 
 namespace dovetail::optimizer {
 
 CellLengths cell_lengths(const Scene& scene, CellLengths lengths) {
-  if (!scene.in_space() || scene.solid_mesh.contact_flank_elements == 0) return lengths;
+  if (!scene.kind->contact_grid || scene.solid_mesh.contact_flank_elements == 0) return lengths;
   const double longer = static_cast<double>(scene.mesh.flank_elements) / scene.solid_mesh.contact_flank_elements;
   lengths.finest *= longer;
   lengths.coarsest *= longer;
@@ -84,7 +85,7 @@ std::vector<fem::FlankCells> cell_grid(const Scene& scene, const fem::SectorMesh
   for (const fem::Flank& flank : trace.flanks) {
     const fem::TraceLines lines = fem::trace_lines(flank);
     fem::FlankCells of_flank{.along = {0, 1}, .across = {}};
-    if (scene.in_space())
+    if (lines.along.size() > 1)
       of_flank.along = scene.solid_mesh.contact_slot_elements > 0
                            ? geometry::divided_like(lines.along, scene.solid_mesh.contact_slot_elements)
                            : lines.along;

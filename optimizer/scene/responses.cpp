@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "optimizer/scene/scene_kind.hpp"
+
 namespace dovetail::optimizer {
 
 std::span<const ResponseName> response_names() {
@@ -47,9 +49,9 @@ const ResponseName* find_response(std::string_view name) {
 }
 
 std::vector<std::string> responses_without_limit(const Scene& scene) {
-  const bool sharp = scene.geometry.flank("left").edge_radius == 0 || scene.geometry.flank("right").edge_radius == 0;
-  // How well a mesh in space resolves rough flanks at their corners has not been measured.
-  const bool rough = scene.contact.normal_stiffness > 0 && !scene.in_space();
+  const bool sharp =
+      std::ranges::any_of(scene.geometry.flanks, [](const auto& flank) { return flank.edge_radius == 0; });
+  const bool rough = scene.contact.normal_stiffness > 0 && scene.kind->rough_peaks;
   return sharp && !rough ? std::vector<std::string>{"contact_pressure_max_pa"} : std::vector<std::string>{};
 }
 

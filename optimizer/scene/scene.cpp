@@ -1,9 +1,20 @@
 #include "optimizer/scene/scene.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <type_traits>
 
+#include "optimizer/scene/scene_kind.hpp"
+
 namespace dovetail::optimizer {
+
+SceneType type_of(const Scene& scene) {
+  return {std::string(scene.kind->name)};
+}
+
+std::vector<fem::Material> materials(const Scene& scene) {
+  return {scene.blade, scene.disk};
+}
 
 std::span<const Field<Loading>> scene_loading_fields() {
   return option_table<Loading>().first(3);
@@ -14,7 +25,7 @@ std::span<const Field<Loading>> loading_fields() {
 
 namespace {
 
-constexpr std::string_view kBothFlanks = "geometry";
+constexpr std::string_view kAllFlanks = "geometry";
 
 std::string joined(std::string_view section, std::string_view key) {
   return std::string(section) + "." + std::string(key);
@@ -36,9 +47,9 @@ Parameter described(std::string_view section, const Field<S>& field) {
 std::vector<Parameter> describe_all() {
   std::vector<Parameter> all;
   const Scene scene;
-  visit_tables(scene, [&](std::string_view section, const auto&, auto fields) {
-    if (section == "geometry.left")
-      for (const auto& field : fields) all.push_back(described(kBothFlanks, field));
+  visit_tables(scene, [&](std::string_view section, const auto& object, auto fields) {
+    if (static_cast<const void*>(&object) == &scene.geometry.flanks.front())
+      for (const auto& field : fields) all.push_back(described(kAllFlanks, field));
     for (const auto& field : fields) all.push_back(described(section, field));
   });
   return all;
@@ -71,14 +82,14 @@ double number(const S& object, const Field<S>& field) {
   return value_in_file_unit(object, field);
 }
 
-/// Calls use(object, field) for the members that `key` names: one, or a pair of flank members.
+/// Calls use(object, field) for the members that `key` names: one, or the same of every flank.
 template <class AnyScene, class Use>
 bool visit_key(AnyScene& scene, std::string_view key, Use&& use) {
   bool found = false;
   visit_tables(scene, [&](std::string_view section, auto& object, auto fields) {
     const bool flank = std::is_same_v<std::remove_cvref_t<decltype(object)>, geometry::FlankParameters>;
     for (const auto& field : fields)
-      if (joined(section, field.key) == key || (flank && joined(kBothFlanks, field.key) == key)) {
+      if (joined(section, field.key) == key || (flank && joined(kAllFlanks, field.key) == key)) {
         use(object, field);
         found = true;
       }
@@ -138,8 +149,9 @@ std::map<std::string, double> parameters(const Scene& scene) {
         continue;
       const double value = number(object, field);
       if constexpr (std::is_same_v<S, geometry::FlankParameters>) {
-        if (number(scene.geometry.flank("left"), field) == number(scene.geometry.flank("right"), field)) {
-          values[joined(kBothFlanks, field.key)] = value;
+        const auto alike = [&](const S& flank) { return number(flank, field) == value; };
+        if (std::ranges::all_of(scene.geometry.flanks, alike)) {
+          values[joined(kAllFlanks, field.key)] = value;
           continue;
         }
       }
@@ -177,8 +189,7 @@ std::vector<Violation> contradictions(const Scene& scene) {
         std::pair{"contact.tangential_stiffness_n_per_m3", scene.contact.tangential_stiffness}})
     if (stiffness > 0 && stiffness < kSoftest)
       contradiction(key, stiffness, "must be 0 (rigid) or >= " + shortest(kSoftest));
-  if (scene.in_space())
-    for (Violation& finer : geometry::contradictions(scene.solid_mesh, scene.mesh)) found.push_back(std::move(finer));
+  for (Violation& own : scene.kind->contradictions(scene)) found.push_back(std::move(own));
   return found;
 }
 

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <cstddef>
 #include <map>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "core/options.hpp"
@@ -13,6 +13,11 @@
 #include "geometry/solid/solid_parameters.hpp"
 
 namespace dovetail::optimizer {
+
+struct SceneKind;  // scene_kind.hpp
+extern const SceneKind kSection;
+/// The kind of this name; null when there is none.
+[[nodiscard]] const SceneKind* find_scene_kind(std::string_view name);
 
 /// Contact law of the flanks.
 struct ContactProperties {
@@ -50,7 +55,7 @@ struct SolverSettings {
 
 /// One fully specified candidate: everything the evaluator needs, in SI.
 struct Scene {
-  std::string type = "section";  ///< section: plane, solid and solid_mesh do not count | sector: in space
+  const SceneKind* kind = &kSection;  ///< what counts of the rest, and what is made of it
   geometry::ProfileParameters geometry;
   geometry::SolidParameters solid;
   geometry::FeasibilityLimits limits;
@@ -60,13 +65,16 @@ struct Scene {
   geometry::MeshSizes mesh;
   geometry::SolidSizes solid_mesh;
   SolverSettings solver;
-
-  [[nodiscard]] bool in_space() const { return type == "sector"; }
-  /// Of the flank with this index in meshes and contact cells.
-  [[nodiscard]] const geometry::FlankParameters& flank(std::size_t index) const {
-    return index == 0 ? geometry.flank("left") : geometry.flank("right");
-  }
 };
+
+/// How a study file names the kind of a scene.
+struct SceneType {
+  std::string type;
+};
+[[nodiscard]] SceneType type_of(const Scene& scene);
+
+/// Of the bodies of a mesh: blade and disk.
+[[nodiscard]] std::vector<fem::Material> materials(const Scene& scene);
 
 }  // namespace dovetail::optimizer
 
@@ -75,21 +83,13 @@ namespace dovetail {
 template <>
 std::span<const Field<fem::Material>> option_table<fem::Material>();
 template <>
-std::span<const Field<geometry::ProfileParameters>> option_table<geometry::ProfileParameters>();
-template <>
-std::span<const Field<geometry::FlankParameters>> option_table<geometry::FlankParameters>();
-template <>
-std::span<const Field<geometry::FeasibilityLimits>> option_table<geometry::FeasibilityLimits>();
-template <>
-std::span<const Field<geometry::MeshSizes>> option_table<geometry::MeshSizes>();
-template <>
 std::span<const Field<optimizer::ContactProperties>> option_table<optimizer::ContactProperties>();
 template <>
 std::span<const Field<optimizer::Loading>> option_table<optimizer::Loading>();
 template <>
 std::span<const Field<optimizer::SolverSettings>> option_table<optimizer::SolverSettings>();
 template <>
-std::span<const Field<optimizer::Scene>> option_table<optimizer::Scene>();
+std::span<const Field<optimizer::SceneType>> option_table<optimizer::SceneType>();
 
 }  // namespace dovetail
 
@@ -101,7 +101,7 @@ namespace dovetail::optimizer {
 
 /// Calls visit(section, object, fields) once for each flat struct of a scene: the dotted section of the
 /// study file it is read from, the struct (constant when the scene is) and its table. Two structs may
-/// share a section.
+/// share a section. A type that the visitor writes is the scene's from then on, if there is such a kind.
 template <class AnyScene, class Visitor>
 void visit_tables(AnyScene& scene, Visitor&& visit);
 
@@ -115,25 +115,25 @@ struct Parameter {
   std::vector<std::string_view> choices;
 };
 
-/// Every key of a scene in the order of the study file. Flank keys appear three times:
-/// "geometry.KEY" (both flanks), "geometry.left.KEY" and "geometry.right.KEY".
+/// Every key of a scene in the order of the study file. Flank keys appear as "geometry.KEY" (all flanks) and once for
+/// each flank: "geometry.left.KEY" and "geometry.right.KEY".
 [[nodiscard]] const std::vector<Parameter>& scene_parameters();
 
 /// The entry of scene_parameters() of that key, or nullptr.
 [[nodiscard]] const Parameter* find_parameter(std::string_view key);
 
 /// Sets the number of that key, given in the unit of the study file; "geometry.KEY" of a flank key sets
-/// both flanks, "contact.friction" also the friction of the self-locking rule. The disk's material stays when the
+/// all flanks, "contact.friction" also the friction of the self-locking rule. The disk's material stays when the
 /// blade's is set. Ranges are
 /// not checked (violations() does); throws InputError for an unknown key (with the nearest valid one), a
 /// key that is not a number, or a fraction given to a whole number.
 void set_parameter(Scene& scene, std::string_view key, double value_in_file_unit);
 
 /// The number of that key in the unit of the study file: the shortest one that sets the same SI value.
-/// "geometry.KEY" of a flank key is the left flank's. Throws InputError as set_parameter does.
+/// "geometry.KEY" of a flank key is the first flank's. Throws InputError as set_parameter does.
 [[nodiscard]] double parameter(const Scene& scene, std::string_view key);
 
-/// All numbers of a scene by key, in the file's unit. A flank key stands once under "geometry" when both
+/// All numbers of a scene by key, in the file's unit. A flank key stands once under "geometry" when all
 /// flanks agree, else under "geometry.left" and "geometry.right".
 [[nodiscard]] std::map<std::string, double> parameters(const Scene& scene);
 
@@ -146,12 +146,16 @@ void set_parameter(Scene& scene, std::string_view key, double value_in_file_unit
 
 template <class AnyScene, class Visitor>
 void visit_tables(AnyScene& scene, Visitor&& visit) {
-  visit("scene", scene, option_table<Scene>());
+  SceneType type = type_of(scene);
+  visit("scene", type, option_table<SceneType>());
+  if constexpr (!std::is_const_v<AnyScene>)
+    if (const SceneKind* kind = find_scene_kind(type.type)) scene.kind = kind;
   visit("scene", scene.loading, scene_loading_fields());
   visit("geometry", scene.geometry, option_table<geometry::ProfileParameters>());
   visit("geometry", scene.solid, option_table<geometry::SolidParameters>());
-  visit("geometry.left", scene.geometry.flank("left"), option_table<geometry::FlankParameters>());
-  visit("geometry.right", scene.geometry.flank("right"), option_table<geometry::FlankParameters>());
+  for (std::size_t f = 0; f < geometry::kFlanks.size(); ++f)
+    visit("geometry." + std::string(geometry::kFlanks[f].name), scene.geometry.flanks[f],
+          option_table<geometry::FlankParameters>());
   visit("limits", scene.limits, option_table<geometry::FeasibilityLimits>());
   visit("material.blade", scene.blade, option_table<fem::Material>());
   visit("material.disk", scene.disk, option_table<fem::Material>());

@@ -1,5 +1,5 @@
 // The tables of the structs of a scene that have no room of their own.
-#include "optimizer/scene/scene.hpp"
+#include "optimizer/scene/scene_kind.hpp"
 
 #include <array>
 #include <numbers>
@@ -139,15 +139,36 @@ std::span<const Field<optimizer::SolverSettings>> option_table<optimizer::Solver
 }
 
 template <>
-std::span<const Field<optimizer::Scene>> option_table<optimizer::Scene>() {
-  using S = optimizer::Scene;
+std::span<const Field<optimizer::SceneType>> option_table<optimizer::SceneType>() {
+  using S = optimizer::SceneType;
+  static const std::string help = [] {
+    std::string text = "what is modelled";
+    for (const optimizer::SceneKind* kind : optimizer::scene_kinds())
+      text += (text.find(';') == text.npos ? "; " : ", ") + std::string(kind->name) + ": " + std::string(kind->meaning);
+    return text;
+  }();
   static const std::array<Field<S>, 1> table{
-      Field<S>{.key = "type",
-               .member = &S::type,
-               .help = "what is modelled; section: a plane section of one sector, sector: the sector in space",
-               .required = true,
-               .choices = {"section", "sector"}}};
+      Field<S>{.key = "type", .member = &S::type, .help = help, .required = true, .choices = [] {
+                 std::vector<std::string_view> names;
+                 for (const optimizer::SceneKind* kind : optimizer::scene_kinds()) names.push_back(kind->name);
+                 return names;
+               }()}};
   return table;
 }
 
 }  // namespace dovetail
+
+namespace dovetail::optimizer {
+
+std::span<const SceneKind* const> scene_kinds() {
+  static constexpr std::array kKinds{&kSection, &kSector};
+  return kKinds;
+}
+
+const SceneKind* find_scene_kind(std::string_view name) {
+  for (const SceneKind* kind : scene_kinds())
+    if (kind->name == name) return kind;
+  return nullptr;
+}
+
+}  // namespace dovetail::optimizer

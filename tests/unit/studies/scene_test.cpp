@@ -5,6 +5,9 @@
 
 #include <numbers>
 
+#include "optimizer/scene/responses.hpp"
+#include "optimizer/scene/scene_kind.hpp"
+
 namespace dovetail::optimizer {
 namespace {
 
@@ -31,6 +34,20 @@ TEST(Scene, AFlankKeySetsBothFlanksOrOne) {
   EXPECT_DOUBLE_EQ(scene.geometry.flank("left").angle, 48 * std::numbers::pi / 180);
   EXPECT_EQ(parameters(scene).at("geometry.right.flank_angle_deg"), 52);
   EXPECT_EQ(parameters(scene).count("geometry.flank_angle_deg"), 0U);
+}
+
+TEST(SceneKind, EveryOneHasANameAndChangesKeysThatThereAre) {
+  EXPECT_EQ(find_scene_kind("solid"), nullptr);
+  for (const SceneKind* kind : scene_kinds()) {
+    SCOPED_TRACE(kind->name);
+    EXPECT_EQ(find_scene_kind(kind->name), kind);
+    Scene scene;
+    scene.kind = kind;
+    EXPECT_TRUE(violations(scene).empty());
+    for (const auto& keys : {kind->counts, kind->lengths})
+      for (const std::string_view key : keys) EXPECT_NE(find_parameter(key), nullptr) << key;
+    for (const ResponseName& response : response_names()) EXPECT_GE(kind->mesh_order(response.name), 1);
+  }
 }
 
 TEST(Scene, FrictionIsThatOfTheSelfLockingRuleToo) {

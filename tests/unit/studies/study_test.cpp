@@ -5,6 +5,7 @@
 
 #include <numbers>
 
+#include "optimizer/scene/scene_kind.hpp"
 #include "tests/unit/studies/sample_study.hpp"
 
 namespace dovetail::studies {
@@ -73,7 +74,7 @@ TEST(Study, WarnsOfAResponseWithoutLimit) {
   rough.scene.contact.normal_stiffness = 1e14;
   ASSERT_EQ(warnings(rough).size(), 1U);
   EXPECT_THAT(warnings(rough).front(), testing::HasSubstr("look at its error bar"));
-  rough.scene.type = "sector";
+  rough.scene.kind = &optimizer::kSector;
   EXPECT_THAT(warnings(rough).front(), testing::HasSubstr("in space it has no error bar"));
 }
 
@@ -196,9 +197,12 @@ TEST(Study, ASectorHasKeysOfItsOwnAndASectionMayCarryThem) {
     std::string text = replaced(sample(), "type = \"section\"", std::string("type = \"") + type + '"');
     text = replaced(replaced(text, "skew_angle_deg = 0", "skew_angle_deg = 20"), "stagger_deg = 0", "stagger_deg = 30");
     const Study study = read(text);
-    EXPECT_EQ(study.scene.type, type);
+    EXPECT_EQ(study.scene.kind, optimizer::find_scene_kind(type));
     EXPECT_DOUBLE_EQ(study.scene.solid.skew_angle, 20 * std::numbers::pi / 180);
     EXPECT_DOUBLE_EQ(optimizer::parameter(study.scene, "geometry.stagger_deg"), 30);
+    // What old runs are recognised by.
+    EXPECT_THAT(physics_text(study.scene), HasSubstr(std::string("scene.type = ") + type + "\n"));
+    EXPECT_THAT(physics_text(study.scene), HasSubstr("geometry.stagger_deg = 30\n"));
   }
 }
 
