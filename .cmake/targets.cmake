@@ -1,5 +1,5 @@
 # One target per folder: dovetail_library(NAME BASE dir SOURCES ... HEADERS ... LINK ... [PRIVATE_LINK ...]).
-# Headers are included by their path below BASE ("contact/march.hpp", "geometry/profile.hpp").
+# Headers are included by their path below BASE ("contact/march.hpp", "geometry/profile/profile.hpp").
 add_library(dovetail_warnings INTERFACE)
 target_compile_options(dovetail_warnings INTERFACE -Wall -Wextra -Wconversion -Wshadow)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")

@@ -3,27 +3,17 @@
 #include <atomic>
 #include <optional>
 #include <string>
-
-#include "optimizer/candidate_model.hpp"
-#include "optimizer/contact_fit.hpp"
-#include "optimizer/evaluation.hpp"
-#include "optimizer/fillet_stress.hpp"
-#include "optimizer/other_meshes.hpp"
+#include "optimizer/bars/other_meshes.hpp"
+#include "optimizer/candidate/candidate_model.hpp"
+#include "optimizer/candidate/candidate_result.hpp"
+#include "optimizer/candidate/contact_fit.hpp"
+#include "optimizer/candidate/fillet_stress.hpp"
+#include "optimizer/problem/evaluation.hpp"
 #include "paths/resonance.hpp"
 #include "wear/asymptote/asymptote.hpp"
 #include "wear/asymptote/drift.hpp"
 
 namespace dovetail::optimizer {
-
-/// Everything an evaluation computed, for reports and exports. Members after the stage that failed are empty.
-struct CandidateResult {
-  Evaluation evaluation;
-  CandidateModel model;
-  std::optional<paths::Resonance> unworn, worn;
-  std::optional<wear::Asymptote> asymptote;
-  std::optional<wear::Asymptote> held;  ///< where the resonance was followed: the one at the unworn resonance
-  std::optional<FilletStress> blade_fillet, disk_fillet;
-};
 
 /// How much an evaluation has to answer for. A search compares many designs and leaves both out.
 struct Purpose {
@@ -56,14 +46,5 @@ class SceneEvaluator {
   ModelBuilder builder_;
   OtherMeshes others_;
 };
-
-/// The physics on a model that converged: contact nodes fitted to the worn zones, then all responses, without bars.
-[[nodiscard]] CandidateResult computed(const Scene& scene, CandidateModel model, const Computation& how = {});
-
-/// Options of every steady state of a scene.
-[[nodiscard]] steady::Options steady_options(const SolverSettings& settings);
-
-/// The joint of a candidate with these options, on its budget.
-[[nodiscard]] steady::Joint joint_of(const Scene& scene, const CandidateModel& model, double penalty_scale = 1);
 
 }  // namespace dovetail::optimizer

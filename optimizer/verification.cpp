@@ -8,7 +8,7 @@
 #include <numbers>
 #include <utility>
 
-#include "optimizer/stopwatch.hpp"
+#include "optimizer/candidate/stopwatch.hpp"
 #include "quality/truncation.hpp"
 #include "wear/history/history.hpp"
 #include "wear/measures.hpp"

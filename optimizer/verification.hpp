@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "optimizer/evaluator.hpp"
-#include "optimizer/run.hpp"
+#include "optimizer/search/run.hpp"
 #include "wear/watcher.hpp"
 
 namespace dovetail::optimizer {

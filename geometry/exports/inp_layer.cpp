@@ -4,7 +4,7 @@
 #include <numeric>
 #include <utility>
 
-#include "geometry/solid_layers.hpp"
+#include "geometry/solid/solid_layers.hpp"
 
 namespace dovetail::geometry {
 

@@ -1,6 +1,6 @@
 #include "geometry/exports/layer.hpp"
 
-#include "geometry/flank_form.hpp"
+#include "geometry/profile/flank_form.hpp"
 
 namespace dovetail::geometry {
 

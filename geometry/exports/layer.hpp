@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/profile.hpp"
+#include "geometry/profile/profile.hpp"
 
 namespace dovetail::geometry {
 

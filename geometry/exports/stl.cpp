@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "core/errors.hpp"
-#include "geometry/surface.hpp"
+#include "geometry/solid/surface.hpp"
 
 namespace dovetail::geometry {
 namespace {

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "core/replace_file.hpp"
-#include "geometry/measures.hpp"
+#include "geometry/profile/measures.hpp"
 
 namespace dovetail::geometry {
 

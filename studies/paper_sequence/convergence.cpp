@@ -7,8 +7,8 @@
 #include <numbers>
 #include <optional>
 
+#include "optimizer/candidate/stopwatch.hpp"
 #include "optimizer/evaluator.hpp"
-#include "optimizer/stopwatch.hpp"
 #include "studies/report/pages/html.hpp"
 #include "studies/report/pages/units.hpp"
 #include "wear/asymptote/asymptote.hpp"
@@ -68,7 +68,8 @@ class Convergence {
     optimizer::Stopwatch watch;
     const optimizer::CandidateModel model = optimizer::ModelBuilder(scene).build(scene);
     std::string setting = fmt::format("{} elements along a flank", scene.mesh.flank_elements);
-    if (scene.in_space()) setting += fmt::format(", {} along the slot", scene.solid_mesh.slot_elements);
+    if (model.mesh.sector.mesh.dimensions() == 3)
+      setting += fmt::format(", {} along the slot", scene.solid_mesh.slot_elements);
     if (model.sizes.contains("dofs")) setting += fmt::format(", {:.0f} unknowns", model.sizes.at("dofs"));
     add({.kind = "mesh", .setting = setting, .reference = own}, model, scene, watch);
     if (own) own_ = model;

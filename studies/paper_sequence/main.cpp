@@ -8,6 +8,7 @@
 #include "numerics/blas.hpp"
 #include "studies/paper_sequence/compute.hpp"
 #include "studies/paper_sequence/page.hpp"
+#include "studies/paper_sequence/scene_words.hpp"
 #include "studies/program/study_file/study.hpp"
 
 int main(int argc, char** argv) try {
@@ -24,22 +25,16 @@ int main(int argc, char** argv) try {
   CLI11_PARSE(app, argc, argv);
   const auto begin = std::chrono::steady_clock::now();
   const auto passed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(); };
-  paper_sequence::ComputeOptions options;
+  studies::Study study = studies::load_study(study_file);
+  const paper_sequence::SceneWords& words = paper_sequence::scene_words(study.scene);
+  paper_sequence::ComputeOptions options = words.options;
   options.progress = [&](const std::string& what) {
     std::printf("%6.1f s  %s\n", passed(), what.c_str());
     std::fflush(stdout);
   };
-  studies::Study study = studies::load_study(study_file);
-  if (study.scene.in_space()) {
-    // Each point and each diameter costs a hundred times those of a section.
-    options.curve_points = 61;
-    options.curve_states = 5;
-    options.history_steps = 50;
-    options.nodal_diameter_modes = 4;
-  }
   if (quick) {
-    study.scene.mesh.flank_elements = study.scene.in_space() ? 6 : 16;
-    study.scene.mesh.aerofoil_elements = study.scene.in_space() ? 6 : 12;
+    study.scene.mesh.flank_elements = words.quick_flank_elements;
+    study.scene.mesh.aerofoil_elements = words.quick_aerofoil_elements;
     study.scene.mesh.bulk_size *= 1.6;
     study.scene.solid_mesh.slot_elements = 4;
     study.scene.solid_mesh.contact_slot_elements = 0;

@@ -133,7 +133,7 @@ std::string opening(const Results& r, const std::vector<Finding>& all, const Sce
 
 std::string page_html(const Results& r) {
   const std::vector<Finding> all = findings(r);
-  const SceneWords words = scene_words(r);
+  const SceneWords& words = scene_words(r.scene);
   std::string text =
       report::page_begin("The reference " + words.title + " \u2013 dovetail", kStyle) + opening(r, all, words);
   if (!all.empty()) text += "<section><h2>Findings</h2>\n" + finding_table(all, words) + "</section>\n";

@@ -3,8 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "optimizer/scene.hpp"
+#include "optimizer/scene/scene.hpp"
 #include "studies/paper_sequence/convergence.hpp"
+#include "studies/report/plots/report_plots.hpp"
 #include "studies/report/record/run_record.hpp"
 
 namespace dovetail::paper_sequence {
@@ -55,8 +56,8 @@ struct Results {
   std::vector<ConvergenceRow> convergence;  ///< empty when not asked for
   std::vector<std::string> failures;        ///< what did not converge, in sentences
 
-  /// A sector in space, not a plane section.
-  [[nodiscard]] bool in_space() const { return scene.in_space(); }
+  /// Contact nodes lie along the slot, too.
+  [[nodiscard]] bool in_space() const { return report::in_space(design.contact); }
 };
 
 /// Rates, depths and volumes of one flank.

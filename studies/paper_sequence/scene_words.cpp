@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
+#include "optimizer/scene/scene_kind.hpp"
 #include "studies/paper_sequence/findings.hpp"
 #include "studies/report/pages/units.hpp"
 
@@ -12,21 +14,34 @@ namespace dovetail::paper_sequence {
 
 using report::significant;
 
-SceneWords scene_words(const Results& r) {
-  if (r.in_space())
-    return {.title = "in space",
-            .column = "The sector in space",
-            .where = "one sector of such a disk in space",
-            .such = "one sector of such a disk in space",
-            .differences =
-                "<li>The dimensions, the twist of the blade and the speed are not the reference\u2019s, which "
-                "gives none.</li>\n"};
-  return {
+const SceneWords& scene_words(const optimizer::Scene& scene) {
+  static const SceneWords section{
       .title = "in a plane section",
       .column = "The plane section",
       .where = "a plane section of its joint",
       .such = "a plane section of such a joint",
-      .differences = "<li>The reference is a model in space; this is a plane section, uniform along the slot.</li>\n"};
+      .differences = "<li>The reference is a model in space; this is a plane section, uniform along the slot.</li>\n",
+      .families =
+          " The section carries bending in its own plane only: families of torsion and edgewise bending are missing.",
+      .options = {},
+      .quick_flank_elements = 16,
+      .quick_aerofoil_elements = 12};
+  // Each point and each diameter costs a hundred times those of a section.
+  static const SceneWords sector{
+      .title = "in space",
+      .column = "The sector in space",
+      .where = "one sector of such a disk in space",
+      .such = "one sector of such a disk in space",
+      .differences =
+          "<li>The dimensions, the twist of the blade and the speed are not the reference\u2019s, which "
+          "gives none.</li>\n",
+      .families = "",
+      .options = {.curve_points = 61, .history_steps = 50, .curve_states = 5, .nodal_diameter_modes = 4},
+      .quick_flank_elements = 6,
+      .quick_aerofoil_elements = 6};
+  static const std::map<const optimizer::SceneKind*, const SceneWords*> words{{&optimizer::kSection, &section},
+                                                                              {&optimizer::kSector, &sector}};
+  return *words.at(scene.kind);
 }
 
 namespace {
@@ -87,9 +102,7 @@ std::string frequency_text(const Results& r) {
       "The first family, the flexural mode of the blade, goes from {} Hz without nodal diameters to {} Hz with {}; the "
       "wear computations are for none, at {} Hz with friction.{}",
       significant(at_zero, 5), significant(at_most, 5), record.nodal_diameter.back(), significant(r.resonance_hz, 6),
-      r.in_space() ? ""
-                   : " The section carries bending in its own plane only: families of torsion and edgewise bending are "
-                     "missing.");
+      scene_words(r.scene).families);
 }
 
 std::string first_rate_text(const Results& r) {

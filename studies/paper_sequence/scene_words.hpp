@@ -2,19 +2,22 @@
 
 #include <string>
 
-#include "studies/paper_sequence/results.hpp"
+#include "studies/paper_sequence/compute.hpp"
 
 namespace dovetail::paper_sequence {
 
-/// What the page says differently of a plane section and of a sector in space.
+/// What differs between a plane section and a sector in space: words of the page, and how much is computed.
 struct SceneWords {
   std::string title;        ///< of the page, after "Dynamics and fretting wear of a bladed disk"
   std::string column;       ///< heading over what is found here
   std::string where;        ///< the findings hold ...
   std::string such;         ///< the sequence is repeated in ...
   std::string differences;  ///< <li> entries of this scene alone
+  std::string families;     ///< of modes, which ones the scene has not
+  ComputeOptions options;
+  int quick_flank_elements, quick_aerofoil_elements;
 };
-[[nodiscard]] SceneWords scene_words(const Results& results);
+[[nodiscard]] const SceneWords& scene_words(const optimizer::Scene& scene);
 
 /// How the pressures of the preload lie on the flanks.
 [[nodiscard]] std::string pressure_text(const Results& results);

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "optimizer/candidate/stopwatch.hpp"
 #include "optimizer/evaluator.hpp"
-#include "optimizer/stopwatch.hpp"
 #include "studies/report/record/design_record.hpp"
 
 namespace dovetail::skewed_slot {

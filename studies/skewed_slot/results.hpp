@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "optimizer/scene.hpp"
+#include "optimizer/scene/scene.hpp"
 #include "studies/report/record/run_record.hpp"
 
 namespace dovetail::skewed_slot {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "dynamics/condensed_model.hpp"
-#include "optimizer/scene.hpp"
+#include "optimizer/scene/scene.hpp"
 #include "paths/resonance.hpp"
 #include "steady/options.hpp"
 

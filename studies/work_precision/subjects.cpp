@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "optimizer/candidate_model.hpp"
+#include "optimizer/candidate/candidate_model.hpp"
 #include "studies/program/study_file/study.hpp"
 #include "studies/work_precision/processor_time.hpp"
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "optimizer/evaluator.hpp"
-#include "optimizer/random_stream.hpp"
+#include "optimizer/search/random_stream.hpp"
 #include "studies/program/study_file/study.hpp"
 
 namespace dovetail {

@@ -8,8 +8,9 @@
 #include "geometry/exports/layer.hpp"
 #include "geometry/exports/stl.hpp"
 #include "geometry/exports/svg.hpp"
-#include "geometry/solid_family.hpp"
-#include "optimizer/candidate_model.hpp"
+#include "geometry/solid/solid_family.hpp"
+#include "optimizer/candidate/candidate_model.hpp"
+#include "optimizer/scene/scene_kind.hpp"
 #include "studies/program/study_file/export.hpp"
 #include "studies/program/study_file/refusal.hpp"
 
@@ -19,9 +20,7 @@ namespace {
 
 /// Throws InputError when the design cannot be meshed.
 geometry::MeshedSector meshed(const optimizer::Scene& scene) {
-  geometry::MeshedSector mesh = scene.in_space()
-                                    ? geometry::mesh_solid(scene.geometry, scene.solid, scene.mesh, scene.solid_mesh)
-                                    : geometry::mesh_sector(scene.geometry, scene.mesh);
+  geometry::MeshedSector mesh = scene.kind->mesher(scene)(scene);
   if (mesh.quality.inverted_elements > 0) refuse("geometry", "cannot be meshed: " + mesh.note);
   return mesh;
 }
@@ -45,8 +44,9 @@ void export_deck(const optimizer::Scene& scene, const DeckOptions& options, cons
 void export_geometry(const optimizer::Scene& scene, const std::string& format, const DeckOptions& deck,
                      const std::filesystem::path& file) {
   assert(is_export_format(format) && !is_field_format(format));
-  if (needs_space(format) && !scene.in_space())
-    refuse("scene.type", "must be sector for " + format + ": a section has no surface in space", scene.type);
+  if (needs_space(format) && !scene.kind->surface)
+    refuse("scene.type", "must be sector for " + format + ": a section has no surface in space",
+           std::string(scene.kind->name));
   if (is_deck_format(format))
     export_deck(scene, deck, file);
   else if (format == "stl")

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "optimizer/scene.hpp"
+#include "optimizer/scene/scene.hpp"
 
 namespace dovetail::studies {
 

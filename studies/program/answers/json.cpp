@@ -1,6 +1,6 @@
 #include "studies/program/answers/json.hpp"
 
-#include "optimizer/evaluation_json.hpp"
+#include "optimizer/journal/evaluation_json.hpp"
 #include "studies/program/answers/json_values.hpp"
 
 namespace dovetail::studies {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "optimizer/evaluation.hpp"
+#include "optimizer/problem/evaluation.hpp"
 #include "steady/options.hpp"
 #include "wear/asymptote/asymptote.hpp"
 #include "wear/asymptote/spread.hpp"

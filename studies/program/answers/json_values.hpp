@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "optimizer/record_json.hpp"
+#include "optimizer/journal/record_json.hpp"
 #include "steady/options.hpp"
 
 namespace dovetail::optimizer {

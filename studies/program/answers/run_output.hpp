@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "optimizer/run.hpp"
+#include "optimizer/search/run.hpp"
 #include "studies/program/engine/run_engine.hpp"
 
 namespace dovetail::studies {

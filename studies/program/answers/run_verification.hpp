@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "optimizer/run.hpp"
+#include "optimizer/search/run.hpp"
 #include "studies/program/commands/interrupt.hpp"
 #include "studies/program/engine/run_engine.hpp"
 

@@ -1,6 +1,6 @@
 #include "studies/program/commands/arguments.hpp"
 
-#include "optimizer/evaluation_json.hpp"
+#include "optimizer/journal/evaluation_json.hpp"
 #include "studies/program/commands/shared_arguments.hpp"
 #include "studies/program/engine/engine.hpp"
 #include "studies/program/study_file/export.hpp"

@@ -7,9 +7,9 @@
 #include <ostream>
 
 #include "core/replace_file.hpp"
-#include "optimizer/fingerprint.hpp"
-#include "optimizer/journal.hpp"
-#include "optimizer/run.hpp"
+#include "optimizer/journal/fingerprint.hpp"
+#include "optimizer/journal/journal.hpp"
+#include "optimizer/search/run.hpp"
 #include "studies/program/answers/run_output.hpp"
 #include "studies/program/answers/run_verification.hpp"
 #include "studies/program/commands/commands.hpp"

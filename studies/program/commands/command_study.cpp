@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "core/replace_file.hpp"
-#include "optimizer/problem.hpp"
-#include "optimizer/responses.hpp"
+#include "optimizer/problem/problem.hpp"
+#include "optimizer/scene/responses.hpp"
 #include "reduction/model_file.hpp"
 #include "studies/program/answers/json.hpp"
 #include "studies/program/commands/commands.hpp"

@@ -4,7 +4,7 @@
 #include <iosfwd>
 #include <string>
 
-#include "optimizer/run.hpp"
+#include "optimizer/search/run.hpp"
 
 namespace dovetail::studies {
 

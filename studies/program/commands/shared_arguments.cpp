@@ -1,6 +1,6 @@
 #include "studies/program/commands/shared_arguments.hpp"
 
-#include "optimizer/scene.hpp"
+#include "optimizer/scene/scene.hpp"
 
 namespace dovetail::studies {
 namespace {

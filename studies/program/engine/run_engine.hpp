@@ -2,8 +2,8 @@
 
 #include <functional>
 
-#include "optimizer/evaluation.hpp"
-#include "optimizer/scene.hpp"
+#include "optimizer/problem/evaluation.hpp"
+#include "optimizer/scene/scene.hpp"
 #include "studies/program/study_file/study.hpp"
 #include "studies/report/record/run_record.hpp"
 #include "wear/watcher.hpp"

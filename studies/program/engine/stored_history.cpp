@@ -8,7 +8,7 @@
 #include <numbers>
 #include <utility>
 
-#include "optimizer/fingerprint.hpp"
+#include "optimizer/journal/fingerprint.hpp"
 #include "studies/program/answers/json_values.hpp"
 #include "studies/program/study_file/refusal.hpp"
 

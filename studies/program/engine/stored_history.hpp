@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "optimizer/record_fields.hpp"
+#include "optimizer/journal/record_fields.hpp"
 #include "studies/program/commands/commands.hpp"
 #include "studies/program/engine/engine.hpp"
 #include "wear/history/history.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "optimizer/responses.hpp"
+#include "optimizer/scene/responses.hpp"
 
 namespace dovetail::studies {
 namespace {
@@ -46,6 +46,14 @@ bool from_command_line(const Node* root, std::string_view key) {
   return node && !node->origin.empty();
 }
 
+/// "geometry.left.KEY", ... of "geometry.KEY".
+std::vector<std::string> of_flanks(const std::string& key) {
+  std::vector<std::string> keys;
+  for (const geometry::FlankPlace& place : geometry::kFlanks)
+    keys.push_back("geometry." + std::string(place.name) + key.substr(key.find('.')));
+  return keys;
+}
+
 /// Why that key cannot be a variable although it is a number; empty when it can.
 std::string conflict(const Node* root, const Parameter& parameter) {
   if (parameter.kind != Parameter::Kind::real) return "cannot be varied: it is not a real number";
@@ -55,8 +63,7 @@ std::string conflict(const Node* root, const Parameter& parameter) {
     if (!given(root, disk)) return "cannot be varied unless " + disk + " is given: the disk would follow the blade";
   }
   if (is_prefix_section(key, "geometry") && key.find('.') == key.rfind('.'))
-    for (const std::string side : {"left", "right"}) {
-      const std::string one = "geometry." + side + key.substr(key.find('.'));
+    for (const std::string& one : of_flanks(key)) {
       if (optimizer::find_parameter(one) && given(root, one))
         return "cannot vary both flanks while " + one + " fixes one of them";
     }
@@ -66,11 +73,10 @@ std::string conflict(const Node* root, const Parameter& parameter) {
 /// Two keys that set the same number.
 bool overlap(const std::string& a, const std::string& b) {
   if (a == b) return true;
-  const auto both = [](const std::string& common, const std::string& one) {
-    return one == "geometry.left" + common.substr(common.find('.')) ||
-           one == "geometry.right" + common.substr(common.find('.'));
+  const auto is_one_of = [](const std::string& one, const std::vector<std::string>& keys) {
+    return std::ranges::find(keys, one) != keys.end();
   };
-  return both(a, b) || both(b, a);
+  return is_one_of(b, of_flanks(a)) || is_one_of(a, of_flanks(b));
 }
 
 const Parameter* variable_parameter(const Node& value, const std::string& path, const Node* root, Problems& problems) {

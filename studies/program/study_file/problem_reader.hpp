@@ -1,7 +1,7 @@
 #pragma once
 
-#include "optimizer/problem.hpp"
-#include "optimizer/scene.hpp"
+#include "optimizer/problem/problem.hpp"
+#include "optimizer/scene/scene.hpp"
 #include "studies/program/study_file/section_reader.hpp"
 
 namespace dovetail::studies {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "optimizer/scene.hpp"
+#include "optimizer/scene/scene.hpp"
 
 namespace dovetail::studies {
 namespace {

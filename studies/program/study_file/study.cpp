@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <map>
+#include <type_traits>
 
-#include "optimizer/responses.hpp"
+#include "optimizer/scene/responses.hpp"
+#include "optimizer/scene/scene_kind.hpp"
 #include "studies/program/study_file/export.hpp"
 #include "studies/program/study_file/problem_reader.hpp"
 #include "studies/program/study_file/section_reader.hpp"
@@ -28,71 +31,59 @@ bool is_folder_name(const std::string& name) {
   return !name.empty() && name.size() <= 100 && name[0] != '.' && std::all_of(name.begin(), name.end(), plain);
 }
 
-/// Keys of [geometry] set both flanks, those of its subsections one; required ones may stand in either.
-void read_flanks(SectionReader& geometry, optimizer::Scene& scene, Problems& problems) {
-  const auto table = option_table<FlankParameters>();
-  FlankParameters both;
-  geometry.fields(both, table, false);
-  scene.geometry.left = scene.geometry.right = both;
-  SectionReader left(geometry.take("left"), geometry.path("left"), problems);
-  SectionReader right(geometry.take("right"), geometry.path("right"), problems);
-  left.fields(scene.geometry.left, table, false);
-  right.fields(scene.geometry.right, table, false);
-  for (const Field<FlankParameters>& field : table) {
-    const std::string key(field.key);
-    const auto given = [&](const SectionReader& section) { return section.node() && section.node()->find(key); };
-    if (field.required && !given(geometry) && !(given(left) && given(right)))
-      problems.missing(geometry.node(), geometry.path(key), "is missing; it " + field.range.phrase());
+/// Reads the tables of a scene, each from its section.
+class SceneReader {
+ public:
+  SceneReader(SectionReader& root, optimizer::Scene& scene, Problems& problems)
+      : root_(root), scene_(scene), problems_(problems) {}
+
+  void read() {
+    optimizer::visit_tables(scene_, [this]<class S>(std::string_view name, S& object, std::span<const Field<S>> table) {
+      const std::string path(name);
+      if constexpr (std::is_same_v<S, FlankParameters>)
+        read_flank(path, object, table);
+      else
+        section(path).fields(object, table, static_cast<void*>(&object) != &scene_.disk);
+      if (static_cast<void*>(&object) == &scene_.blade) scene_.disk = scene_.blade;
+    });
+    for (auto& [path, reader] : sections_) reader.finish();
+    scene_.limits.friction = scene_.contact.friction;
   }
-  left.finish();
-  right.finish();
-}
 
-void read_scene(SectionReader& root, optimizer::Scene& scene, Problems& problems) {
-  const auto section = [&](const std::string& key) { return SectionReader(root.take(key), key, problems); };
-  SectionReader head = section("scene");
-  head.fields(scene, option_table<optimizer::Scene>());
-  head.fields(scene.loading, optimizer::scene_loading_fields());
-  head.finish();
+ private:
+  SectionReader& section(const std::string& path) {
+    if (const auto found = sections_.find(path); found != sections_.end()) return found->second;
+    const std::size_t dot = path.rfind('.');
+    SectionReader& parent = dot == path.npos ? root_ : section(path.substr(0, dot));
+    return sections_.emplace(path, SectionReader(parent.take(path.substr(dot + 1)), path, problems_)).first->second;
+  }
 
-  SectionReader geometry = section("geometry");
-  geometry.fields(scene.geometry, option_table<geometry::ProfileParameters>());
-  geometry.fields(scene.solid, option_table<geometry::SolidParameters>());
-  read_flanks(geometry, scene, problems);
-  geometry.finish();
+  /// Keys of [geometry] set all flanks, those of its subsections one; required ones may stand in either.
+  void read_flank(const std::string& path, FlankParameters& flank, std::span<const Field<FlankParameters>> table) {
+    SectionReader& all = section("geometry");
+    auto& flanks = scene_.geometry.flanks;
+    if (&flank == &flanks.front()) {
+      all.fields(flank, table, false);
+      flanks.fill(flank);
+    }
+    section(path).fields(flank, table, false);
+    if (&flank != &flanks.back()) return;
+    for (const Field<FlankParameters>& field : table) {
+      const std::string key(field.key);
+      const auto given = [&](const SectionReader& in) { return in.node() && in.node()->find(key); };
+      const auto of_flank = [&](const geometry::FlankPlace& place) {
+        return given(section("geometry." + std::string(place.name)));
+      };
+      if (field.required && !given(all) && !std::ranges::all_of(geometry::kFlanks, of_flank))
+        problems_.missing(all.node(), all.path(key), "is missing; it " + field.range.phrase());
+    }
+  }
 
-  SectionReader limits = section("limits");
-  limits.fields(scene.limits, option_table<geometry::FeasibilityLimits>());
-  limits.finish();
-
-  SectionReader material = section("material");
-  SectionReader blade(material.take("blade"), "material.blade", problems);
-  blade.fields(scene.blade, option_table<fem::Material>());
-  blade.finish();
-  scene.disk = scene.blade;
-  SectionReader disk(material.take("disk"), "material.disk", problems);
-  disk.fields(scene.disk, option_table<fem::Material>(), false);
-  disk.finish();
-  material.finish();
-
-  SectionReader contact = section("contact");
-  contact.fields(scene.contact, option_table<optimizer::ContactProperties>());
-  contact.finish();
-  scene.limits.friction = scene.contact.friction;
-
-  SectionReader loading = section("loading");
-  loading.fields(scene.loading, optimizer::loading_fields());
-  loading.finish();
-
-  SectionReader mesh = section("mesh");
-  mesh.fields(scene.mesh, option_table<geometry::MeshSizes>());
-  mesh.fields(scene.solid_mesh, option_table<geometry::SolidSizes>());
-  mesh.finish();
-
-  SectionReader solver = section("solver");
-  solver.fields(scene.solver, option_table<optimizer::SolverSettings>());
-  solver.finish();
-}
+  SectionReader& root_;
+  optimizer::Scene& scene_;
+  Problems& problems_;
+  std::map<std::string, SectionReader> sections_;
+};
 
 void read_exports(SectionReader& root, Study& study, Problems& problems) {
   SectionReader section(root.take("export"), "export", problems);
@@ -104,7 +95,7 @@ void read_exports(SectionReader& root, Study& study, Problems& problems) {
     for (const Node& item : formats->items) {
       if (item.kind != Node::Kind::text || !is_export_format(item.text))
         problems.add(item, "export.formats", allowed);
-      else if (needs_space(item.text) && !study.scene.in_space())
+      else if (needs_space(item.text) && !study.scene.kind->surface)
         problems.add(item, "export.formats", "is a surface in space: scene.type must be \"sector\"");
       else if (std::find(study.exports.begin(), study.exports.end(), item.text) == study.exports.end())
         study.exports.push_back(item.text);
@@ -144,12 +135,11 @@ Study read_study(const Document& document) {
   study.title = root.text("title").value_or(study.name);
   if (const Node* name = root.take("name"); name && name->kind == Node::Kind::text && !is_folder_name(study.name))
     problems.add(*name, "name", "must be letters, digits, '-', '_' and '.', not starting with '.': it names a folder");
-  read_scene(root, study.scene, problems);
+  SceneReader(root, study.scene, problems).read();
   report_contradictions(document, study.scene, problems);
 
   SectionReader optimizer(root.take("optimizer"), "optimizer", problems);
-  // In space a mesh four times as fine costs hours.
-  if (study.scene.in_space()) study.optimizer.finer_meshes = 1;
+  study.optimizer.finer_meshes = std::min(study.optimizer.finer_meshes, study.scene.kind->finer_meshes);
   optimizer.fields(study.optimizer, option_table<optimizer::OptimizerOptions>());
   optimizer.finish();
 
@@ -168,7 +158,8 @@ Study load_study(const std::string& file, std::span<const Override> overrides) {
 }
 
 std::string physics_text(const optimizer::Scene& scene) {
-  std::string text = "scene.type = " + scene.type + "\nsolver.solver = " + scene.solver.solver + "\n";
+  std::string text =
+      "scene.type = " + std::string(scene.kind->name) + "\nsolver.solver = " + scene.solver.solver + "\n";
   for (const auto& [key, value] : optimizer::parameters(scene)) text += key + " = " + shortest(value) + "\n";
   return text;
 }

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "optimizer/optimizer_options.hpp"
-#include "optimizer/problem.hpp"
-#include "optimizer/scene.hpp"
+#include "optimizer/problem/optimizer_options.hpp"
+#include "optimizer/problem/problem.hpp"
+#include "optimizer/scene/scene.hpp"
 #include "studies/program/study_file/document.hpp"
 
 namespace dovetail::studies {

@@ -3,9 +3,9 @@
 #include <array>
 #include <utility>
 
-#include "optimizer/optimizer_options.hpp"
-#include "optimizer/responses.hpp"
-#include "optimizer/scene.hpp"
+#include "optimizer/problem/optimizer_options.hpp"
+#include "optimizer/scene/responses.hpp"
+#include "optimizer/scene/scene.hpp"
 #include "studies/program/study_file/export.hpp"
 
 namespace dovetail::studies {
@@ -74,13 +74,14 @@ std::string scene_sections() {
   scene.disk = scene.blade;
   const auto flanks = option_table<geometry::FlankParameters>();
   std::string text = header("scene", "What is modelled and how it vibrates.");
-  text += lines(scene, option_table<Scene>()) + lines(scene.loading, optimizer::scene_loading_fields());
+  text += lines(type_of(scene), option_table<optimizer::SceneType>()) +
+          lines(scene.loading, optimizer::scene_loading_fields());
   text += header("geometry", "Dimensions of the section of one sector; x is tangential, y radial.");
   text += lines(scene.geometry, option_table<geometry::ProfileParameters>());
   text += "\n# What only a sector in space has; a plane section leaves it aside.\n";
   text += lines(scene.solid, option_table<geometry::SolidParameters>());
   text += "\n# Both flanks; a section [geometry.left] or [geometry.right] with the same keys overrides one of them.\n";
-  text += lines(scene.geometry.left, flanks);
+  text += lines(scene.geometry.flanks.front(), flanks);
   text += header("limits", "Rules every design has to keep besides fitting together.");
   text += lines(scene.limits, option_table<geometry::FeasibilityLimits>());
   text += header("material.blade",

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "optimizer/responses.hpp"
+#include "optimizer/scene/responses.hpp"
 #include "studies/report/pages/html.hpp"
 #include "studies/report/pages/report_words.hpp"
 

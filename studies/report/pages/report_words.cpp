@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "optimizer/responses.hpp"
+#include "optimizer/scene/responses.hpp"
 
 namespace dovetail::report {
 

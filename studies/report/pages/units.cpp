@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/profile/parameters.hpp"
+
 namespace dovetail::report {
 
 namespace {
@@ -124,9 +126,9 @@ std::string key_unit(std::string_view key) {
 
 std::string key_words(std::string_view key) {
   const std::string_view name = split(key, kKeyEndings).first;
-  const std::string side = name.starts_with("geometry.left.")    ? ", left"
-                           : name.starts_with("geometry.right.") ? ", right"
-                                                                 : "";
+  std::string side;
+  for (const geometry::FlankPlace& place : geometry::kFlanks)
+    if (name.starts_with("geometry." + std::string(place.name) + ".")) side = ", " + std::string(place.name);
   const std::size_t dot = name.rfind('.');
   return spaced(dot == std::string_view::npos ? name : name.substr(dot + 1)) + side;
 }

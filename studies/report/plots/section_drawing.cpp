@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "geometry/measures.hpp"
+#include "geometry/profile/measures.hpp"
 #include "studies/report/pages/html.hpp"
 #include "studies/report/pages/units.hpp"
 

@@ -11,7 +11,7 @@
 #include "fem/diameter_frequencies.hpp"
 #include "fem/element.hpp"
 #include "fem/stress.hpp"
-#include "geometry/flank_form.hpp"
+#include "geometry/profile/flank_form.hpp"
 #include "wear/history/history.hpp"
 
 namespace dovetail::report {

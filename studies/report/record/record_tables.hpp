@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "optimizer/record_fields.hpp"
+#include "optimizer/journal/record_fields.hpp"
 #include "studies/report/record/run_record.hpp"
 
 /// The fields of all that a results file holds; see results_file.hpp. A name with a slash lies in a group further down,

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "fem/mesh.hpp"
-#include "geometry/profile.hpp"
-#include "optimizer/problem.hpp"
-#include "optimizer/run.hpp"
+#include "geometry/profile/profile.hpp"
+#include "optimizer/problem/problem.hpp"
+#include "optimizer/search/run.hpp"
 
 namespace dovetail::report {
 

@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "geometry/mesh_motion.hpp"
+#include "geometry/mesh/mesh_motion.hpp"
 #include "paths/steady_state.hpp"
 #include "reduction/reduced_model.hpp"
 

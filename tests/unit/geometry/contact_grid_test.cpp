@@ -1,4 +1,4 @@
-#include "geometry/contact_grid.hpp"
+#include "geometry/mesh/contact_grid.hpp"
 
 #include <gtest/gtest.h>
 

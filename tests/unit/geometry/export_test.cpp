@@ -12,7 +12,7 @@
 #include "core/errors.hpp"
 #include "geometry/exports/dxf.hpp"
 #include "geometry/exports/svg.hpp"
-#include "geometry/measures.hpp"
+#include "geometry/profile/measures.hpp"
 
 namespace dovetail::geometry {
 namespace {
@@ -38,10 +38,10 @@ using Svg = ExportTest;
 
 ProfileParameters formed_design() {
   ProfileParameters p;
-  p.right.mismatch = 15e-6;
-  p.right.crown = 8e-6;
-  p.left.relief_length = 1e-3;
-  p.left.relief_depth = 10e-6;
+  p.flank("right").mismatch = 15e-6;
+  p.flank("right").crown = 8e-6;
+  p.flank("left").relief_length = 1e-3;
+  p.flank("left").relief_depth = 10e-6;
   return p;
 }
 

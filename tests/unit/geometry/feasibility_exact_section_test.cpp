@@ -1,12 +1,12 @@
-#include "geometry/exact_section.hpp"
+#include "geometry/profile/exact_section.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "geometry/chain.hpp"
-#include "geometry/measures.hpp"
+#include "geometry/profile/chain.hpp"
+#include "geometry/profile/measures.hpp"
 
 namespace dovetail::geometry {
 namespace {
@@ -73,7 +73,7 @@ TEST(ExactSection, SeesAMicrometreOfInterference) {
   for (Edge& e : lifted)
     for (Vector2d* at : {&e.start, &e.end, &e.center}) at->y() += 1e-6;
   // Both flanks enter by 1 um times their width; the fillets beside them add a little.
-  const double flanks = 1e-6 * 2 * 5.5e-3 * std::sin(ProfileParameters{}.right.angle);
+  const double flanks = 1e-6 * 2 * 5.5e-3 * std::sin(ProfileParameters{}.flank("right").angle);
   const double overlap = overlap_area(lifted, profile.disk);
   EXPECT_GT(overlap, flanks);
   EXPECT_LT(overlap, 1.1 * flanks);

@@ -1,4 +1,4 @@
-#include "geometry/feasibility.hpp"
+#include "geometry/rules/feasibility.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 #include <random>
 #include <set>
 
-#include "geometry/exact_section.hpp"
-#include "geometry/measures.hpp"
+#include "geometry/profile/exact_section.hpp"
+#include "geometry/profile/measures.hpp"
 #include "tests/unit/geometry/random_design.hpp"
 
 namespace dovetail::geometry {
@@ -78,7 +78,7 @@ const std::vector<Case> kCases{
     {"NeckWall",
      [](P& p, L&) {
        p.neck_width = 1.9e-3;
-       p.left.length = p.right.length = 9e-3;
+       p.flank("left").length = p.flank("right").length = 9e-3;
      },
      {"neck_wall"}},
     {"PostWall",
@@ -102,8 +102,8 @@ const std::vector<Case> kCases{
      [](P& p, L&) {
        p.neck_height = 1.5e-3;
        p.lobe_depth = 2e-3;
-       p.left.length = 3e-3;
-       p.right.length = 9e-3;
+       p.flank("left").length = 3e-3;
+       p.flank("right").length = 9e-3;
      },
      {"neck_right_fits", "mouth_right_fits", "blade_simple", "disk_simple", "no_overlap"}},
     {"Shoulder", [](P& p, L&) { p.shank_width = p.neck_width + 0.5e-3; }, {"shoulder_fits"}},
@@ -121,15 +121,15 @@ const std::vector<Case> kCases{
      {"aerofoil_fits"}},
     {"RootBottom",  // a straight root bottom of 20 um
      [](P& p, L&) {
-       p.left.length = p.right.length = 1.5e-3;
-       p.left.angle = p.right.angle = 0.55;
+       p.flank("left").length = p.flank("right").length = 1.5e-3;
+       p.flank("left").angle = p.flank("right").angle = 0.55;
        p.neck_width = 2.1e-3;
        p.root_corner_radius = p.slot_fillet_radius = 2.486e-3;
      },
      {"root_bottom_fits"}},
     {"SlotFloor",  // a straight slot floor of 20 um
      [](P& p, L&) {
-       p.left.length = p.right.length = 2e-3;
+       p.flank("left").length = p.flank("right").length = 2e-3;
        p.neck_width = 7e-3;
        p.slot_fillet_radius = 9.8515e-3;
      },
@@ -144,8 +144,8 @@ const std::vector<Case> kCases{
      [](P& p, L&) {
        p.bottom_clearance = 0.05e-3;
        p.slot_fillet_radius = 4e-3;
-       p.left.angle = 0.8;
-       p.right.angle = 0.95;
+       p.flank("left").angle = 0.8;
+       p.flank("right").angle = 0.95;
      },
      {"runout_right_fits", "no_overlap"}},
     {"BottomGap",
@@ -172,11 +172,11 @@ const std::vector<Case> kCases{
     {"AllCutters",
      [](P&, L& l) { l.minimum_cutter_radius = 2.1e-3; },
      {"blend_cutter", "neck_fillet_cutter", "slot_fillet_cutter"}},
-    {"Relief", [](P& p, L&) { p.left.relief_length = 3e-3; }, {"relief_left_fits"}},
-    {"EdgeRadius", [](P& p, L&) { p.left.edge_radius = 0.2; }, {"edge_left_fits"}},
+    {"Relief", [](P& p, L&) { p.flank("left").relief_length = 3e-3; }, {"relief_left_fits"}},
+    {"EdgeRadius", [](P& p, L&) { p.flank("left").edge_radius = 0.2; }, {"edge_left_fits"}},
     {"SelfLocking",
      [](P& p, L& l) {
-       p.right.angle = 0.8;
+       p.flank("right").angle = 0.8;
        l.friction = 1.1;
      },
      {"self_locking_right"}},
@@ -198,7 +198,7 @@ TEST(Feasibility, HasACaseForEveryRule) {
 TEST(Feasibility, SaysByHowMuchARuleIsBroken) {
   ProfileParameters p;
   p.platform_thickness = 1.5e-3;
-  p.left.angle = std::numbers::pi / 9;
+  p.flank("left").angle = std::numbers::pi / 9;
   const Feasibility result = check_feasibility(p);
   EXPECT_EQ(
       rule(result, "platform_wall").sentence,
@@ -288,7 +288,7 @@ TEST(Feasibility, IsTheSameForTheMirrorImage) {
   for (int trial = 0; trial < 5; ++trial) {
     ProfileParameters p = random_design(generator, 0.25);
     const Feasibility one = check_feasibility(p);
-    std::swap(p.left, p.right);
+    std::swap(p.flank("left"), p.flank("right"));
     const Feasibility other = check_feasibility(p);
     EXPECT_EQ(one.feasible, other.feasible);
     for (const Rule& r : one.rules) {

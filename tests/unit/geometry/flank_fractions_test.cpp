@@ -1,12 +1,12 @@
-#include "geometry/flank_fractions.hpp"
+#include "geometry/mesh/flank_fractions.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/contact_grid.hpp"
-#include "geometry/flank_form.hpp"
+#include "geometry/mesh/contact_grid.hpp"
+#include "geometry/profile/flank_form.hpp"
 
 namespace dovetail::geometry {
 namespace {
@@ -26,8 +26,8 @@ double steepest(const std::vector<double>& lengths) {
 
 ProfileParameters rounded(double left, double right) {
   ProfileParameters p;
-  p.left.edge_radius = left;
-  p.right.edge_radius = right;
+  p.flank("left").edge_radius = left;
+  p.flank("right").edge_radius = right;
   return p;
 }
 
@@ -63,7 +63,7 @@ TEST(FlankFractions, RiseAndAreTheSameFromBothEnds) {
 TEST(FlankFractions, AreFineWhereARoundingBegins) {
   for (const double radius : {1e-3, 5e-3, 20e-3, 50e-3}) {
     const ProfileParameters p = rounded(radius, radius);
-    const double w = rounded_length(radius) / p.left.length;
+    const double w = rounded_length(radius) / p.flank("left").length;
     const std::vector<double> fractions = flank_fractions(p, {.flank_elements = 96});
     const std::vector<double> lengths = edges(fractions);
     for (std::size_t k = 0; k < lengths.size(); ++k)
@@ -79,7 +79,7 @@ TEST(FlankFractions, LeaveTheMiddleOfARoundedFlankAsFineAsOfASharpOne) {
   for (const double radius : {1e-3, 20e-3, 50e-3})
     for (const int parts : {24, 64, 128}) {
       ProfileParameters reference;
-      reference.left.edge_radius = reference.right.edge_radius = radius;
+      reference.flank("left").edge_radius = reference.flank("right").edge_radius = radius;
       MeshSizes sizes;
       sizes.flank_elements = parts;
       const std::vector<double> s = flank_fractions(reference, sizes);

@@ -7,8 +7,8 @@
 #include "core/errors.hpp"
 #include "geometry/exports/inp.hpp"
 #include "geometry/exports/inp_layer.hpp"
-#include "geometry/flank_form.hpp"
-#include "geometry/mesh_motion.hpp"
+#include "geometry/mesh/mesh_motion.hpp"
+#include "geometry/profile/flank_form.hpp"
 
 namespace dovetail::geometry {
 namespace {
@@ -71,7 +71,7 @@ TEST(InputDeck, LeavesTheFaceCentresOfWedgesOut) {
 
 TEST(InputDeck, SetsTheBladeBackByTheGapWhenItsFlanksAreInContact) {
   ProfileParameters parameters;
-  parameters.left.mismatch = 20e-6;
+  parameters.flank("left").mismatch = 20e-6;
   const fem::SectorMesh sector = section(parameters);
   const std::map<int, Eigen::Vector3d> glued = nodes_of(inp(sector, kMaterials));
   const std::string deck = inp(sector, kMaterials, {.joint = FlankJoint::contact, .friction = 0.4});

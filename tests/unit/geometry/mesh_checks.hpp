@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "fem/mesh.hpp"
-#include "geometry/profile.hpp"
+#include "geometry/profile/profile.hpp"
 
 namespace dovetail::geometry {
 

@@ -6,9 +6,9 @@
 #include <random>
 #include <vector>
 
-#include "geometry/elastic_motion.hpp"
-#include "geometry/flank_fractions.hpp"
-#include "geometry/mesh_motion.hpp"
+#include "geometry/mesh/elastic_motion.hpp"
+#include "geometry/mesh/flank_fractions.hpp"
+#include "geometry/mesh/mesh_motion.hpp"
 
 namespace dovetail::geometry {
 namespace {
@@ -17,7 +17,7 @@ constexpr double kRadian = std::numbers::pi / 180;
 
 ProfileParameters with_angle(double degrees) {
   ProfileParameters p;
-  p.left.angle = p.right.angle = degrees * kRadian;
+  p.flank("left").angle = p.flank("right").angle = degrees * kRadian;
   return p;
 }
 
@@ -57,8 +57,8 @@ TEST(MeshFamily, KeepsTheTopology) {
 TEST(MeshFamily, LeavesTheMeshAloneWhenOnlyTheFlankFormChanges) {
   const MeshFamily family{ProfileParameters{}};
   ProfileParameters p;
-  p.right.mismatch = 15e-6;
-  p.left.crown = 5e-6;
+  p.flank("right").mismatch = 15e-6;
+  p.flank("left").crown = 5e-6;
   const MeshedSector a = family.mesh_of({}), b = family.mesh_of(p);
   EXPECT_EQ(a.sector.mesh.nodes, b.sector.mesh.nodes);
   EXPECT_GT(b.sector.flanks[0].gap.maxCoeff(), 0);
@@ -68,8 +68,8 @@ TEST(MeshFamily, MovesNodesSmoothlyAlongAParameterLine) {
   const MeshFamily family{ProfileParameters{}};
   const auto at = [&](double t) {
     ProfileParameters p;
-    p.left.angle = p.right.angle = (46 + 8 * t) * kRadian;
-    p.left.length = (5 + t) * 1e-3;
+    p.flank("left").angle = p.flank("right").angle = (46 + 8 * t) * kRadian;
+    p.flank("left").length = (5 + t) * 1e-3;
     p.neck_fillet_radius = (1.6 + 0.9 * t) * 1e-3;
     return family.mesh_of(p).sector.mesh.nodes;
   };
@@ -109,12 +109,12 @@ TEST(MeshFamily, StretchesOverTheUsualRangeWithoutMeshingAfresh) {
   };
   for (int k = 0; k < 100; ++k) {
     ProfileParameters p = base;
-    p.left.angle = between(45, 55) * kRadian;
-    p.left.length = between(4.5e-3, 6.5e-3);
-    p.right = p.left;
+    p.flank("left").angle = between(45, 55) * kRadian;
+    p.flank("left").length = between(4.5e-3, 6.5e-3);
+    p.flank("right") = p.flank("left");
     if (k % 2 == 1) {
-      p.right.angle = between(45, 55) * kRadian;
-      p.right.length = between(4.5e-3, 6.5e-3);
+      p.flank("right").angle = between(45, 55) * kRadian;
+      p.flank("right").length = between(4.5e-3, 6.5e-3);
     }
     p.neck_width = between(7.5e-3, 9.5e-3);
     p.neck_fillet_radius = between(1.4e-3, 2.8e-3);
@@ -138,7 +138,7 @@ TEST(MeshFamily, MeshesAfreshAndSaysSoWhereTheReferenceDoesNotReach) {
 TEST(MeshFamily, SaysWhenADesignCannotBeMeshed) {
   const MeshFamily family{ProfileParameters{}};
   ProfileParameters p;
-  p.left.length = p.right.length = 25e-3;  // the slot reaches beyond the cuts
+  p.flank("left").length = p.flank("right").length = 25e-3;  // the slot reaches beyond the cuts
   const MeshedSector meshed = family.mesh_of(p);
   EXPECT_GT(meshed.quality.inverted_elements, 0);
   EXPECT_FALSE(meshed.remeshed);

@@ -1,4 +1,4 @@
-#include "geometry/mesh_quality.hpp"
+#include "geometry/mesh/mesh_quality.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,10 +8,10 @@
 #include <set>
 
 #include "core/errors.hpp"
-#include "geometry/fillet_share.hpp"
-#include "geometry/flank_form.hpp"
-#include "geometry/flank_fractions.hpp"
-#include "geometry/mesh_motion.hpp"
+#include "geometry/mesh/flank_fractions.hpp"
+#include "geometry/mesh/mesh_motion.hpp"
+#include "geometry/profile/fillet_share.hpp"
+#include "geometry/profile/flank_form.hpp"
 #include "mesh_checks.hpp"
 
 namespace dovetail::geometry {
@@ -22,16 +22,16 @@ constexpr double kRadian = std::numbers::pi / 180;
 
 ProfileParameters lopsided() {
   ProfileParameters p;
-  p.left.angle = 47 * kRadian;
-  p.right.angle = 53 * kRadian;
-  p.left.length = 5.0e-3;
-  p.right.length = 6.0e-3;
+  p.flank("left").angle = 47 * kRadian;
+  p.flank("right").angle = 53 * kRadian;
+  p.flank("left").length = 5.0e-3;
+  p.flank("right").length = 6.0e-3;
   return p;
 }
 
 ProfileParameters rounded(double radius) {
   ProfileParameters p;
-  p.left.edge_radius = p.right.edge_radius = radius;
+  p.flank("left").edge_radius = p.flank("right").edge_radius = radius;
   return p;
 }
 
@@ -113,7 +113,7 @@ TEST_P(SectorMeshOf, MatchesTheFlanksInPairs) {
   EXPECT_EQ(sector.flanks[1].name, "right");
   for (const fem::Flank& flank : sector.flanks) {
     const bool left = flank.name == "left";
-    const FlankParameters& p = left ? GetParam().parameters.left : GetParam().parameters.right;
+    const FlankParameters& p = GetParam().parameters.flank(flank.name);
     const int parts = GetParam().sizes.flank_elements;
     const std::vector<double> fractions = with_middles(flank_fractions(GetParam().parameters, GetParam().sizes));
     ASSERT_EQ(flank.pairs.size(), static_cast<std::size_t>(2 * parts + 1));
@@ -283,8 +283,8 @@ TEST(SectorMesh, OfASymmetricDesignIsItsOwnMirrorImage) {
 
 TEST(SectorMesh, CarriesTheGapOfTheFlankForm) {
   ProfileParameters p;
-  p.right.mismatch = 20e-6;
-  p.left.mismatch = -10e-6;
+  p.flank("right").mismatch = 20e-6;
+  p.flank("left").mismatch = -10e-6;
   const MeshedSector meshed = mesh_sector(p);
   const Eigen::VectorXd &left = meshed.sector.flanks[0].gap, &right = meshed.sector.flanks[1].gap;
   const Eigen::Index last = right.size() - 1;
@@ -303,7 +303,7 @@ TEST(SectorMesh, RefusesSizesOutOfRange) {
 
 TEST(SectorMesh, RefusesABoundaryThatCrossesItself) {
   ProfileParameters p;
-  p.left.length = p.right.length = 25e-3;  // the slot reaches beyond the cuts
+  p.flank("left").length = p.flank("right").length = 25e-3;  // the slot reaches beyond the cuts
   try {
     (void)mesh_sector(p);
     FAIL() << "no exception";

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "core/errors.hpp"
-#include "geometry/triangulation.hpp"
+#include "geometry/mesh/triangulation.hpp"
 
 namespace dovetail::geometry {
 namespace {

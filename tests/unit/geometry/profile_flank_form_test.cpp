@@ -3,9 +3,9 @@
 #include <cmath>
 #include <random>
 
-#include "geometry/exact_section.hpp"
-#include "geometry/flank_form.hpp"
-#include "geometry/measures.hpp"
+#include "geometry/profile/exact_section.hpp"
+#include "geometry/profile/flank_form.hpp"
+#include "geometry/profile/measures.hpp"
 #include "tests/unit/geometry/random_design.hpp"
 
 namespace dovetail::geometry {
@@ -116,14 +116,14 @@ TEST(FinishedBlade, FollowsTheFormWithinItsStatedError) {
   std::mt19937 generator(3);
   for (int trial = 0; trial < 40; ++trial) {
     ProfileParameters p = random_design(generator, 0.05);
-    const double length_right = p.right.length;
-    p.right = random_form(generator);
-    p.right.length = length_right;
-    if (trial % 4 == 0) p.right.relief_depth = 0.3e-3;  // a hundredfold relief is still followed
+    const double length_right = p.flank("right").length;
+    p.flank("right") = random_form(generator);
+    p.flank("right").length = length_right;
+    if (trial % 4 == 0) p.flank("right").relief_depth = 0.3e-3;  // a hundredfold relief is still followed
     const Chain blade = finished_blade(p);
     const Edge flank = edge(build_profile(p).blade, "flank_right");
-    const Vector2d normal(std::cos(p.right.angle), std::sin(p.right.angle));
-    const FlankForm form(p.right);
+    const Vector2d normal(std::cos(p.flank("right").angle), std::sin(p.flank("right").angle));
+    const FlankForm form(p.flank("right"));
     double covered = 0;
     for (const Edge& e : blade) {
       if (e.name.rfind("flank_right_", 0) != 0) continue;
@@ -143,8 +143,8 @@ TEST(FinishedBlade, StaysClosedAndInsideTheNominalBlade) {
   std::mt19937 generator(4);
   for (int trial = 0; trial < 40; ++trial) {
     ProfileParameters p;
-    p.left = random_form(generator);
-    p.right = random_form(generator);
+    p.flank("left") = random_form(generator);
+    p.flank("right") = random_form(generator);
     const Chain blade = finished_blade(p);
     for (std::size_t i = 0; i < blade.size(); ++i) {
       EXPECT_EQ(blade[(i + 1) % blade.size()].start, blade[i].end) << blade[i].name;
@@ -156,8 +156,8 @@ TEST(FinishedBlade, StaysClosedAndInsideTheNominalBlade) {
     }
     const double removed = area(build_profile(p).blade) - area(blade);
     double expected = 0;
-    for (const FlankParameters* f : {&p.left, &p.right})
-      for (int i = 0; i < 2000; ++i) expected += FlankForm(*f).gap((i + 0.5) / 2000) * f->length / 2000;
+    for (const FlankParameters& f : p.flanks)
+      for (int i = 0; i < 2000; ++i) expected += FlankForm(f).gap((i + 0.5) / 2000) * f.length / 2000;
     // Besides the gap, fillets and corners change by about a third of the end gaps (50 um at most) times their 2-4 mm.
     EXPECT_GT(removed, 0);
     EXPECT_NEAR(removed, expected, 2 * 8e-3 * 50e-6 / 2);
@@ -168,11 +168,12 @@ TEST(FinishedBlade, NeverEntersTheDisk) {
   std::mt19937 generator(5);
   for (int trial = 0; trial < 20; ++trial) {
     ProfileParameters p;
-    p.left = random_form(generator);
-    p.right = random_form(generator);
+    p.flank("left") = random_form(generator);
+    p.flank("right") = random_form(generator);
     const Chain blade = finished_blade(p);
     EXPECT_TRUE(is_simple(blade));
-    EXPECT_LE(overlap_area(blade, build_profile(p).disk), kFlankArcError * (p.left.length + p.right.length));
+    EXPECT_LE(overlap_area(blade, build_profile(p).disk),
+              kFlankArcError * (p.flank("left").length + p.flank("right").length));
   }
 }
 

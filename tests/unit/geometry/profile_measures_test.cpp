@@ -1,4 +1,4 @@
-#include "geometry/measures.hpp"
+#include "geometry/profile/measures.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "geometry/chain.hpp"
+#include "geometry/profile/chain.hpp"
 #include "tests/unit/geometry/random_design.hpp"
 
 namespace dovetail::geometry {

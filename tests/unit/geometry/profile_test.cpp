@@ -1,4 +1,4 @@
-#include "geometry/profile.hpp"
+#include "geometry/profile/profile.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
-#include "geometry/chain.hpp"
-#include "geometry/measures.hpp"
+#include "geometry/profile/chain.hpp"
+#include "geometry/profile/measures.hpp"
 #include "tests/unit/geometry/random_design.hpp"
 
 namespace dovetail::geometry {
@@ -81,14 +81,14 @@ TEST(Profile, LetsTheFlanksOfBladeAndDiskCoincideToTheLastBit) {
 
 TEST(Profile, HasTheDimensionsAskedFor) {
   ProfileParameters p;
-  p.right.angle = 0.8;
-  p.right.length = 6e-3;
+  p.flank("right").angle = 0.8;
+  p.flank("right").length = 6e-3;
   const Profile profile = build_profile(p);
   const Edge& flank = edge(profile.blade, "flank_right");
   // Rounding of coordinates of 0.25 m: 3e-17 m, some operations.
   constexpr double kRounding = 1e-15;
   EXPECT_NEAR((flank.start - flank.end - 6e-3 * Eigen::Vector2d(std::sin(0.8), -std::cos(0.8))).norm(), 0, kRounding);
-  EXPECT_NEAR(edge(profile.blade, "flank_left").length(), p.left.length, kRounding);
+  EXPECT_NEAR(edge(profile.blade, "flank_left").length(), p.flank("left").length, kRounding);
   EXPECT_NEAR((flank.end.y() + edge(profile.blade, "flank_left").start.y()) / 2, p.rim_radius - p.lobe_depth,
               kRounding);
   EXPECT_EQ(edge(profile.blade, "neck_right").start.x(), p.neck_width / 2);
@@ -109,7 +109,7 @@ TEST(Profile, IsItsMirrorImageWhenTheFlanksAreExchanged) {
   std::mt19937 generator(4);
   ProfileParameters p = random_design(generator);
   const Profile profile = build_profile(p);
-  std::swap(p.left, p.right);
+  std::swap(p.flank("left"), p.flank("right"));
   const Profile exchanged = build_profile(p);
   for (const auto& [chain, other] : {std::pair{&profile.blade, &exchanged.blade}, {&profile.disk, &exchanged.disk}}) {
     const Chain image = mirrored(*other);
@@ -132,7 +132,7 @@ TEST(Profile, RefusesWhatIsNotFiniteOrNotPositiveNamingEveryKey) {
   p.neck_width = std::numeric_limits<double>::quiet_NaN();
   p.rim_radius = std::numeric_limits<double>::infinity();
   p.lobe_radius = 0;
-  p.left.length = -1e-3;
+  p.flank("left").length = -1e-3;
   try {
     static_cast<void>(build_profile(p));
     FAIL() << "accepted";

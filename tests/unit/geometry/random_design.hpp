@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "geometry/parameters.hpp"
+#include "geometry/profile/parameters.hpp"
 
 namespace dovetail::geometry {
 
@@ -15,9 +15,9 @@ inline ProfileParameters random_design(std::mt19937& generator, double spread = 
     if (const auto* member = std::get_if<double ProfileParameters::*>(&field.member)) p.*(*member) *= factor(generator);
   p.shank_width = 1.2 * p.neck_width;
   p.sectors = std::uniform_int_distribution<int>(30, 60)(generator);
-  for (FlankParameters* flank : {&p.left, &p.right}) {
-    flank->angle *= factor(generator);
-    flank->length *= 1 + (factor(generator) - 1) / 3;
+  for (FlankParameters& flank : p.flanks) {
+    flank.angle *= factor(generator);
+    flank.length *= 1 + (factor(generator) - 1) / 3;
   }
   return p;
 }

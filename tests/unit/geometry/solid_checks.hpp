@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "geometry/solid_family.hpp"
+#include "geometry/solid/solid_family.hpp"
 
 namespace dovetail::geometry {
 

@@ -10,7 +10,7 @@
 #include "fem/element.hpp"
 #include "geometry/exports/stl.hpp"
 #include "geometry/exports/vtu.hpp"
-#include "geometry/surface.hpp"
+#include "geometry/solid/surface.hpp"
 #include "tests/unit/geometry/solid_checks.hpp"
 
 namespace dovetail::geometry {

@@ -1,4 +1,4 @@
-#include "geometry/solid_family.hpp"
+#include "geometry/solid/solid_family.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <functional>
 #include <random>
 
-#include "geometry/solid_rules.hpp"
+#include "geometry/rules/solid_rules.hpp"
 #include "tests/unit/geometry/random_design.hpp"
 #include "tests/unit/geometry/solid_checks.hpp"
 
@@ -30,7 +30,7 @@ std::vector<std::pair<std::string, Move>> moves() {
       list.emplace_back(field.key, [m = *member](Design& d, double by) { d.section.*m *= 1 + by; });
   for (const auto& field : option_table<FlankParameters>())
     if (const auto* member = std::get_if<double FlankParameters::*>(&field.member))
-      list.emplace_back(field.key, [m = *member](Design& d, double by) { d.section.right.*m *= 1 + by; });
+      list.emplace_back(field.key, [m = *member](Design& d, double by) { d.section.flank("right").*m *= 1 + by; });
   for (const auto& field : option_table<SolidParameters>())
     if (const auto* member = std::get_if<double SolidParameters::*>(&field.member))
       list.emplace_back(field.key, [m = *member](Design& d, double by) { d.solid.*m *= 1 + by; });
@@ -86,7 +86,7 @@ TEST(SolidFamily, GivesTheSameBitsInAnyOrder) {
 TEST(SolidFamily, MeshesAfreshWhereThePlaneFamilyDoes) {
   const SolidFamily family({}, coarse_section(), kFewLayers);
   ProfileParameters p;
-  p.left.angle = p.right.angle = 69 * kRadian;
+  p.flank("left").angle = p.flank("right").angle = 69 * kRadian;
   const MeshedSector solid = family.mesh_of(p, {});
   const MeshedSector plane = MeshFamily({}, coarse_section()).mesh_of(p);
   EXPECT_TRUE(solid.remeshed);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "geometry/solid_flank.hpp"
+#include "geometry/solid/solid_flank.hpp"
 #include "tests/unit/geometry/solid_checks.hpp"
 
 namespace dovetail::geometry {
@@ -21,15 +21,15 @@ TEST(SolidFlankForm, IsThePlaneFormWithoutAxialTerms) {
 TEST(SolidFlankForm, AddsCrownAndReliefAlongTheSlot) {
   const ProfileParameters p;
   const SolidParameters crown{.axial_crown = 6e-6};
-  const SolidFlankForm crowned(p.left, p, crown);
+  const SolidFlankForm crowned(p.flank("left"), p, crown);
   EXPECT_NEAR(crowned.gap(0.2, 0), 6e-6, 1e-20);
   EXPECT_NEAR(crowned.gap(0.2, 0.5), 0, 1e-20);
   EXPECT_NEAR(crowned.gap(0.2, 0.75), 1.5e-6, 1e-20);
-  const SolidFlankForm hollow(p.left, p, {.axial_crown = -6e-6});
+  const SolidFlankForm hollow(p.flank("left"), p, {.axial_crown = -6e-6});
   EXPECT_NEAR(hollow.gap(0.2, 0.5), 6e-6, 1e-20);
   EXPECT_NEAR(hollow.gap(0.2, 1), 0, 1e-20);
   // 4 mm of 40 mm: half-way into the relief a quarter of its depth is left.
-  const SolidFlankForm relieved(p.left, p, {.axial_relief_length = 4e-3, .axial_relief_depth = 8e-6});
+  const SolidFlankForm relieved(p.flank("left"), p, {.axial_relief_length = 4e-3, .axial_relief_depth = 8e-6});
   EXPECT_NEAR(relieved.gap(0.7, 0), 8e-6, 1e-20);
   EXPECT_NEAR(relieved.gap(0.7, 0.05), 2e-6, 1e-19);
   EXPECT_NEAR(relieved.gap(0.7, 0.5), 0, 1e-20);
@@ -41,16 +41,16 @@ TEST(SolidFlankForm, MeasuresTheReliefAlongASkewedSlot) {
   const ProfileParameters p;
   const SolidParameters solid{.skew_angle = 30 * kRadian, .axial_relief_length = 4e-3, .axial_relief_depth = 8e-6};
   const double border = 4e-3 * std::cos(30 * kRadian) / 40e-3;
-  const SolidFlankForm form(p.left, p, solid);
+  const SolidFlankForm form(p.flank("left"), p, solid);
   EXPECT_NEAR(form.gap(0.5, border / 2), 2e-6, 1e-19);
   EXPECT_NEAR(form.gap(0.5, 1.01 * border), 0, 1e-20);
 }
 
 TEST(SolidFlankForm, HasItsSmallestGapAtZero) {
   ProfileParameters p;
-  p.left.mismatch = -7e-6;
-  p.left.crown = -4e-6;
-  const SolidFlankForm form(p.left, p, everything());
+  p.flank("left").mismatch = -7e-6;
+  p.flank("left").crown = -4e-6;
+  const SolidFlankForm form(p.flank("left"), p, everything());
   double smallest = 1;
   for (int i = 0; i <= 200; ++i)
     for (int j = 0; j <= 200; ++j) smallest = std::min(smallest, form.gap(i / 200.0, j / 200.0));
@@ -60,11 +60,11 @@ TEST(SolidFlankForm, HasItsSmallestGapAtZero) {
 
 TEST(SolidFlankForm, HasTheDerivativesItGives) {
   ProfileParameters p;
-  p.left.mismatch = 7e-6;
+  p.flank("left").mismatch = 7e-6;
   const SolidParameters base = everything();
   const double s = 0.8, u = 0.04, h = 1e-6;
-  const SolidFlankForm form(p.left, p, base);
-  const auto gap = [&](const SolidParameters& solid) { return SolidFlankForm(p.left, p, solid).gap(s, u); };
+  const SolidFlankForm form(p.flank("left"), p, base);
+  const auto gap = [&](const SolidParameters& solid) { return SolidFlankForm(p.flank("left"), p, solid).gap(s, u); };
   const auto by = [&](double SolidParameters::*member, double step) {
     SolidParameters more = base, less = base;
     more.*member += step;

@@ -8,10 +8,10 @@
 #include <set>
 
 #include "fem/element.hpp"
-#include "geometry/flank_fractions.hpp"
-#include "geometry/solid_flank.hpp"
-#include "geometry/solid_measures.hpp"
-#include "geometry/solid_rules.hpp"
+#include "geometry/mesh/flank_fractions.hpp"
+#include "geometry/rules/solid_rules.hpp"
+#include "geometry/solid/solid_flank.hpp"
+#include "geometry/solid/solid_measures.hpp"
 #include "tests/unit/geometry/solid_checks.hpp"
 
 namespace dovetail::geometry {
@@ -32,9 +32,9 @@ class SolidMeshOf : public ::testing::TestWithParam<Case> {
  protected:
   static ProfileParameters parameters() {
     ProfileParameters p;
-    p.left.angle = 48 * kRadian;
-    p.right.length = 6e-3;
-    p.right.mismatch = 10e-6;
+    p.flank("left").angle = 48 * kRadian;
+    p.flank("right").length = 6e-3;
+    p.flank("right").mismatch = 10e-6;
     return p;
   }
   MeshedSector meshed_ = mesh_solid(parameters(), GetParam().solid, coarse_section(), GetParam().sizes);
@@ -142,7 +142,7 @@ TEST_P(SolidMeshOf, CarriesTheGapOverTheFlank) {
   const ProfileParameters p = parameters();
   for (const fem::Flank& flank : sector_.flanks) {
     const std::vector<double> across = divided_like(flank_fractions(p, coarse_section()), flank.grid[0] - 1);
-    const SolidFlankForm form(flank.name == "left" ? p.left : p.right, p, GetParam().solid);
+    const SolidFlankForm form(p.flank(flank.name), p, GetParam().solid);
     ASSERT_EQ(flank.gap.size(), flank.contact_count());
     for (int j = 0; j < flank.grid[1]; ++j)
       for (int i = 0; i < flank.grid[0]; ++i) {

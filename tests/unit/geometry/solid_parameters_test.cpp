@@ -1,9 +1,9 @@
-#include "geometry/solid_parameters.hpp"
+#include "geometry/solid/solid_parameters.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "geometry/solid_family.hpp"
+#include "geometry/solid/solid_family.hpp"
 #include "tests/unit/geometry/solid_checks.hpp"
 
 namespace dovetail::geometry {

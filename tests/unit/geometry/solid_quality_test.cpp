@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "fem/element.hpp"
-#include "geometry/mesh_quality.hpp"
+#include "geometry/mesh/mesh_quality.hpp"
 
 namespace dovetail::geometry {
 namespace {

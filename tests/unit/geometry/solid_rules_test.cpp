@@ -1,4 +1,4 @@
-#include "geometry/solid_rules.hpp"
+#include "geometry/rules/solid_rules.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

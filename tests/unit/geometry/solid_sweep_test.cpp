@@ -1,4 +1,4 @@
-#include "geometry/slot_sweep.hpp"
+#include "geometry/solid/slot_sweep.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "geometry/measures.hpp"
+#include "geometry/profile/measures.hpp"
 #include "tests/unit/geometry/solid_checks.hpp"
 
 namespace dovetail::geometry {

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "optimizer/run.hpp"
+#include "optimizer/search/run.hpp"
 
 namespace dovetail::optimizer {
 

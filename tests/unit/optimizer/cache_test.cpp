@@ -1,4 +1,4 @@
-#include "optimizer/cache.hpp"
+#include "optimizer/search/cache.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "optimizer/design_space.hpp"
+#include "optimizer/problem/design_space.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 
 #include "bowl.hpp"
 #include "core/errors.hpp"
-#include "optimizer/run.hpp"
+#include "optimizer/search/run.hpp"
 #include "scratch_file.hpp"
 
 namespace dovetail::optimizer {

@@ -1,4 +1,4 @@
-#include "optimizer/journal.hpp"
+#include "optimizer/journal/journal.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

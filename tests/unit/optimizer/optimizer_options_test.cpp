@@ -1,4 +1,4 @@
-#include "optimizer/optimizer_options.hpp"
+#include "optimizer/problem/optimizer_options.hpp"
 
 #include <gtest/gtest.h>
 

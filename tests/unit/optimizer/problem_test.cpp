@@ -1,4 +1,4 @@
-#include "optimizer/problem.hpp"
+#include "optimizer/problem/problem.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,8 +6,8 @@
 
 #include "bowl.hpp"
 #include "core/errors.hpp"
-#include "optimizer/fingerprint.hpp"
-#include "optimizer/run.hpp"
+#include "optimizer/journal/fingerprint.hpp"
+#include "optimizer/search/run.hpp"
 #include "scratch_file.hpp"
 
 namespace dovetail::optimizer {

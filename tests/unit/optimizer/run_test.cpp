@@ -1,4 +1,4 @@
-#include "optimizer/run.hpp"
+#include "optimizer/search/run.hpp"
 
 #include <gtest/gtest.h>
 

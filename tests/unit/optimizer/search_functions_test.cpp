@@ -1,4 +1,4 @@
-#include "optimizer/search_functions.hpp"
+#include "optimizer/search/search_functions.hpp"
 
 #include <gtest/gtest.h>
 

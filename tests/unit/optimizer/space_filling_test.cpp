@@ -1,10 +1,10 @@
-#include "optimizer/space_filling.hpp"
+#include "optimizer/search/space_filling.hpp"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "optimizer/random_stream.hpp"
+#include "optimizer/search/random_stream.hpp"
 
 namespace dovetail::optimizer {
 namespace {

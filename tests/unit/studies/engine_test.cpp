@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "optimizer/candidate_model.hpp"
+#include "optimizer/candidate/candidate_model.hpp"
 
 namespace dovetail::optimizer {
 namespace {

@@ -61,7 +61,7 @@ TEST(DesignRecord, AgreesWithTheEvaluation) {
   const double normal =
       std::inner_product(contact.area_m2.begin(), contact.area_m2.end(), contact.preload_pressure_pa.begin(), 0.0);
   const double pull = record.responses.at("mass_kg") * std::pow(design.scene.loading.speed, 2);
-  const double a = design.scene.geometry.left.angle, mu = design.scene.contact.friction;
+  const double a = design.scene.geometry.flank("left").angle, mu = design.scene.contact.friction;
   EXPECT_GT(normal, 0.24 * pull / (std::sin(a) + mu * std::cos(a)));
   EXPECT_LT(normal, 0.36 * pull / (std::sin(a) - mu * std::cos(a)));
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/flank_form.hpp"
+#include "geometry/profile/flank_form.hpp"
 
 namespace dovetail::report {
 

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "core/replace_file.hpp"
-#include "optimizer/journal.hpp"
+#include "optimizer/journal/journal.hpp"
 #include "studies/program/commands/commands.hpp"
 #include "studies/program/commands/interrupt.hpp"
 #include "studies/report/record/results_file.hpp"

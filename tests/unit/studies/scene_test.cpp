@@ -1,9 +1,12 @@
-#include "optimizer/scene.hpp"
+#include "optimizer/scene/scene.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <numbers>
+
+#include "optimizer/scene/responses.hpp"
+#include "optimizer/scene/scene_kind.hpp"
 
 namespace dovetail::optimizer {
 namespace {
@@ -25,12 +28,26 @@ TEST(Scene, DefaultsAreValid) {
 TEST(Scene, AFlankKeySetsBothFlanksOrOne) {
   Scene scene;
   set_parameter(scene, "geometry.flank_angle_deg", 48);
-  EXPECT_EQ(scene.geometry.left.angle, scene.geometry.right.angle);
+  EXPECT_EQ(scene.geometry.flank("left").angle, scene.geometry.flank("right").angle);
   EXPECT_EQ(parameters(scene).count("geometry.left.flank_angle_deg"), 0U);
   set_parameter(scene, "geometry.right.flank_angle_deg", 52);
-  EXPECT_DOUBLE_EQ(scene.geometry.left.angle, 48 * std::numbers::pi / 180);
+  EXPECT_DOUBLE_EQ(scene.geometry.flank("left").angle, 48 * std::numbers::pi / 180);
   EXPECT_EQ(parameters(scene).at("geometry.right.flank_angle_deg"), 52);
   EXPECT_EQ(parameters(scene).count("geometry.flank_angle_deg"), 0U);
+}
+
+TEST(SceneKind, EveryOneHasANameAndChangesKeysThatThereAre) {
+  EXPECT_EQ(find_scene_kind("solid"), nullptr);
+  for (const SceneKind* kind : scene_kinds()) {
+    SCOPED_TRACE(kind->name);
+    EXPECT_EQ(find_scene_kind(kind->name), kind);
+    Scene scene;
+    scene.kind = kind;
+    EXPECT_TRUE(violations(scene).empty());
+    for (const auto& keys : {kind->counts, kind->lengths})
+      for (const std::string_view key : keys) EXPECT_NE(find_parameter(key), nullptr) << key;
+    for (const ResponseName& response : response_names()) EXPECT_GE(kind->mesh_order(response.name), 1);
+  }
 }
 
 TEST(Scene, FrictionIsThatOfTheSelfLockingRuleToo) {

@@ -5,6 +5,7 @@
 
 #include <numbers>
 
+#include "optimizer/scene/scene_kind.hpp"
 #include "tests/unit/studies/sample_study.hpp"
 
 namespace dovetail::studies {
@@ -65,7 +66,7 @@ TEST(Study, WarnsOfAResponseWithoutLimit) {
   ASSERT_EQ(sharp.size(), 1U);
   EXPECT_THAT(sharp.front(), HasSubstr("contact_pressure_max_pa"));
   Study rounded = read(sample() + limit);
-  rounded.scene.geometry.left.edge_radius = rounded.scene.geometry.right.edge_radius = 5e-3;
+  rounded.scene.geometry.flank("left").edge_radius = rounded.scene.geometry.flank("right").edge_radius = 5e-3;
   // A limit that only a fine mesh sees.
   ASSERT_EQ(warnings(rounded).size(), 1U);
   EXPECT_THAT(warnings(rounded).front(), testing::HasSubstr("look at its error bar"));
@@ -73,7 +74,7 @@ TEST(Study, WarnsOfAResponseWithoutLimit) {
   rough.scene.contact.normal_stiffness = 1e14;
   ASSERT_EQ(warnings(rough).size(), 1U);
   EXPECT_THAT(warnings(rough).front(), testing::HasSubstr("look at its error bar"));
-  rough.scene.type = "sector";
+  rough.scene.kind = &optimizer::kSector;
   EXPECT_THAT(warnings(rough).front(), testing::HasSubstr("in space it has no error bar"));
 }
 
@@ -196,9 +197,12 @@ TEST(Study, ASectorHasKeysOfItsOwnAndASectionMayCarryThem) {
     std::string text = replaced(sample(), "type = \"section\"", std::string("type = \"") + type + '"');
     text = replaced(replaced(text, "skew_angle_deg = 0", "skew_angle_deg = 20"), "stagger_deg = 0", "stagger_deg = 30");
     const Study study = read(text);
-    EXPECT_EQ(study.scene.type, type);
+    EXPECT_EQ(study.scene.kind, optimizer::find_scene_kind(type));
     EXPECT_DOUBLE_EQ(study.scene.solid.skew_angle, 20 * std::numbers::pi / 180);
     EXPECT_DOUBLE_EQ(optimizer::parameter(study.scene, "geometry.stagger_deg"), 30);
+    // What old runs are recognised by.
+    EXPECT_THAT(physics_text(study.scene), HasSubstr(std::string("scene.type = ") + type + "\n"));
+    EXPECT_THAT(physics_text(study.scene), HasSubstr("geometry.stagger_deg = 30\n"));
   }
 }
 
@@ -211,11 +215,11 @@ TEST(Study, AContactGridFinerThanTheMeshIsRefused) {
 
 TEST(Study, FlankKeysSetBothSidesAndOneSideOverrides) {
   const Study study = read(sample() + "\n[geometry.left]\nflank_angle_deg = 48.0\n");
-  EXPECT_DOUBLE_EQ(study.scene.geometry.left.angle, 48 * std::numbers::pi / 180);
-  EXPECT_DOUBLE_EQ(study.scene.geometry.right.angle, 50 * std::numbers::pi / 180);
+  EXPECT_DOUBLE_EQ(study.scene.geometry.flank("left").angle, 48 * std::numbers::pi / 180);
+  EXPECT_DOUBLE_EQ(study.scene.geometry.flank("right").angle, 50 * std::numbers::pi / 180);
   const std::string both_sides = "[geometry.left]\nflank_angle_deg = 48\n[geometry.right]\nflank_angle_deg = 52\n";
   const Study split = read(without(sample(), "flank_angle_deg") + both_sides);
-  EXPECT_DOUBLE_EQ(split.scene.geometry.right.angle, 52 * std::numbers::pi / 180);
+  EXPECT_DOUBLE_EQ(split.scene.geometry.flank("right").angle, 52 * std::numbers::pi / 180);
   EXPECT_THAT(complaints(without(sample(), "flank_angle_deg") + "[geometry.left]\nflank_angle_deg = 48\n"),
               HasSubstr("geometry.flank_angle_deg: is missing"));
 }

@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "geometry/exports/inp.hpp"
-#include "geometry/mesh_motion.hpp"
-#include "geometry/solid_family.hpp"
+#include "geometry/mesh/mesh_motion.hpp"
+#include "geometry/solid/solid_family.hpp"
 #include "reduction/static_condensation.hpp"
 #include "steady/preload.hpp"
 #include "tests/verification/calculix/glued_joint.hpp"

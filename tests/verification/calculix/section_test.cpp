@@ -4,7 +4,7 @@
 #include <array>
 
 #include "geometry/exports/inp.hpp"
-#include "geometry/mesh_motion.hpp"
+#include "geometry/mesh/mesh_motion.hpp"
 #include "tests/verification/calculix/glued_joint.hpp"
 
 namespace dovetail::calculix {

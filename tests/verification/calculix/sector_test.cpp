@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "geometry/exports/inp.hpp"
-#include "geometry/solid_family.hpp"
+#include "geometry/solid/solid_family.hpp"
 #include "tests/verification/calculix/glued_joint.hpp"
 
 namespace dovetail::calculix {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "fem/stress_aggregate.hpp"
-#include "geometry/contact_grid.hpp"
-#include "geometry/flank_form.hpp"
-#include "geometry/flank_fractions.hpp"
+#include "geometry/mesh/contact_grid.hpp"
+#include "geometry/mesh/flank_fractions.hpp"
+#include "geometry/profile/flank_form.hpp"
 #include "reduction/static_condensation.hpp"
 #include "steady/preload.hpp"
 #include "tests/unit/fem/structured_mesh.hpp"
@@ -67,8 +67,8 @@ class RoundedPunch {
 /// The flank of the study: straight over 2 a, rounded beyond.
 ProfileParameters flank_of(double radius) {
   ProfileParameters p;
-  p.left.edge_radius = p.right.edge_radius = radius;
-  p.left.length = p.right.length = 2 * (kHalfFlat + rounded_length(radius));
+  p.flank("left").edge_radius = p.flank("right").edge_radius = radius;
+  p.flank("left").length = p.flank("right").length = 2 * (kHalfFlat + rounded_length(radius));
   return p;
 }
 
@@ -94,7 +94,7 @@ class Blocks {
  public:
   Blocks(double radius, int flank_elements, double size)
       : flank_(flank_of(radius)), fractions_(flank_fractions(flank_, {.flank_elements = flank_elements})) {
-    const double length = flank_.left.length;
+    const double length = flank_.flank("left").length;
     const double end_edge = fractions_[1] * length, shortest = shortest_edge() * length;
     const std::vector<double> beyond = growing(end_edge, size - length / 2, 1.4);
     for (std::size_t k = beyond.size() - 1; k > 0; --k) across_.push_back(-length / 2 - beyond[k]);
@@ -149,7 +149,7 @@ class Blocks {
     flank.interpolation = bilinear_interpolation(fractions_, {0}, with_middles(fractions_), {0});
     flank.position.resize(2, parts + 1);
     flank.gap.resize(parts + 1);
-    const FlankForm form(flank_.right);
+    const FlankForm form(flank_.flank("right"));
     for (int k = 0; k <= parts; ++k) {
       flank.position.col(k) = mesh.nodes.col(upper.node(2 * (before_ + k), 0));
       flank.gap[k] = form.gap(fractions_[static_cast<std::size_t>(k)]);

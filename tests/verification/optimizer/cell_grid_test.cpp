@@ -1,5 +1,5 @@
 // Contact cells across a flank: where they end depends on the edges of worn zones continuously.
-#include "optimizer/cell_grid.hpp"
+#include "optimizer/candidate/cell_grid.hpp"
 
 #include <gtest/gtest.h>
 

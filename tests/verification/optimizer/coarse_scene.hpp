@@ -1,6 +1,6 @@
 #pragma once
 
-#include "optimizer/scene.hpp"
+#include "optimizer/scene/scene.hpp"
 
 namespace dovetail::optimizer {
 
@@ -10,7 +10,7 @@ inline Scene coarse_scene() {
   scene.mesh.flank_elements = 12;
   scene.mesh.fillet_fraction = 0.2;
   scene.mesh.bulk_size = 4e-3;
-  scene.geometry.left.mismatch = scene.geometry.right.mismatch = 4e-6;
+  scene.geometry.flank("left").mismatch = scene.geometry.flank("right").mismatch = 4e-6;
   return scene;
 }
 

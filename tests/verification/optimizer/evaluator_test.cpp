@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "optimizer/problem.hpp"
+#include "optimizer/problem/problem.hpp"
 #include "paths/steady_state.hpp"
 #include "tests/unit/reduction/stiffness_error.hpp"
 #include "tests/verification/optimizer/coarse_scene.hpp"
@@ -88,7 +88,7 @@ TEST(SectionEvaluation, FlanksCarryTheCentrifugalPull) {
   // Static equilibrium of the blade in the radial direction, its displacement neglected against its radius (1e-4).
   const CandidateModel& model = baseline().model;
   const Scene scene = coarse_scene();
-  const double angle = scene.geometry.right.angle;
+  const double angle = scene.geometry.flank("right").angle;
   double radial = 0;
   for (Eigen::Index i = 0; i < model.cells.count(); ++i) {
     const double normal = model.preload.force(2 * i);
@@ -176,11 +176,11 @@ TEST(SectionEvaluation, SpinsUpFlanksThatTouchAtBothEnds) {
   // Hollow flanks on a mismatch: contact starts at one end and jumps to both within one of the preload's equal load
   // steps, which Newton's method does not follow; the path does in shorter ones.
   Scene scene;
-  for (geometry::FlankParameters* flank : {&scene.geometry.left, &scene.geometry.right}) {
-    flank->mismatch = 6.694892451738145e-6;
-    flank->crown = -2.7817521711339706e-6;
-    flank->angle = 0.94607466;
-    flank->length = 5.582930293028078e-3;
+  for (geometry::FlankParameters& flank : scene.geometry.flanks) {
+    flank.mismatch = 6.694892451738145e-6;
+    flank.crown = -2.7817521711339706e-6;
+    flank.angle = 0.94607466;
+    flank.length = 5.582930293028078e-3;
   }
   scene.geometry.neck_width = 8.678662842517202e-3;
   scene.geometry.neck_fillet_radius = 1.824488370054469e-3;
@@ -193,7 +193,7 @@ TEST(SectionEvaluation, SpinUpStaysInTheSlot) {
   // Spin softening gives the blade a second balance of forces, fallen towards the axis with all contact open. At 40
   // degrees Newton's method goes there from closed contact.
   Scene scene;
-  scene.geometry.left.angle = scene.geometry.right.angle = 40 * 3.14159265358979 / 180;
+  scene.geometry.flank("left").angle = scene.geometry.flank("right").angle = 40 * 3.14159265358979 / 180;
   const SceneEvaluator own(scene);
   const Evaluation evaluation = own.evaluate(scene).evaluation;
   ASSERT_TRUE(evaluation.converged()) << evaluation.status;
@@ -214,11 +214,11 @@ TEST(SectionEvaluation, GrossSlipHasNoAsymptote) {
 // Flanks that lift off in every cycle: nodes wear to where they touch without slip, before they touch nothing.
 TEST(SectionEvaluation, HistoryDecidesWhereTheDirectWornStateIsInDoubt) {
   Scene scene = coarse_scene();
-  for (geometry::FlankParameters* flank : {&scene.geometry.left, &scene.geometry.right}) {
-    flank->mismatch = 6.131298e-6;
-    flank->crown = 4.587724e-6;
-    flank->angle = 52.72727 * std::numbers::pi / 180;
-    flank->length = 5.872546e-3;
+  for (geometry::FlankParameters& flank : scene.geometry.flanks) {
+    flank.mismatch = 6.131298e-6;
+    flank.crown = 4.587724e-6;
+    flank.angle = 52.72727 * std::numbers::pi / 180;
+    flank.length = 5.872546e-3;
   }
   scene.geometry.neck_width = 9.234462e-3;
   scene.geometry.neck_fillet_radius = 2.395893e-3;
@@ -263,11 +263,11 @@ TEST(SectionEvaluation, HistoryDecidesWhereTheDirectWornStateIsInDoubt) {
 // to 256 edges per flank end with 0.619, 0.632, 0.647, 0.658, 0.665 and 0.675 mm^3: 0.705 on infinitely short nodes.
 TEST(SectionEvaluation, NodesOfAConfirmingHistoryAreInTheBar) {
   Scene scene = coarse_scene();
-  for (geometry::FlankParameters* flank : {&scene.geometry.left, &scene.geometry.right}) {
-    flank->mismatch = 24.429651 * 1e-6;
-    flank->crown = 6.409498 * 1e-6;
-    flank->angle = 50.05622 * std::numbers::pi / 180;
-    flank->length = 5.600917 * 1e-3;
+  for (geometry::FlankParameters& flank : scene.geometry.flanks) {
+    flank.mismatch = 24.429651 * 1e-6;
+    flank.crown = 6.409498 * 1e-6;
+    flank.angle = 50.05622 * std::numbers::pi / 180;
+    flank.length = 5.600917 * 1e-3;
   }
   scene.geometry.neck_width = 9.107106 * 1e-3;
   scene.geometry.neck_fillet_radius = 1.768042 * 1e-3;
@@ -332,8 +332,8 @@ TEST(SectionEvaluation, RunsTwiceToTheSameBits) {
 TEST(SectionEvaluation, MirrorImagesWearAlike) {
   Scene left = coarse_scene();
   Scene right = coarse_scene();
-  left.geometry.left.mismatch = 10e-6;
-  right.geometry.right.mismatch = 10e-6;
+  left.geometry.flank("left").mismatch = 10e-6;
+  right.geometry.flank("right").mismatch = 10e-6;
   const Evaluation a = evaluator().evaluate(left).evaluation;
   const Evaluation b = evaluator().evaluate(right).evaluation;
   ASSERT_TRUE(a.converged() && b.converged()) << a.status << b.status;
@@ -343,7 +343,7 @@ TEST(SectionEvaluation, MirrorImagesWearAlike) {
 
 TEST(SectionEvaluation, InfeasibleDesignIsNamedNotComputed) {
   Scene scene = coarse_scene();
-  scene.geometry.left.angle = scene.geometry.right.angle = 0.4;  // below atan(0.5) = 0.46: locks
+  scene.geometry.flank("left").angle = scene.geometry.flank("right").angle = 0.4;  // below atan(0.5) = 0.46: locks
   const Evaluation evaluation = evaluator().evaluate(scene).evaluation;
   EXPECT_EQ(evaluation.status, "infeasible");
   EXPECT_FALSE(evaluation.feasible);

@@ -1,4 +1,4 @@
-#include "optimizer/fillet_stress.hpp"
+#include "optimizer/candidate/fillet_stress.hpp"
 
 #include <gtest/gtest.h>
 
@@ -32,9 +32,9 @@ TEST(FilletStress, IsThatOfTheFilletHoweverTheFlankEnds) {
   };
   for (const Form& form : {Form{0, 0}, Form{25e-6, 5.1e-6}, Form{25e-6, -1e-6}, Form{25e-6, -3e-6}}) {
     Scene scene;
-    for (geometry::FlankParameters* flank : {&scene.geometry.left, &scene.geometry.right}) {
-      flank->mismatch = form.mismatch;
-      flank->crown = form.crown;
+    for (geometry::FlankParameters& flank : scene.geometry.flanks) {
+      flank.mismatch = form.mismatch;
+      flank.crown = form.crown;
     }
     const FilletStress coarse = blade_fillet(scene, 16), fine = blade_fillet(scene, 40);
     const std::string name = "crown_um_" + std::to_string(form.crown * 1e6);

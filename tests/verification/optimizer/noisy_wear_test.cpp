@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "optimizer/run.hpp"
+#include "optimizer/search/run.hpp"
 #include "tests/verification/optimizer/random_search.hpp"
 
 namespace dovetail::optimizer {

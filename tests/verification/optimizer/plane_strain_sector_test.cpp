@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fem/stress.hpp"
+#include "geometry/solid/solid_family.hpp"
 #include "optimizer/evaluator.hpp"
 #include "reduction/static_condensation.hpp"
 #include "tests/verification/fem/sector_model.hpp"
@@ -93,7 +94,7 @@ Chain held(const Scene& scene, int modes) {
 }
 
 TEST(SectorHeldInPlaneStrain, IsTheSection) {
-  Scene scene = joint("sector");
+  Scene scene = joint(kSector);
   scene.solid_mesh.slot_elements = 2;
   // At three harmonics the answer depends a little on the pseudo-penalty, whose default is taken from the contact's own
   // stiffness: between modes that vary along the slot the same number of modes leaves another one.

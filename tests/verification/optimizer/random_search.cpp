@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "optimizer/random_stream.hpp"
+#include "optimizer/search/random_stream.hpp"
 
 namespace dovetail::optimizer {
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "optimizer/run.hpp"
+#include "optimizer/search/run.hpp"
 
 namespace dovetail::optimizer {
 

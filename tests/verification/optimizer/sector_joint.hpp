@@ -1,17 +1,16 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <string>
 #include <vector>
 
-#include "optimizer/candidate_model.hpp"
+#include "optimizer/candidate/candidate_model.hpp"
 
 namespace dovetail::optimizer::testing {
 
 /// The default joint on a mesh that a test can afford; the same plane mesh for a section and for a sector in space.
-inline Scene joint(const std::string& type) {
+inline Scene joint(const SceneKind& kind) {
   Scene scene;
-  scene.type = type;
+  scene.kind = &kind;
   // On a smaller bore the disk's umbrella mode comes next to the blade's first one.
   scene.geometry.bore_radius = 0.16;
   scene.mesh = {.flank_elements = 6,

@@ -23,7 +23,7 @@ class SectorSmoothness : public ::testing::TestWithParam<Line> {};
 
 /// Off all places where answers are symmetric.
 Scene everything() {
-  Scene scene = testing::joint("sector");
+  Scene scene = testing::joint(kSector);
   scene.mesh.flank_elements = 4;
   scene.solid_mesh.slot_elements = 3;  // a crown along the slot has the same mean over each half
   scene.solver.modes = 8;

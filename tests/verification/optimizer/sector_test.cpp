@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fem/diameter_frequencies.hpp"
+#include "geometry/solid/solid_family.hpp"
 #include "optimizer/evaluator.hpp"
 #include "tests/verification/optimizer/sector_joint.hpp"
 
@@ -40,7 +41,7 @@ double standing_frequency(const fem::SectorMesh& sector, const std::vector<fem::
 TEST(SectorAgainstSection, FrequencyAtRestLiesBetweenPlaneStressAndPlaneStrain) {
   // Plane strain holds the solid (u_z = 0), so its frequency is above. Plane stress is the least strain energy that
   // displacements in the plane can have, so its frequency is below but for the little inertia of u_z.
-  const Scene scene = joint("sector");
+  const Scene scene = joint(kSector);
   const std::vector<fem::Material> bodies = materials(scene);
   fem::SectorMesh plane = geometry::mesh_sector(scene.geometry, scene.mesh).sector;
   const double section = standing_frequency(plane, bodies);
@@ -59,13 +60,13 @@ TEST(SectorAgainstSection, FrequencyAtRestLiesBetweenPlaneStressAndPlaneStrain) 
 }
 
 TEST(SectorAgainstSection, PreloadAgreesAndMoreSoInALongerSlot) {
-  const CandidateModel section = static_model_of(joint("section"));
+  const CandidateModel section = static_model_of(joint(kSection));
   ASSERT_TRUE(section.converged()) << section.status;
   const std::vector<FlankLoad> flat = flank_loads(section);
   // Differences over the mean pressure, of the profile in the middle of the slot, and of the glued frequencies.
   std::vector<double> middle, frequency;
   for (const int factor : {1, 2}) {
-    const CandidateModel sector = static_model_of(longer(joint("sector"), factor));
+    const CandidateModel sector = static_model_of(longer(joint(kSector), factor));
     ASSERT_TRUE(sector.converged()) << sector.status;
     const std::vector<FlankLoad> deep = flank_loads(sector);
     ASSERT_EQ(deep.size(), 2U);
@@ -104,7 +105,7 @@ CandidateResult vibration(const Scene& scene) {
 }
 
 TEST(SectorAgainstSection, ResonanceAndAsymptoticWearAgree) {
-  const CandidateResult flat = vibration(joint("section")), deep = vibration(joint("sector"));
+  const CandidateResult flat = vibration(joint(kSection)), deep = vibration(joint(kSector));
   ASSERT_TRUE(flat.evaluation.converged()) << flat.evaluation.status;
   ASSERT_TRUE(deep.evaluation.converged()) << deep.evaluation.status;
   // The frequencies differ as the glued ones do.
@@ -132,7 +133,7 @@ TEST(SectorAgainstSection, ResonanceAndAsymptoticWearAgree) {
 }
 
 TEST(SectorEvaluation, ConvergesWithEveryResponseAndItsErrorBar) {
-  Scene scene = joint("sector");
+  Scene scene = joint(kSector);
   scene.mesh.flank_elements = 4;
   scene.solid_mesh.slot_elements = 2;
   scene.solid.skew_angle = 0.1;
@@ -164,7 +165,7 @@ TEST(SectorSymmetry, MirroredSlotsHaveMirroredPressures) {
   std::vector<std::vector<FlankLoad>> loads;
   std::vector<double> frequency;
   for (const double skew : {0.0, 20.0, -20.0}) {
-    Scene scene = joint("sector");
+    Scene scene = joint(kSector);
     scene.mesh.flank_elements = 4;
     scene.solid.skew_angle = skew * std::numbers::pi / 180;
     const CandidateModel model = static_model_of(scene);

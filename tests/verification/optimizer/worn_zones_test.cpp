@@ -1,4 +1,4 @@
-#include "optimizer/worn_zones.hpp"
+#include "optimizer/candidate/worn_zones.hpp"
 
 #include <gtest/gtest.h>
 

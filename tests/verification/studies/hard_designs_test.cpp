@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "optimizer/bars/other_meshes.hpp"
 #include "optimizer/evaluator.hpp"
-#include "optimizer/other_meshes.hpp"
 #include "studies/program/engine/engine.hpp"
 #include "studies/program/study_file/study.hpp"
 

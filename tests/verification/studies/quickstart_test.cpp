@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "optimizer/run.hpp"
+#include "optimizer/search/run.hpp"
 #include "optimizer/verification.hpp"
 #include "studies/program/engine/engine.hpp"
 #include "studies/program/study_file/study.hpp"

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "optimizer/contact_fit.hpp"
+#include "optimizer/candidate/contact_fit.hpp"
 #include "optimizer/evaluator.hpp"
 #include "paths/resonance.hpp"
 #include "wear/asymptote/asymptote.hpp"

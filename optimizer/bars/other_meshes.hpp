@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "optimizer/candidate/candidate_model.hpp"
+
+namespace dovetail::optimizer {
+
+/// The design's scene on another mesh: all sizes that the kind of the scene lets another mesh change `ratio` times as
+/// large.
+[[nodiscard]] Scene resized(Scene scene, double ratio);
+
+/// The design on a mesh whose elements in the section, but for those along the flanks, are `ratio` times as large.
+[[nodiscard]] Scene resized_section(Scene scene, double ratio);
+
+/// Makes the models of a study's designs on the other meshes that error bars are asked of.
+class OtherMeshes {
+ public:
+  static constexpr double kSectionRatio = 1 / 1.5;  ///< of the finer section
+  struct Mesh {
+    double ratio;  ///< of the sizes of its elements to those of the design's own
+    ModelBuilder builder;
+  };
+
+  explicit OtherMeshes(const Scene& reference);
+  /// Those of the scene's kind, in the order in which the error by the mesh is asked for.
+  [[nodiscard]] const std::vector<Mesh>& meshes() const { return meshes_; }
+  /// Where those do not resize the section beside the flanks: one that has it finer. Else null.
+  [[nodiscard]] const ModelBuilder* finer_section() const { return finer_section_ ? &*finer_section_ : nullptr; }
+
+ private:
+  std::vector<Mesh> meshes_;
+  std::optional<ModelBuilder> finer_section_;
+};
+
+}  // namespace dovetail::optimizer

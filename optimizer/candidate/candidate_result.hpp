@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+
+#include "optimizer/candidate/candidate_model.hpp"
+#include "optimizer/candidate/contact_fit.hpp"
+#include "optimizer/candidate/fillet_stress.hpp"
+#include "optimizer/problem/evaluation.hpp"
+#include "paths/resonance.hpp"
+#include "wear/asymptote/asymptote.hpp"
+
+namespace dovetail::optimizer {
+
+/// Everything an evaluation computed, for reports and exports. Members after the stage that failed are empty.
+struct CandidateResult {
+  Evaluation evaluation;
+  CandidateModel model;
+  std::optional<paths::Resonance> unworn, worn;
+  std::optional<wear::Asymptote> asymptote;
+  std::optional<wear::Asymptote> held;  ///< where the resonance was followed: the one at the unworn resonance
+  std::optional<FilletStress> blade_fillet, disk_fillet;
+};
+
+/// The physics on a model that converged: contact nodes fitted to the worn zones, then all responses, without bars.
+[[nodiscard]] CandidateResult computed(const Scene& scene, CandidateModel model, const Computation& how = {});
+
+/// Options of every steady state of a scene.
+[[nodiscard]] steady::Options steady_options(const SolverSettings& settings);
+
+/// The joint of a candidate with these options, on its budget.
+[[nodiscard]] steady::Joint joint_of(const Scene& scene, const CandidateModel& model, double penalty_scale = 1);
+
+}  // namespace dovetail::optimizer

@@ -1,0 +1,193 @@
+#include "optimizer/candidate/contact_fit.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "optimizer/candidate/candidate_result.hpp"
+#include "optimizer/candidate/edge_search.hpp"
+#include "paths/resonance.hpp"
+#include "paths/steady_state.hpp"
+#include "wear/asymptote/asymptote.hpp"
+
+namespace dovetail::optimizer {
+
+namespace {
+
+/// Displacements U [nc, 2H+1] of one grid carried over to another with the same strips, linear between the middles of
+/// cells: a start for the state there.
+Eigen::MatrixXd carried_over(const Eigen::MatrixXd& from, const std::vector<fem::CellStrip>& before,
+                             const std::vector<fem::CellStrip>& after, Eigen::Index directions) {
+  const std::size_t cells = after.back().first + after.back().count();
+  Eigen::MatrixXd to(static_cast<Eigen::Index>(cells) * directions, from.cols());
+  const auto rows = [directions](std::size_t node) { return static_cast<Eigen::Index>(node) * directions; };
+  for (std::size_t s = 0; s < after.size(); ++s) {
+    const fem::CellStrip& old = before[s];
+    for (std::size_t cell = 0; cell < after[s].count(); ++cell) {
+      const double at = after[s].middle(cell);
+      std::size_t low = 0;
+      while (low + 2 < old.count() && old.middle(low + 1) < at) ++low;
+      const std::size_t high = std::min(low + 1, old.count() - 1);
+      const double t =
+          high == low ? 0 : std::clamp((at - old.middle(low)) / (old.middle(high) - old.middle(low)), 0.0, 1.0);
+      to.middleRows(rows(after[s].first + cell), directions) =
+          (1 - t) * from.middleRows(rows(old.first + low), directions) +
+          t * from.middleRows(rows(old.first + high), directions);
+    }
+  }
+  return to;
+}
+
+/// Lays grid after grid on a candidate until the edges of worn zones stay where cells end.
+class GridSearch {
+ public:
+  GridSearch(const Scene& scene, const Computation& how, CandidateModel& candidate)
+      : scene_(scene),
+        options_(how.contact),
+        candidate_(candidate),
+        cells_(cell_lengths(scene, options_.lengths)),
+        joint_(joint_of(scene, candidate, how.penalty_scale)) {
+    release_.arbitration = "never";
+    release_.certify = release_.certify_finer = false;
+  }
+
+  ContactFit run() {
+    lay(cell_grid(scene_, candidate_.mesh.sector, cells_));
+    if (!candidate_.converged()) return fit_;
+    for (const fem::CellStrip& strip : candidate_.cells.strips())
+      lengths_.emplace_back(fem::trace_lines(candidate_.mesh.sector.flanks[strip.flank]));
+    laid_.resize(lengths_.size());
+    counts_.resize(lengths_.size());
+    // At the resonance of the first grid on all of them: it hardly moves, and edges move less.
+    if (!find_resonance(candidate_.reduction.glued_frequencies(scene_.loading.mode - 1))) return fit_;
+    for (bool at_resonance = false;; ++fit_.grids) {
+      if (!find_edges()) return unsettled();
+      // A zone that the finer cells beside its edge make vanish is none.
+      const bool vanished = fit_.edges == 0 && fit_.grids > 0;
+      fit_.settled = vanished || fit_.moved <= options_.tolerance;
+      // Edges that happen to lie at ends of cells of the first grid have no short cells beside them yet.
+      const bool laid_for = fit_.grids > 0 || fit_.edges == 0;
+      if (vanished || (laid_for && fit_.moved <= options_.aim)) {
+        // Where nodes beyond an edge hardly stick, do they at the resonance of this grid?
+        if (!search_.holds() || at_resonance || vanished) return fit_;
+        if (!find_resonance(peak_.omega)) return unsettled();
+        at_resonance = true;
+        --fit_.grids;
+      } else if (fit_.grids == options_.grids) {
+        return best_grid();
+      } else if (!lay_next()) {
+        return unsettled();
+      }
+    }
+  }
+
+ private:
+  void lay(const std::vector<fem::FlankCells>& flanks) {
+    lay_contact(scene_, flanks, candidate_);
+    joint_.model = candidate_.condensed;
+  }
+
+  [[nodiscard]] bool find_resonance(double start) {
+    peak_ = paths::resonance(joint_, start);
+    unworn_ = peak_.state;
+    return peak_.status == Status::converged;
+  }
+
+  /// What the last grid says of the edges is not known: they may be anywhere near.
+  [[nodiscard]] ContactFit unsettled() {
+    fit_.settled = fit_.known = false;
+    fit_.moved = fit_.share = 1;
+    return fit_;
+  }
+
+  /// Where worn zones end on this grid, and how far that is from where it was laid for; false where no worn state is
+  /// found.
+  [[nodiscard]] bool find_edges() {
+    fit_.omega = peak_.omega;
+    fit_.displacement = unworn_.displacement;
+    const wear::Asymptote worn = wear::asymptote(joint_, peak_.omega, release_, &unworn_);
+    if (worn.verdict != wear::Verdict::asymptote) return false;
+    const std::vector<std::vector<Edge>> edges = edge_places(candidate_.cells, worn.trail);
+    found_ = search_.hold(edges, lengths_);
+    Misfit misfit;
+    for (std::size_t l = 0; l < found_.size(); ++l) {
+      const std::vector<double> held = found_[l];
+      widen_narrow(lengths_[l], cells_, found_[l]);
+      misfit.add(edges[l], held, found_[l], laid_[l], lengths_[l]);
+    }
+    fit_.known = true;
+    fit_.moved = misfit.moved;
+    fit_.share = misfit.share;
+    fit_.edges = misfit.edges;
+    if (!best_.misfit.less_than(misfit))
+      best_ = {.misfit = misfit,
+               .grid = fit_.grids,
+               .flanks = candidate_.cells.flanks,
+               .displacement = unworn_.displacement};
+    return true;
+  }
+
+  /// Where edges go to and fro: the grid that they would have left least, of those whose zones end at them.
+  [[nodiscard]] ContactFit best_grid() {
+    if (best_.grid < fit_.grids) {
+      lay(best_.flanks);
+      fit_.displacement = best_.displacement;
+    }
+    fit_.moved = best_.misfit.moved;
+    fit_.share = best_.misfit.share;
+    fit_.settled = fit_.moved <= options_.tolerance;
+    return fit_;
+  }
+
+  /// The next grid and the unworn state on it; false where there is none.
+  [[nodiscard]] bool lay_next() {
+    laid_ = search_.next(found_, laid_);
+    std::vector<fem::FlankCells> flanks = candidate_.cells.flanks;
+    std::size_t strip = 0;
+    for (fem::FlankCells& flank : flanks)
+      for (std::vector<double>& ends : flank.across) {
+        std::vector<double>& edges = laid_[strip];
+        std::sort(edges.begin(), edges.end());
+        widen_narrow(lengths_[strip], cells_, edges);
+        ends = cell_ends(lengths_[strip], edges, cells_, counts_[strip]);
+        ++strip;
+      }
+    const std::vector<fem::CellStrip> before = candidate_.cells.strips();
+    lay(flanks);
+    fit_.displacement.resize(0, 0);
+    if (!candidate_.converged()) return false;
+    const Eigen::MatrixXd guess =
+        carried_over(unworn_.displacement, before, candidate_.cells.strips(), candidate_.condensed->directions());
+    unworn_ = paths::steady_state(joint_, peak_.omega, guess);
+    return unworn_.status == Status::converged;
+  }
+
+  struct Best {
+    Misfit misfit{.foreign = std::numeric_limits<int>::max()};
+    int grid = 0;
+    std::vector<fem::FlankCells> flanks;
+    Eigen::MatrixXd displacement;
+  };
+
+  const Scene& scene_;
+  const ContactFitOptions& options_;
+  CandidateModel& candidate_;
+  CellLengths cells_;
+  steady::Joint joint_;
+  wear::AsymptoteOptions release_;
+  std::vector<EdgeLengths> lengths_;      // of every strip
+  EdgeSearch::Places laid_, found_;       // edges that the grid was laid for, and those found on it
+  std::vector<std::vector<int>> counts_;  // of cells between edges
+  EdgeSearch search_;
+  Best best_;
+  paths::Resonance peak_;
+  steady::State unworn_;
+  ContactFit fit_;
+};
+
+}  // namespace
+
+ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateModel& candidate) {
+  return GridSearch(scene, how, candidate).run();
+}
+
+}  // namespace dovetail::optimizer

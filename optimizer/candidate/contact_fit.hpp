@@ -1,0 +1,43 @@
+#pragma once
+
+#include "optimizer/candidate/candidate_model.hpp"
+#include "optimizer/candidate/cell_grid.hpp"
+
+namespace dovetail::optimizer {
+
+struct ContactFitOptions {
+  int grids = 6;            ///< >= 0. Further grids of contact nodes tried at most
+  double aim = 0.005;       ///< > 0. No further grid where edges move by less, in lengths of the mesh's edge there
+  double tolerance = 0.02;  ///< >= aim. Those that move by less on the last grid have settled
+  CellLengths lengths;
+};
+
+/// How a design is computed on a model of it.
+struct Computation {
+  ContactFitOptions contact = {};
+  double penalty_scale = 1;  ///< of the pseudo-penalty
+  bool history = false;      ///< where the direct worn state is in doubt the wear history decides
+  bool wear = true;          ///< else the unworn joint alone
+};
+
+struct ContactFit {
+  int grids = 0;     ///< laid, the first not counted
+  double moved = 1;  ///< largest change of an edge that another grid would have made, in lengths of the mesh's edge; 1
+                     ///< where that could not be computed
+  double share = 1;  ///< the same, of the narrower of the two pieces of the flank that meet at the edge
+  bool settled = false;  ///< `moved` is within the tolerance
+  bool known = false;    ///< `moved` could be computed
+  int edges = 0;         ///< of worn zones
+  /// The unworn steady state near its resonance on the nodes laid, for the search of the resonance to start from:
+  /// rad/s and m. No displacement where there is none.
+  double omega = 0;
+  Eigen::MatrixXd displacement = {};
+};
+
+/// Lays contact nodes on a candidate so that the worn zones of its asymptote at the unworn resonance end where nodes
+/// end: edges are found on one grid, a grid is laid with an end of a cell on each of them, and so on until they stay.
+/// Worn volume and profile are then those of whole nodes, and continuous in the design but for the number of cells.
+/// Where there are no edges the first grid stays. Where a state on the way is not found the last grid stays, unsettled.
+ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateModel& candidate);
+
+}  // namespace dovetail::optimizer

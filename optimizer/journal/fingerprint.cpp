@@ -1,0 +1,58 @@
+#include "optimizer/journal/fingerprint.hpp"
+
+#include <array>
+
+namespace dovetail::optimizer {
+
+std::uint64_t fnv1a(std::string_view text) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const char c : text) {
+    hash ^= static_cast<unsigned char>(c);
+    hash *= 1099511628211ULL;
+  }
+  return hash;
+}
+
+std::string hexadecimal(std::uint64_t value) {
+  std::string text(16, '0');
+  for (std::size_t i = 16; i-- > 0; value >>= 4) text[i] = "0123456789abcdef"[value & 0xF];
+  return text;
+}
+
+std::string fingerprint(const Problem& problem, const OptimizerOptions& options, std::string_view physics) {
+  std::string text;
+  // Each piece carries its length, so that no two different lists read alike.
+  const auto word = [&](std::string_view piece) { text += std::to_string(piece.size()) + ":" + std::string(piece); };
+  const auto number = [&](double value) { word(shortest(value)); };
+  for (const DesignVariable& v : problem.space.variables()) {
+    word(v.key);
+    for (const double value : {v.lower, v.upper, v.start}) number(value);
+  }
+  text += ";objective";
+  for (const ObjectiveTerm& term : problem.objective) {
+    word(term.response);
+    for (const double value : {term.weight, term.scale, term.absolute ? 1.0 : 0.0}) number(value);
+  }
+  text += ";constraints";
+  for (const ResponseConstraint& c : problem.constraints) {
+    word(c.response);
+    word(c.lower ? shortest(*c.lower) : "none");
+    word(c.upper ? shortest(*c.upper) : "none");
+    for (const double value : {c.scale, c.absolute ? 1.0 : 0.0}) number(value);
+  }
+  text += ";options";
+  for (const Field<OptimizerOptions>& field : option_table<OptimizerOptions>()) {
+    if (field.key == "max_evaluations" || field.key == "restarts" || field.key == "threads" || field.key == "verify")
+      continue;
+    word(field.key);
+    if (const auto* member = std::get_if<std::string OptimizerOptions::*>(&field.member))
+      word(options.*(*member));
+    else
+      number(value_in_file_unit(options, field));
+  }
+  text += ";physics";
+  word(physics);
+  return hexadecimal(fnv1a(text));
+}
+
+}  // namespace dovetail::optimizer

@@ -1,0 +1,96 @@
+#include "optimizer/problem/optimizer_options.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace dovetail::optimizer {
+
+std::span<const std::string_view> algorithm_names() {
+  static constexpr std::array<std::string_view, 11> names{
+      "cobyla", "bobyqa", "neldermead", "sbplx", "isres", "direct_l", "crs2", "mma", "slsqp", "ipopt", "scan"};
+  return names;
+}
+
+double difference_step(const OptimizerOptions& options) {
+  const double step = options.difference == "central" ? std::cbrt(3 * options.noise) : 2 * std::sqrt(options.noise);
+  return std::clamp(step, 1e-7, 0.1);
+}
+
+double stopping_step(const OptimizerOptions& options) {
+  return std::min(std::max(options.step_tolerance, 0.1 * std::sqrt(options.noise)), options.initial_step / 2);
+}
+
+}  // namespace dovetail::optimizer
+
+template <>
+std::span<const dovetail::Field<dovetail::optimizer::OptimizerOptions>>
+dovetail::option_table<dovetail::optimizer::OptimizerOptions>() {
+  using O = optimizer::OptimizerOptions;
+  constexpr Range share{.lower = 0, .upper = 0.5, .lower_open = true};
+  static const std::vector<Field<O>> table{
+      {.key = "algorithm",
+       .member = &O::algorithm,
+       .help = "Search algorithm.",
+       .choices = {optimizer::algorithm_names().begin(), optimizer::algorithm_names().end()}},
+      {.key = "max_evaluations",
+       .member = &O::max_evaluations,
+       .range = {.lower = 1},
+       .help = "Largest number of different candidates, start and scan included."},
+      {.key = "scan_evaluations",
+       .member = &O::scan_evaluations,
+       .range = kNonNegative,
+       .help = "Latin-hypercube candidates before the algorithm, which starts from the best of them."},
+      {.key = "seed", .member = &O::seed, .range = kNonNegative, .help = "Same seed, same candidates."},
+      {.key = "tolerance",
+       .member = &O::tolerance,
+       .range = kPositive,
+       .help = "Relative change of the objective at which gradient methods stop."},
+      {.key = "step_tolerance",
+       .member = &O::step_tolerance,
+       .range = {.lower = 0, .upper = 0.1, .lower_open = true},
+       .help = "Step, as a fraction of each variable's range, at which the algorithm stops."},
+      {.key = "noise",
+       .member = &O::noise,
+       .range = {.lower = 0, .upper = 0.5},
+       .help = "Relative noise of the responses; sets finite-difference steps and the smallest useful step."},
+      {.key = "initial_step",
+       .member = &O::initial_step,
+       .range = share,
+       .help = "First step, as a fraction of each variable's range."},
+      {.key = "restarts",
+       .member = &O::restarts,
+       .range = kNonNegative,
+       .help = "Runs of the algorithm again from the best candidate while budget is left."},
+      {.key = "restart_factor",
+       .member = &O::restart_factor,
+       .range = {.lower = 0, .upper = 1, .lower_open = true},
+       .help = "First step of a restart by that of the run before."},
+      {.key = "constraint_tolerance",
+       .member = &O::constraint_tolerance,
+       .range = kNonNegative,
+       .help = "The best design keeps every normalised constraint at or below this."},
+      {.key = "constraint_margin",
+       .member = &O::constraint_margin,
+       .range = kNonNegative,
+       .help = "Algorithms aim at normalised constraints at or below minus this."},
+      {.key = "difference",
+       .member = &O::difference,
+       .help = "Finite differences of gradient methods.",
+       .choices = {"forward", "central"}},
+      {.key = "threads",
+       .member = &O::threads,
+       .range = {.lower = 1},
+       .help = "Candidates evaluated at once where several are known; does not change the result."},
+      {.key = "finer_meshes",
+       .member = &O::finer_meshes,
+       .range = {.lower = 0, .upper = 4},
+       .help = "Meshes, each with twice as many edges along the flanks as the last, on which the best design must keep "
+               "its limits; in space 1 unless given."},
+      {.key = "verify",
+       .member = &O::verify,
+       .range = {.lower = 0, .upper = 100},
+       .help = "Best designs whose wear `run` verifies by the full history at finer settings after the search."},
+  };
+  return table;
+}

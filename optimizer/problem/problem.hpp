@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "optimizer/problem/design_space.hpp"
+#include "optimizer/problem/evaluation.hpp"
+
+namespace dovetail::optimizer {
+
+/// One term of the objective: `weight * r / scale`, or `weight * |r| / scale` when `absolute`.
+struct ObjectiveTerm {
+  std::string response;   ///< e.g. "asymptotic_wear_volume_m3"
+  double weight = 1;      ///< negative: the response is maximised
+  double scale = 0;       ///< > 0, in the response's SI unit; 0: not given, allowed (and then 1) for a single term only
+  bool absolute = false;  ///< of the magnitude, e.g. of resonance_drift; has a kink at r = 0
+};
+
+/// Limits on one response. Each gives a smooth normalised c <= 0:
+/// upper: `c = (r - upper)/s`, lower: `c = (lower - r)/s`, with `s = scale`, or |limit| when scale is 0.
+struct ResponseConstraint {
+  std::string response;
+  std::optional<double> lower, upper;  ///< at least one; SI
+  double scale = 0;                    ///< > 0, needed when a limit is 0; 0: |limit|
+  bool absolute = false;               ///< limits |r|
+  /// What the distance from one of its limits is divided by.
+  [[nodiscard]] double scale_at(double limit) const { return scale > 0 ? scale : std::abs(limit); }
+};
+
+/// What is minimised over which variables under which limits.
+struct Problem {
+  DesignSpace space;
+  std::vector<ObjectiveTerm> objective;
+  std::vector<ResponseConstraint> constraints;
+};
+
+/// Throws InputError with everything wrong in the terms and limits there are (non-finite weights, missing limits, zero
+/// scales): enough to judge a design.
+void check_terms(const Problem& problem);
+/// The same, and what a search needs besides: a variable and a term.
+void check(const Problem& problem);
+
+/// Names of the response constraints in the order algorithms see them: "peak_amplitude_m:upper", ...
+[[nodiscard]] std::vector<std::string> constraint_names(const Problem& problem);
+
+/// Prefix of geometric rules in Evaluation::constraints; c = -margin, normalised, c <= 0 is met. Exactly 0 says that
+/// the rule is kept without saying how far.
+inline constexpr const char* kRulePrefix = "rule:";
+
+/// One evaluation seen through the problem.
+struct Judgement {
+  bool computed = false;                 ///< converged with every response of the problem finite
+  double objective = 0;                  ///< NaN unless computed
+  std::vector<double> constraints = {};  ///< c in the order of constraint_names, NaN unless computed
+  std::optional<double> rules =
+      {};                 ///< largest c != 0 of the rules reported; an infeasible candidate without any has 1
+  double violation = 0;   ///< sum of max(0, c) over rules and constraints known
+  bool feasible = false;  ///< computed, and no c above the tolerance
+};
+
+/// Judges with the exact constraints: feasible when every c <= tolerance. Pure; never throws.
+/// @param shifts  added to the response constraints before they count, order of constraint_names; empty: none
+[[nodiscard]] Judgement judge(const Problem& problem, const Evaluation& evaluation, double tolerance,
+                              std::span<const double> shifts = {});
+
+/// Error bars of responses as the objective and the constraints have them, order of constraint_names; NaN where there
+/// is none.
+struct JudgementBars {
+  double objective = 0;
+  std::vector<double> constraints = {};
+};
+[[nodiscard]] JudgementBars judgement_bars(const Problem& problem,
+                                           const std::map<std::string, double>& error_estimates);
+
+/// Writes what the problem makes of it into the evaluation: its constraints by name, `feasible` as the values say,
+/// which constraints their bars leave undecided, and a failing status
+/// ("response: NAME is not finite" / "is missing") when a response of the problem has no value. Idempotent.
+void annotate(const Problem& problem, double tolerance, Evaluation& evaluation);
+
+/// A response the problem names is absent from a converged evaluation: InputError with the nearest name there is.
+void require_responses(const Problem& problem, const Evaluation& evaluation);
+
+}  // namespace dovetail::optimizer

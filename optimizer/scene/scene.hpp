@@ -1,0 +1,169 @@
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "core/options.hpp"
+#include "fem/material.hpp"
+#include "geometry/profile/parameters.hpp"
+#include "geometry/solid/solid_parameters.hpp"
+
+namespace dovetail::optimizer {
+
+struct SceneKind;  // scene_kind.hpp
+extern const SceneKind kSection;
+/// The kind of this name; null when there is none.
+[[nodiscard]] const SceneKind* find_scene_kind(std::string_view name);
+
+/// Contact law of the flanks.
+struct ContactProperties {
+  double friction = 0.5;              ///< mu
+  double wear_coefficient = 1e-13;    ///< k_w, 1/Pa
+  std::string wear_law = "archard";   ///< archard | energy
+  double energy_coefficient = 2e-13;  ///< alpha, m^3/J
+  double normal_stiffness = 0;        ///< of the rough interface, N/m^3; 0: rigid
+  double tangential_stiffness = 0;    ///< N/m^3; 0: rigid
+  double energy_threshold = 0;        ///< J/m^2 per cycle
+};
+
+/// What acts on the sector.
+struct Loading {
+  double speed = 1047.1975511965977;  ///< Omega, rad/s
+  double tip_force = 2.0;             ///< amplitude of the tangential force at the aerofoil tip, N
+  double damping_ratio = 1e-3;        ///< modal damping of the glued modes
+  int nodal_diameter = 0;
+  int mode = 1;                  ///< glued mode whose resonance is followed, from 1
+  std::string follow = "fixed";  ///< fixed | resonance: what drives the wear
+};
+
+/// Sizes and tolerances of the contact computation.
+struct SolverSettings {
+  int harmonics = 5;
+  int samples = 128;
+  int modes = 20;                    ///< free-interface modes kept
+  double tolerance = 1e-9;           ///< relative residual of the steady state
+  std::string solver = "auto";       ///< auto | newton | powell | powell_fd
+  double pseudo_penalty = 0;         ///< eps of all contact nodes, N/m; 0: from the model
+  double pseudo_penalty_normal = 0;  ///< eps in the normal direction, N/m; 0: pseudo_penalty
+  int max_jacobians = 500;  ///< work of one evaluation, in Jacobians in which all contact nodes take part; 0: no limit
+  double time_limit = 0;    ///< of one evaluation from the preload on, s; 0: none
+};
+
+/// One fully specified candidate: everything the evaluator needs, in SI.
+struct Scene {
+  const SceneKind* kind = &kSection;  ///< what counts of the rest, and what is made of it
+  geometry::ProfileParameters geometry;
+  geometry::SolidParameters solid;
+  geometry::FeasibilityLimits limits;
+  fem::Material blade, disk;
+  ContactProperties contact;
+  Loading loading;
+  geometry::MeshSizes mesh;
+  geometry::SolidSizes solid_mesh;
+  SolverSettings solver;
+};
+
+/// How a study file names the kind of a scene.
+struct SceneType {
+  std::string type;
+};
+[[nodiscard]] SceneType type_of(const Scene& scene);
+
+/// Of the bodies of a mesh: blade and disk.
+[[nodiscard]] std::vector<fem::Material> materials(const Scene& scene);
+
+}  // namespace dovetail::optimizer
+
+namespace dovetail {
+
+template <>
+std::span<const Field<fem::Material>> option_table<fem::Material>();
+template <>
+std::span<const Field<optimizer::ContactProperties>> option_table<optimizer::ContactProperties>();
+template <>
+std::span<const Field<optimizer::Loading>> option_table<optimizer::Loading>();
+template <>
+std::span<const Field<optimizer::SolverSettings>> option_table<optimizer::SolverSettings>();
+template <>
+std::span<const Field<optimizer::SceneType>> option_table<optimizer::SceneType>();
+
+}  // namespace dovetail
+
+namespace dovetail::optimizer {
+
+/// The fields of Loading written in the section [scene] (speed, nodal diameter, mode) and in [loading].
+[[nodiscard]] std::span<const Field<Loading>> scene_loading_fields();
+[[nodiscard]] std::span<const Field<Loading>> loading_fields();
+
+/// Calls visit(section, object, fields) once for each flat struct of a scene: the dotted section of the
+/// study file it is read from, the struct (constant when the scene is) and its table. Two structs may
+/// share a section. A type that the visitor writes is the scene's from then on, if there is such a kind.
+template <class AnyScene, class Visitor>
+void visit_tables(AnyScene& scene, Visitor&& visit);
+
+/// What a study file may say about one numeric or textual key of a scene.
+struct Parameter {
+  std::string key;  ///< dotted path, as for --set
+  enum class Kind { real, whole, truth, text } kind = Kind::real;
+  Range range;  ///< numbers, in the file's unit
+  std::string_view help;
+  bool required = false;
+  std::vector<std::string_view> choices;
+};
+
+/// Every key of a scene in the order of the study file. Flank keys appear as "geometry.KEY" (all flanks) and once for
+/// each flank: "geometry.left.KEY" and "geometry.right.KEY".
+[[nodiscard]] const std::vector<Parameter>& scene_parameters();
+
+/// The entry of scene_parameters() of that key, or nullptr.
+[[nodiscard]] const Parameter* find_parameter(std::string_view key);
+
+/// Sets the number of that key, given in the unit of the study file; "geometry.KEY" of a flank key sets
+/// all flanks, "contact.friction" also the friction of the self-locking rule. The disk's material stays when the
+/// blade's is set. Ranges are
+/// not checked (violations() does); throws InputError for an unknown key (with the nearest valid one), a
+/// key that is not a number, or a fraction given to a whole number.
+void set_parameter(Scene& scene, std::string_view key, double value_in_file_unit);
+
+/// The number of that key in the unit of the study file: the shortest one that sets the same SI value.
+/// "geometry.KEY" of a flank key is the first flank's. Throws InputError as set_parameter does.
+[[nodiscard]] double parameter(const Scene& scene, std::string_view key);
+
+/// All numbers of a scene by key, in the file's unit. A flank key stands once under "geometry" when all
+/// flanks agree, else under "geometry.left" and "geometry.right".
+[[nodiscard]] std::map<std::string, double> parameters(const Scene& scene);
+
+/// What contradicts across keys although each value is in its range (fewer samples than the harmonics need).
+[[nodiscard]] std::vector<Violation> contradictions(const Scene& scene);
+
+/// Every value outside its range, and what contradicts across keys (e.g. fewer samples than the
+/// harmonics need). Empty: the scene may be computed.
+[[nodiscard]] std::vector<Violation> violations(const Scene& scene);
+
+template <class AnyScene, class Visitor>
+void visit_tables(AnyScene& scene, Visitor&& visit) {
+  SceneType type = type_of(scene);
+  visit("scene", type, option_table<SceneType>());
+  if constexpr (!std::is_const_v<AnyScene>)
+    if (const SceneKind* kind = find_scene_kind(type.type)) scene.kind = kind;
+  visit("scene", scene.loading, scene_loading_fields());
+  visit("geometry", scene.geometry, option_table<geometry::ProfileParameters>());
+  visit("geometry", scene.solid, option_table<geometry::SolidParameters>());
+  for (std::size_t f = 0; f < geometry::kFlanks.size(); ++f)
+    visit("geometry." + std::string(geometry::kFlanks[f].name), scene.geometry.flanks[f],
+          option_table<geometry::FlankParameters>());
+  visit("limits", scene.limits, option_table<geometry::FeasibilityLimits>());
+  visit("material.blade", scene.blade, option_table<fem::Material>());
+  visit("material.disk", scene.disk, option_table<fem::Material>());
+  visit("contact", scene.contact, option_table<ContactProperties>());
+  visit("loading", scene.loading, loading_fields());
+  visit("mesh", scene.mesh, option_table<geometry::MeshSizes>());
+  visit("mesh", scene.solid_mesh, option_table<geometry::SolidSizes>());
+  visit("solver", scene.solver, option_table<SolverSettings>());
+}
+
+}  // namespace dovetail::optimizer

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <limits>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "fem/mesh.hpp"
+#include "geometry/mesh/mesh_motion.hpp"
+#include "geometry/rules/feasibility.hpp"
+#include "optimizer/scene/scene.hpp"
+
+namespace dovetail::optimizer {
+
+/// Meshes designs on one topology.
+using Mesher = std::function<geometry::MeshedSector(const Scene&)>;
+
+/// How much of the sector a scene models, and everything that depends on it. A study file may give every key whatever
+/// the kind; those that have no meaning for it are kept and left aside.
+struct SceneKind {
+  std::string_view name, meaning;  ///< scene.type of a study file, and what it says there
+  /// The rules of a design.
+  geometry::Feasibility (*feasibility)(const Scene& scene, const geometry::FeasibilityLimits& limits);
+  /// On the topology of the reference, which with its sizes is all that counts of it. Throws InputError when the
+  /// reference cannot be meshed. Meshing may be called from several threads.
+  Mesher (*mesher)(const Scene& reference);
+  double (*blade_mass)(const Scene& scene, const fem::Mesh& mesh);  ///< kg
+  /// What contradicts between keys that have a meaning for this kind alone.
+  std::vector<Violation> (*contradictions)(const Scene& scene);
+  /// Order of the error of a response by the mesh.
+  double (*mesh_order)(std::string_view response);
+
+  std::span<const std::string_view> counts;   ///< keys of numbers of elements, which another mesh has more or fewer of
+  std::span<const std::string_view> lengths;  ///< keys of sizes of elements, which it has larger or smaller
+  std::array<double, 2> other_meshes;  ///< their sizes over a design's own, in the order in which error bars ask them
+  bool contact_grid;                   ///< mesh.contact_flank_elements and mesh.contact_slot_elements count
+  bool rough_peaks;                    ///< the mesh is known to resolve the pressure at the ends of rough flanks
+  bool coarse_answers;                 ///< a coarser mesh says what harmonics, samples, penalties and modes leave open
+  bool surface;                        ///< there is a closed surface to export
+  int finer_meshes = std::numeric_limits<int>::max();  ///< optimizer.finer_meshes by default, at most
+};
+
+/// Every kind. A new one is a file beside section.cpp, and an entry here.
+[[nodiscard]] std::span<const SceneKind* const> scene_kinds();
+
+/// The plane of rotation: plane strain, all of the slot alike.
+extern const SceneKind kSection;
+/// The sector in space: the section swept along the slot.
+extern const SceneKind kSector;
+
+}  // namespace dovetail::optimizer

@@ -1,0 +1,174 @@
+// The tables of the structs of a scene that have no room of their own.
+#include "optimizer/scene/scene_kind.hpp"
+
+#include <array>
+#include <numbers>
+
+namespace dovetail {
+
+template <>
+std::span<const Field<fem::Material>> option_table<fem::Material>() {
+  using M = fem::Material;
+  static const std::array<Field<M>, 3> table{
+      Field<M>{.key = "youngs_modulus_gpa",
+               .member = &M::youngs_modulus,
+               .si_per_unit = 1e9,
+               .range = kPositive,
+               .help = "Young's modulus"},
+      Field<M>{.key = "poisson_ratio",
+               .member = &M::poisson_ratio,
+               .range = {.lower = 0, .upper = 0.5, .upper_open = true},
+               .help = "Poisson's ratio"},
+      Field<M>{.key = "density_kg_m3", .member = &M::density, .range = kPositive, .help = "mass density"}};
+  return table;
+}
+
+// Springs much stiffer than that are rigid, and lose the structure's own stiffness to rounding.
+constexpr Range kInterface{.lower = 0, .upper = 1e20};
+
+template <>
+std::span<const Field<optimizer::ContactProperties>> option_table<optimizer::ContactProperties>() {
+  using C = optimizer::ContactProperties;
+  static const std::array<Field<C>, 7> table{
+      Field<C>{.key = "friction",
+               .member = &C::friction,
+               .range = {.lower = 0, .upper = 2},
+               .help = "Coulomb coefficient of friction of the flanks"},
+      Field<C>{.key = "wear_coefficient_per_pa",
+               .member = &C::wear_coefficient,
+               .range = {.lower = 0, .upper = 1e-6},
+               .help = "Archard's k_w: wear depth per pressure and slipped distance"},
+      Field<C>{.key = "wear_law",
+               .member = &C::wear_law,
+               .help = "archard: depth by pressure and slipped distance; energy: volume by dissipated energy",
+               .choices = {"archard", "energy"}},
+      Field<C>{.key = "energy_wear_coefficient_m3_per_j",
+               .member = &C::energy_coefficient,
+               .range = {.lower = 0, .upper = 1e-6},
+               .help = "of the law energy: volume per energy dissipated beyond the threshold"},
+      Field<C>{.key = "energy_threshold_j_per_m2",
+               .member = &C::energy_threshold,
+               .range = kNonNegative,
+               .help = "of the law energy: dissipated per cycle and area without wear"},
+      Field<C>{.key = "normal_stiffness_n_per_m3",
+               .member = &C::normal_stiffness,
+               .range = kInterface,
+               .help = "of rough flanks, in series with their contact; 0: rigid"},
+      Field<C>{.key = "tangential_stiffness_n_per_m3",
+               .member = &C::tangential_stiffness,
+               .range = kInterface,
+               .help = "the same along the flanks; 0: rigid"}};
+  return table;
+}
+
+template <>
+std::span<const Field<optimizer::Loading>> option_table<optimizer::Loading>() {
+  using L = optimizer::Loading;
+  static const std::array<Field<L>, 6> table{
+      Field<L>{.key = "speed_rpm",
+               .member = &L::speed,
+               .si_per_unit = std::numbers::pi / 30,
+               .range = kPositive,
+               .help = "rotation speed, revolutions per minute",
+               .required = true},
+      Field<L>{.key = "nodal_diameter",
+               .member = &L::nodal_diameter,
+               .range = kNonNegative,
+               .help = "nodal diameters of the vibration around the disk"},
+      Field<L>{.key = "mode",
+               .member = &L::mode,
+               .range = {.lower = 1, .upper = 100},
+               .help = "which mode of that nodal diameter is excited, counted from 1 (glued flanks)"},
+      Field<L>{.key = "tip_force_n",
+               .member = &L::tip_force,
+               .range = kPositive,
+               .help = "amplitude of the tangential force on the aerofoil's tip",
+               .required = true},
+      Field<L>{.key = "damping_ratio",
+               .member = &L::damping_ratio,
+               .range = {.lower = 0, .upper = 1, .lower_open = true, .upper_open = true},
+               .help = "modal damping ratio, friction not counted"},
+      Field<L>{.key = "follow",
+               .member = &L::follow,
+               .help = "what drives the wear; fixed: the unworn resonance, resonance: that of the joint as it wears",
+               .choices = {"fixed", "resonance"}}};
+  return table;
+}
+
+template <>
+std::span<const Field<optimizer::SolverSettings>> option_table<optimizer::SolverSettings>() {
+  using S = optimizer::SolverSettings;
+  static const std::array<Field<S>, 9> table{
+      Field<S>{.key = "harmonics",
+               .member = &S::harmonics,
+               .range = {.lower = 1, .upper = 200},
+               .help = "harmonics of the periodic motion"},
+      Field<S>{.key = "samples",
+               .member = &S::samples,
+               .range = {.lower = 8, .upper = 65536},
+               .help = "instants per period at which the contact is marched"},
+      Field<S>{.key = "modes",
+               .member = &S::modes,
+               .range = {.lower = 1, .upper = 500},
+               .help = "free-interface modes kept in the reduced model"},
+      Field<S>{.key = "tolerance",
+               .member = &S::tolerance,
+               .range = {.lower = 1e-14, .upper = 1e-2},
+               .help = "relative residual at which a steady state counts as converged"},
+      Field<S>{.key = "solver",
+               .member = &S::solver,
+               .help = "algorithm for the nonlinear equations; powell_fd: with finite differences, for comparison",
+               .choices = {"auto", "newton", "powell", "powell_fd"}},
+      Field<S>{.key = "pseudo_penalty_n_per_m",
+               .member = &S::pseudo_penalty,
+               .range = kNonNegative,
+               .help = "pseudo-penalty of all contact nodes; 0: from the model, the local contact stiffness"},
+      Field<S>{.key = "pseudo_penalty_normal_n_per_m",
+               .member = &S::pseudo_penalty_normal,
+               .range = kNonNegative,
+               .help = "pseudo-penalty in the normal direction; 0: as pseudo_penalty_n_per_m"},
+      Field<S>{.key = "max_jacobians",
+               .member = &S::max_jacobians,
+               .range = kNonNegative,
+               .help = "work of one evaluation, in Jacobians of all contact nodes at these harmonics; 0: no limit"},
+      Field<S>{.key = "time_limit_s",
+               .member = &S::time_limit,
+               .range = kNonNegative,
+               .help = "seconds for the contact of one evaluation; repeated runs may then differ; 0: none"}};
+  return table;
+}
+
+template <>
+std::span<const Field<optimizer::SceneType>> option_table<optimizer::SceneType>() {
+  using S = optimizer::SceneType;
+  static const std::string help = [] {
+    std::string text = "what is modelled";
+    for (const optimizer::SceneKind* kind : optimizer::scene_kinds())
+      text += (text.find(';') == text.npos ? "; " : ", ") + std::string(kind->name) + ": " + std::string(kind->meaning);
+    return text;
+  }();
+  static const std::array<Field<S>, 1> table{
+      Field<S>{.key = "type", .member = &S::type, .help = help, .required = true, .choices = [] {
+                 std::vector<std::string_view> names;
+                 for (const optimizer::SceneKind* kind : optimizer::scene_kinds()) names.push_back(kind->name);
+                 return names;
+               }()}};
+  return table;
+}
+
+}  // namespace dovetail
+
+namespace dovetail::optimizer {
+
+std::span<const SceneKind* const> scene_kinds() {
+  static constexpr std::array kKinds{&kSection, &kSector};
+  return kKinds;
+}
+
+const SceneKind* find_scene_kind(std::string_view name) {
+  for (const SceneKind* kind : scene_kinds())
+    if (kind->name == name) return kind;
+  return nullptr;
+}
+
+}  // namespace dovetail::optimizer

@@ -1,0 +1,60 @@
+#include <memory>
+
+#include "fem/assembly.hpp"
+#include "geometry/solid/solid_family.hpp"
+#include "optimizer/scene/scene_kind.hpp"
+
+namespace dovetail::optimizer {
+
+namespace {
+
+Mesher mesher(const Scene& reference) {
+  const auto family =
+      std::make_shared<const geometry::SolidFamily>(reference.geometry, reference.mesh, reference.solid_mesh);
+  return [family](const Scene& scene) { return family->mesh_of(scene.geometry, scene.solid); };
+}
+
+// Chosen like those of a section, which hold for all others, on seed 3.
+double mesh_order(std::string_view response) {
+  // Two or three elements on a fillet are too few for the order of finer meshes.
+  if (response.ends_with("_fillet_stress_pa") || response == "contact_pressure_mean_pa" ||
+      response == "neck_tension_pa")
+    return 1.5;
+  if (response == "glued_frequency_hz" || response.ends_with("resonance_hz")) return 2.5;
+  return kSection.mesh_order(response);
+}
+
+constexpr std::array<std::string_view, 5> kCounts{"mesh.flank_elements", "mesh.aerofoil_elements", "mesh.slot_elements",
+                                                  "mesh.contact_slot_elements", "mesh.contact_flank_elements"};
+
+geometry::Feasibility feasibility(const Scene& scene, const geometry::FeasibilityLimits& limits) {
+  return geometry::check_feasibility(scene.geometry, scene.solid, limits);
+}
+
+double blade_mass(const Scene& scene, const fem::Mesh& mesh) {
+  return fem::body_mass(mesh, materials(scene), 0);
+}
+
+std::vector<Violation> too_fine(const Scene& scene) {
+  return geometry::contradictions(scene.solid_mesh, scene.mesh);
+}
+
+}  // namespace
+
+const SceneKind kSector{.name = "sector",
+                        .meaning = "the sector in space",
+                        .feasibility = feasibility,
+                        .mesher = mesher,
+                        .blade_mass = blade_mass,
+                        .contradictions = too_fine,
+                        .mesh_order = mesh_order,
+                        .counts = kCounts,
+                        .lengths = {},  // the section beside the flanks is as coarse as elements of the sweep allow
+                        .other_meshes = {1.5, 2},  // a finer one would cost more than all else
+                        .contact_grid = true,
+                        .rough_peaks = false,     // not measured at the corners of rough flanks
+                        .coarse_answers = false,  // two or three cells in a worn zone come and go with the harmonics
+                        .surface = true,
+                        .finer_meshes = 1};  // four times as fine costs hours
+
+}  // namespace dovetail::optimizer

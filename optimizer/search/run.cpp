@@ -1,0 +1,207 @@
+#include "optimizer/search/run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+#include "optimizer/search/finer_limits.hpp"
+#include "optimizer/search/ipopt_search.hpp"
+#include "optimizer/search/nlopt_search.hpp"
+#include "optimizer/search/session.hpp"
+#include "optimizer/search/space_filling.hpp"
+
+namespace dovetail::optimizer {
+
+namespace {
+
+void check(const Problem& problem, const OptimizerOptions& options) {
+  std::vector<Violation> found = violations(options, "optimizer");
+  try {
+    optimizer::check(problem);
+  } catch (const InputError& error) {
+    found.insert(found.end(), error.violations().begin(), error.violations().end());
+  }
+  if (!found.empty()) throw InputError(std::move(found));
+}
+
+SearchOutcome search_once(EvaluationSession& session, double step, int run) {
+  const OptimizerOptions& options = session.options();
+  SearchFunctions functions(session, options.algorithm);
+  const std::vector<double> start = session.unit(functions.reference());
+  try {
+    if (options.algorithm == "ipopt") return ipopt_search(functions, start);
+    const auto seed = static_cast<std::uint64_t>(options.seed) + static_cast<std::uint64_t>(run) * 1000003U;
+    return nlopt_search(options.algorithm, functions, start, step, seed);
+  } catch (const StopSearch& stop) {
+    if (stop.reason != Status::stalled) throw;
+    return {.status = Status::stalled, .message = options.algorithm + ": asks only for candidates it already knows"};
+  }
+}
+
+/// The algorithm, then restarts from the best with smaller steps until one brings nothing.
+SearchOutcome search(EvaluationSession& session) {
+  const OptimizerOptions& options = session.options();
+  double step = options.initial_step;
+  SearchOutcome outcome = search_once(session, step, 0);
+  if (is_global(options.algorithm)) return outcome;
+  for (int run = 1; run <= options.restarts; ++run) {
+    step = std::max(step * options.restart_factor, 2 * stopping_step(options));
+    const auto value = [&] {
+      return session.best() ? session[*session.best()].judgement.objective : std::numeric_limits<double>::infinity();
+    };
+    const double before = value();
+    outcome = search_once(session, step, run);
+    if (!(value() < before - options.tolerance * std::abs(before))) break;
+  }
+  return outcome;
+}
+
+/// The search, ended by its budget or by itself.
+template <class Search>
+SearchOutcome within_budget(Search&& search) {
+  try {
+    return search();
+  } catch (const StopSearch& stop) {
+    if (stop.reason != Status::iteration_limit) throw;
+    return {.status = stop.reason, .message = {}};
+  }
+}
+
+struct CorrectionSettings {
+  double reserve = 0.2;  // of the evaluations, for what is left to do after a look at finer meshes
+  double step = 0.25;    // first step of the search that goes on, by that of the search; halves from round to round
+  int looks = 6;         // at finer meshes while the search goes on, and as many in the end at what is known
+  double apart = 0.1;  // a known design closer than this in every variable to one that broke its limits is passed over
+};
+
+/// After a search whose best designs broke limits on finer meshes: the best known one, unlike them, that does not.
+void settle_for_another(EvaluationSession& session, FinerLimits& finer, const CorrectionSettings& settings) {
+  std::vector<std::size_t> broken;
+  for (const FinerCheck& check : finer.checks())
+    if (!check.held) broken.push_back(check.candidate);
+  const auto beside = [&](std::size_t i, std::size_t j) {
+    return std::ranges::equal(session.unit(i), session.unit(j),
+                              [&](double a, double b) { return std::abs(a - b) <= settings.apart; });
+  };
+  for (int look = 0; session.best();) {
+    const std::size_t best = *session.best();
+    if (look == settings.looks || std::ranges::any_of(broken, [&](std::size_t i) { return beside(best, i); })) {
+      session.reject(best);
+      continue;
+    }
+    ++look;
+    if (finer.holds(best)) return;
+    broken.push_back(best);
+  }
+}
+
+std::string describe(Status status, const std::string& message) {
+  if (status == Status::iteration_limit && message.empty()) return "the budget of evaluations is used up";
+  if (status == Status::interrupted) return "interrupted; everything finished is kept";
+  return message;
+}
+
+/// The search with its limits corrected by what finer meshes say, at its start and where it ends. Its best candidate
+/// keeps its limits on them, or there is none.
+SearchOutcome corrected_search(EvaluationSession& session, FinerLimits& finer) {
+  const OptimizerOptions& options = session.options();
+  constexpr CorrectionSettings kSettings;
+  const auto all = static_cast<std::size_t>(options.max_evaluations);
+  const bool only_scan = options.algorithm == "scan";
+  if (finer.active()) {
+    finer.correct(session.best().value_or(0));
+    session.limit(std::max(session.candidates().size(),
+                           all - static_cast<std::size_t>(kSettings.reserve * options.max_evaluations)));
+  }
+  SearchOutcome outcome = only_scan ? SearchOutcome{.status = Status::converged, .message = "scan: complete"}
+                                    : within_budget([&] { return search(session); });
+  double step = kSettings.step * options.initial_step;
+  // What was kept for a look at finer meshes serves to find something to look at.
+  if (finer.active() && !session.best() && !only_scan && outcome.status == Status::iteration_limit) {
+    session.limit(all);
+    outcome = within_budget([&] { return search_once(session, options.initial_step, kSettings.looks); });
+  }
+  std::optional<std::size_t> held;
+  for (int look = 0; finer.active() && session.best(); ++look) {
+    const std::size_t left = all - session.candidates().size();
+    if (finer.holds(*session.best())) {
+      const bool unfinished = outcome.status == Status::iteration_limit && left > 0;
+      if (unfinished && session.best() == held)
+        outcome.message = "going on from the best design brought nothing better; " + std::to_string(left) +
+                          " evaluations of the budget are left";
+      if (!unfinished || session.best() == held) return outcome;
+      held = session.best();
+    }
+    if (look + 1 >= kSettings.looks) {
+      settle_for_another(session, finer, kSettings);
+      break;
+    }
+    if (left == 0 || only_scan || !session.best()) continue;
+    session.limit(session.candidates().size() + (left + 1) / 2);
+    step = std::max(step, 2 * stopping_step(options));
+    static_cast<void>(within_budget([&] { return search_once(session, step, look + 1); }));
+    step /= 2;
+  }
+  const bool met = std::ranges::any_of(session.candidates(),
+                                       [](const Candidate& candidate) { return candidate.evaluation.feasible; });
+  if (finer.active() && !session.best() && met)
+    outcome.message =
+        describe(outcome.status, outcome.message) + "; limits kept on the search's mesh break on finer ones";
+  return outcome;
+}
+
+OptimizationResult result_of(EvaluationSession& session, Status status, const std::string& message) {
+  OptimizationResult result;
+  result.status = status;
+  result.message = describe(status, message);
+  result.best = session.best();
+  if (!result.best) result.least_broken = session.least_broken();
+  session.statistics().unused_records = session.unused_records();
+  result.statistics = session.statistics();
+  result.evaluations.assign(session.candidates().begin(), session.candidates().end());
+  if (!result.best) result.message += "; no candidate meets every constraint";
+  return result;
+}
+
+void scan(EvaluationSession& session) {
+  const OptimizerOptions& options = session.options();
+  int count = options.scan_evaluations;
+  // As an algorithm of its own the scan takes the whole budget unless told otherwise.
+  if (options.algorithm == "scan" && count == 0) count = options.max_evaluations - 1;
+  if (count == 0) return;
+  static_cast<void>(
+      session.evaluate_all(latin_hypercube(static_cast<std::size_t>(count), session.problem().space.size(),
+                                           static_cast<std::uint64_t>(options.seed)),
+                           "scan"));
+}
+
+}  // namespace
+
+OptimizationResult run_optimization(const Problem& problem, const Evaluator& evaluator, const OptimizerOptions& options,
+                                    const RunHooks& hooks) {
+  check(problem, options);
+  EvaluationSession session(problem, evaluator, options, hooks);
+  FinerLimits finer(session, hooks);
+  OptimizationResult result;
+  try {
+    session.evaluate_start();
+    static_cast<void>(within_budget([&] {
+      scan(session);
+      return SearchOutcome{};
+    }));
+    const SearchOutcome outcome = corrected_search(session, finer);
+    result = result_of(session, outcome.status, outcome.message);
+  } catch (const StopSearch& stop) {
+    result = result_of(session, stop.reason, {});
+    const auto looks =
+        std::ranges::count_if(finer.checks(), [&](const FinerCheck& check) { return check.candidate == result.best; });
+    if (finer.active() && result.best && looks < options.finer_meshes)
+      result.message += "; how the best design so far keeps its limits on finer meshes is not known";
+  }
+  result.finer = finer.checks();
+  return result;
+}
+
+}  // namespace dovetail::optimizer

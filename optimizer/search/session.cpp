@@ -1,0 +1,254 @@
+#include "optimizer/search/session.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+namespace dovetail::optimizer {
+
+namespace {
+/// An algorithm asking this often for known candidates only will not come to new ones.
+constexpr int kMostRepeatsInARow = 5000;
+}  // namespace
+
+EvaluationSession::EvaluationSession(const Problem& problem, const Evaluator& evaluator,
+                                     const OptimizerOptions& options, const RunHooks& hooks)
+    : problem_(problem),
+      evaluator_(evaluator),
+      options_(options),
+      hooks_(hooks),
+      limit_(static_cast<std::size_t>(options.max_evaluations)),
+      shifts_(constraint_names(problem).size(), 0.0) {
+  if (hooks_.journal == nullptr) return;
+  const std::vector<JournalRecord>& records = hooks_.journal->records();
+  for (std::size_t i = 0; i < records.size(); ++i) in_journal_.insert(records[i].x, i);
+}
+
+std::vector<double> EvaluationSession::snap(std::span<const double> unit) {
+  std::vector<double> snapped(unit.size());
+  for (std::size_t i = 0; i < unit.size(); ++i) {
+    // A library that lost its way may ask for NaN: the lower bound is as good as any answer to that.
+    const double u = std::isnan(unit[i]) ? 0.0 : std::clamp(unit[i], 0.0, 1.0);
+    snapped[i] = std::nearbyint(u * 0x1.0p40) * 0x1.0p-40;
+  }
+  return snapped;
+}
+
+std::size_t EvaluationSession::evaluate_start() {
+  const std::vector<double> x = problem_.space.start();
+  std::vector<Pending> pending(1);
+  pending[0].unit = snap(problem_.space.to_unit(x));
+  pending[0].x = x;
+  compute(pending, "start");
+  return 0;
+}
+
+std::size_t EvaluationSession::evaluate(std::span<const double> unit, const std::string& phase) {
+  return evaluate_all({std::vector<double>(unit.begin(), unit.end())}, phase).front();
+}
+
+std::vector<std::size_t> EvaluationSession::evaluate_all(const std::vector<std::vector<double>>& units,
+                                                         const std::string& phase) {
+  stop_if_asked();
+  std::vector<Pending> pending;
+  std::vector<std::vector<double>> snapped;
+  const std::size_t known = candidates_.size();
+  ExactCache here;
+  bool budget_ends = false;
+  for (const std::vector<double>& asked : units) {
+    snapped.push_back(snap(asked));
+    const std::vector<double>& u = snapped.back();
+    if (by_unit_.find(u) || here.find(u)) {
+      ++statistics_.repeated;
+      continue;
+    }
+    std::vector<double> x = problem_.space.from_unit(u);
+    if (const auto same = by_value_.find(x)) {
+      by_unit_.insert(u, *same);
+      ++statistics_.repeated;
+      continue;
+    }
+    if (known + pending.size() >= limit_) {
+      budget_ends = true;
+      break;
+    }
+    here.insert(u, pending.size());
+    pending.push_back({.unit = u, .x = std::move(x)});
+  }
+  repeats_in_a_row_ = pending.empty() ? repeats_in_a_row_ + 1 : 0;
+  compute(pending, phase);
+  if (budget_ends) throw StopSearch{Status::iteration_limit};
+  if (repeats_in_a_row_ > kMostRepeatsInARow) {
+    repeats_in_a_row_ = 0;
+    throw StopSearch{Status::stalled};
+  }
+  std::vector<std::size_t> indices;
+  for (const std::vector<double>& u : snapped) indices.push_back(by_unit_.find(u).value());
+  return indices;
+}
+
+void EvaluationSession::compute(std::vector<Pending>& pending, const std::string& phase) {
+  std::size_t missing = 0;
+  for (Pending& candidate : pending) {
+    if (const auto record = in_journal_.find(candidate.x))
+      candidate.known = &hooks_.journal->records()[*record].evaluation;
+    else
+      ++missing;
+  }
+  if (options_.threads > 1 && missing > 1) return compute_in_parallel(pending, phase);
+  for (Pending& candidate : pending) {
+    stop_if_asked();
+    if (candidate.known == nullptr) {
+      call_evaluator(candidate);
+      if (candidate.error) std::rethrow_exception(candidate.error);
+    }
+    commit(candidate, phase);
+  }
+}
+
+void EvaluationSession::compute_in_parallel(std::vector<Pending>& pending, const std::string& phase) {
+  std::mutex mutex;
+  std::condition_variable finished;
+  std::size_t next = 0;
+  std::size_t working = std::min(pending.size(), static_cast<std::size_t>(options_.threads));
+  bool ending = false;
+  const auto work = [&] {
+    std::unique_lock lock(mutex);
+    while (!ending && next < pending.size()) {
+      Pending& candidate = pending[next++];
+      if (candidate.known == nullptr) {
+        ending = ending || (hooks_.stop != nullptr && hooks_.stop->load());
+        if (ending) break;
+        lock.unlock();
+        call_evaluator(candidate);
+        lock.lock();
+        ending = ending || candidate.error;
+      }
+      candidate.done = true;
+      finished.notify_all();
+    }
+    --working;
+    finished.notify_all();
+  };
+  std::exception_ptr error;
+  std::size_t committed = 0;
+  {
+    std::vector<std::jthread> workers;
+    for (std::size_t i = working; i > 0; --i) workers.emplace_back(work);
+    // The first in order is recorded as soon as it is there: a crash loses at most what is under way.
+    try {
+      for (; committed < pending.size(); ++committed) {
+        {
+          std::unique_lock lock(mutex);
+          finished.wait(lock, [&] { return pending[committed].done || working == 0; });
+          if (!pending[committed].done || pending[committed].error) break;
+        }
+        commit(pending[committed], phase);
+      }
+    } catch (...) {
+      error = std::current_exception();
+    }
+    const std::lock_guard lock(mutex);
+    ending = ending || error || committed < pending.size();
+  }
+  if (error) std::rethrow_exception(error);
+  for (; committed < pending.size(); ++committed) {
+    Pending& candidate = pending[committed];
+    if (candidate.error && !error) error = candidate.error;
+    if (candidate.done && !candidate.error) commit(candidate, phase);
+  }
+  if (error) std::rethrow_exception(error);
+  stop_if_asked();
+}
+
+void EvaluationSession::call_evaluator(Pending& candidate) const {
+  try {
+    candidate.evaluation = evaluator_(candidate.x);
+  } catch (...) {
+    candidate.error = std::current_exception();
+  }
+}
+
+void EvaluationSession::commit(Pending& candidate, const std::string& phase) {
+  const bool replayed = candidate.known != nullptr;
+  if (replayed) candidate.evaluation = *candidate.known;
+  Evaluation evaluation = std::move(candidate.evaluation);
+  if (evaluation.parameters.empty()) {
+    const std::vector<std::string> keys = problem_.space.keys();
+    for (std::size_t i = 0; i < keys.size(); ++i) evaluation.parameters[keys[i]] = candidate.x[i];
+  }
+  // A response no evaluation has is a mistake in the study; one that is missing later is a failure of that candidate.
+  if (evaluation.converged() && !responses_known_) {
+    require_responses(problem_, evaluation);
+    responses_known_ = true;
+  }
+  annotate(problem_, options_.constraint_tolerance, evaluation);
+  if (!replayed && hooks_.journal != nullptr) hooks_.journal->append(candidate.x, evaluation);
+
+  const std::size_t index = candidates_.size();
+  by_unit_.insert(candidate.unit, index);
+  by_value_.insert(candidate.x, index);
+  units_.push_back(candidate.unit);
+  const Judgement judgement = judge(problem_, evaluation, options_.constraint_tolerance, shifts_);
+  ++(replayed ? statistics_.replayed : statistics_.computed);
+  if (evaluation.status == "infeasible")
+    ++statistics_.infeasible;
+  else if (!judgement.computed)
+    ++statistics_.failed;
+  candidates_.push_back({.x = candidate.x,
+                         .evaluation = std::move(evaluation),
+                         .judgement = judgement,
+                         .phase = phase,
+                         .replayed = replayed});
+  if (judgement.feasible && (!best_ || judgement.objective < candidates_[*best_].judgement.objective)) best_ = index;
+  if (hooks_.progress) hooks_.progress({.index = index, .candidate = candidates_.back(), .best = best_});
+}
+
+void EvaluationSession::limit(std::size_t candidates) {
+  limit_ = std::min(candidates, static_cast<std::size_t>(options_.max_evaluations));
+}
+
+void EvaluationSession::shift_constraints(std::vector<double> shifts) {
+  shifts_ = std::move(shifts);
+  judge_again();
+}
+
+void EvaluationSession::reject(std::size_t index) {
+  rejected_.push_back(index);
+  judge_again();
+}
+
+void EvaluationSession::judge_again() {
+  best_.reset();
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    Judgement& judgement = candidates_[i].judgement;
+    judgement = judge(problem_, candidates_[i].evaluation, options_.constraint_tolerance, shifts_);
+    if (std::ranges::find(rejected_, i) != rejected_.end()) judgement.feasible = false;
+    if (judgement.feasible && (!best_ || judgement.objective < candidates_[*best_].judgement.objective)) best_ = i;
+  }
+}
+
+void EvaluationSession::stop_if_asked() const {
+  if (hooks_.stop != nullptr && hooks_.stop->load()) throw StopSearch{Status::interrupted};
+}
+
+std::optional<std::size_t> EvaluationSession::least_broken() const {
+  std::optional<std::size_t> least;
+  const auto rank = [&](std::size_t i) {
+    const Candidate& c = candidates_[i];
+    return std::pair{!c.judgement.computed, c.judgement.violation};
+  };
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    const bool failed = !candidates_[i].judgement.computed && candidates_[i].evaluation.status != "infeasible";
+    if (!failed && (!least || rank(i) < rank(*least))) least = i;
+  }
+  return least;
+}
+
+int EvaluationSession::unused_records() const {
+  return static_cast<int>(in_journal_.size()) - statistics_.replayed;
+}
+
+}  // namespace dovetail::optimizer
