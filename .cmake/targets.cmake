@@ -8,7 +8,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(dovetail_warnings INTERFACE -Wno-restrict $<$<CONFIG:RelWithDebInfo>:-Wno-maybe-uninitialized>)
   if(DOVETAIL_PRECOMPILE)
     # The same bug: precompiled, libstdc++ does not count as a system header in these.
-    target_compile_options(dovetail_warnings INTERFACE -Wno-stringop-overflow -Wno-array-bounds)
+    target_compile_options(dovetail_warnings INTERFACE -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds)
   endif()
 endif()
 if(DOVETAIL_WERROR)
