@@ -72,4 +72,26 @@ std::string nearest(std::string_view word, std::span<const std::string> candidat
   return best;
 }
 
+namespace {
+
+std::string full_key(const std::string& prefix, std::string_view key) {
+  return prefix.empty() ? std::string(key) : prefix + "." + std::string(key);
+}
+
+}  // namespace
+
+void check_choice(const std::string& prefix, std::string_view key, const std::string& value,
+                  std::span<const std::string_view> choices, std::vector<Violation>& found) {
+  if (choices.empty() || std::ranges::find(choices, value) != choices.end()) return;
+  std::string allowed = "must be one of";
+  for (const std::string_view choice : choices) allowed += " " + std::string(choice);
+  found.push_back({.file = {}, .key = full_key(prefix, key), .value = value, .allowed = allowed});
+}
+
+void check_range(const std::string& prefix, std::string_view key, double value, const Range& range,
+                 std::vector<Violation>& found) {
+  if (!range.contains_rounded(value))
+    found.push_back({.file = {}, .key = full_key(prefix, key), .value = shortest(value), .allowed = range.phrase()});
+}
+
 }  // namespace dovetail

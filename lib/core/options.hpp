@@ -67,25 +67,20 @@ template <class S>
 /// Shortest decimal text that reads back to the same double.
 [[nodiscard]] std::string shortest(double value);
 
+/// Appends what is wrong with one value; for `violations`.
+void check_choice(const std::string& prefix, std::string_view key, const std::string& value,
+                  std::span<const std::string_view> choices, std::vector<Violation>& found);
+void check_range(const std::string& prefix, std::string_view key, double value, const Range& range,
+                 std::vector<Violation>& found);
+
 template <class S>
 std::vector<Violation> violations(const S& options, const std::string& prefix) {
   std::vector<Violation> found;
   for (const Field<S>& field : option_table<S>()) {
-    const std::string key = prefix.empty() ? std::string(field.key) : prefix + "." + std::string(field.key);
-    if (const auto* text = std::get_if<std::string S::*>(&field.member)) {
-      if (field.choices.empty()) continue;
-      bool known = false;
-      std::string allowed = "must be one of";
-      for (std::string_view choice : field.choices) {
-        known = known || options.*(*text) == choice;
-        allowed += " " + std::string(choice);
-      }
-      if (!known) found.push_back({.file = {}, .key = key, .value = options.*(*text), .allowed = allowed});
-    } else if (!std::holds_alternative<bool S::*>(field.member)) {
-      const double value = value_in_file_unit(options, field);
-      if (!field.range.contains_rounded(value))
-        found.push_back({.file = {}, .key = key, .value = shortest(value), .allowed = field.range.phrase()});
-    }
+    if (const auto* text = std::get_if<std::string S::*>(&field.member))
+      check_choice(prefix, field.key, options.*(*text), field.choices, found);
+    else if (!std::holds_alternative<bool S::*>(field.member))
+      check_range(prefix, field.key, value_in_file_unit(options, field), field.range, found);
   }
   return found;
 }

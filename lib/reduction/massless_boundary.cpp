@@ -1,6 +1,7 @@
 #include "reduction/massless_boundary.hpp"
 
 #include <chrono>
+#include <limits>
 #include <utility>
 
 #include "numerics/dense_product.hpp"
@@ -31,6 +32,7 @@ namespace dovetail::reduction {
 
 namespace {
 
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 using Clock = std::chrono::steady_clock;
 /// Seconds since `start`, which is set to now.
 double lap(Clock::time_point& start) {
@@ -86,8 +88,12 @@ Eigen::VectorXd glued_frequencies(const TraceModel& trace) {
   const RitzBasis& basis = trace.structure->basis();
   const Eigen::MatrixXd& flexibility = trace.structure->on_contact();
   const Eigen::MatrixXd on_contact = basis.vectors.bottomRows(flexibility.rows());
-  const Eigen::MatrixXd glued = glued_stiffness(basis, numerics::DenseCholesky(flexibility), on_contact);
-  return numerics::all_values<double>(glued).values.cwiseMax(0.0).cwiseSqrt();
+  const numerics::DenseCholesky g(flexibility);
+  const Eigen::Index modes = on_contact.cols();
+  if (g.status() != Status::converged) return Eigen::VectorXd::Constant(modes, kUnknown);
+  const numerics::SymmetricPairs glued = numerics::all_values<double>(glued_stiffness(basis, g, on_contact));
+  if (glued.status != Status::converged) return Eigen::VectorXd::Constant(modes, kUnknown);
+  return glued.values.cwiseMax(0.0).cwiseSqrt();
 }
 
 TraceModel trace_model(const FullModel& full, const ReductionOptions& options) {

@@ -70,7 +70,8 @@ struct TraceModel {
 [[nodiscard]] Reduction reduce(const TraceModel& trace, const Eigen::SparseMatrix<double>& average,
                                ContactNodes contact, double damping_ratio);
 
-/// Angular frequencies of the structure glued at every trace node, rad/s, ascending.
+/// Angular frequencies of the structure glued at every trace node, rad/s, ascending; NaN when the flexibility of the
+/// trace is not positive definite.
 [[nodiscard]] Eigen::VectorXd glued_frequencies(const TraceModel& trace);
 
 /// Reduces `full` to its contact dofs without mass and m coordinates with unit mass:

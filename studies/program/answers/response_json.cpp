@@ -6,8 +6,6 @@ namespace {
 
 using quality::Quantities;
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
 /// Of coefficients [c0, c1, s1, ...] the cosines h = 0..H, or with `sine` the sines, of which that of h = 0 is 0.
 Json series(const Eigen::RowVectorXd& coefficients, bool sine) {
   const double mean = coefficients[0];

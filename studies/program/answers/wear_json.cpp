@@ -21,8 +21,6 @@ inline constexpr auto kFields<wear::OtherState> = std::tuple{
 namespace dovetail::studies {
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
 Json worn(double volume, double depth) {
   return Json{{"worn_volume_m3", json_of(volume)}, {"largest_depth_m", json_of(depth)}};
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <ostream>
 
 #include "studies/program/answers/json_values.hpp"
@@ -16,8 +15,6 @@
 
 namespace dovetail::studies {
 namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
 
 std::vector<double> parameters(const BackboneOptions& options) {
   const bool wear = options.over == "wear";

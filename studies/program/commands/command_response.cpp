@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <ostream>
 
 #include "paths/frequency_response.hpp"
@@ -17,8 +16,6 @@
 
 namespace dovetail::studies {
 namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
 
 std::vector<double> frequencies(const ResponseOptions& options) {
   Complaints wrong;

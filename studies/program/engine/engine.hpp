@@ -1,6 +1,8 @@
 #pragma once
 
+#include <limits>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 
@@ -11,6 +13,9 @@
 #include "studies/program/commands/commands.hpp"
 
 namespace dovetail::studies {
+
+inline constexpr double kTurn = 2 * std::numbers::pi;                         ///< rad/s of 1 Hz
+inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();  ///< null in an answer
 
 /// The scene whose geometry fixes the mesh topology of a study: every variable in the middle of its bounds. It does not
 /// depend on the values of the variables, so that a best design evaluates in its own file as it did in the run.

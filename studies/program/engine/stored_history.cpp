@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
-#include <numbers>
 #include <utility>
 
 #include "optimizer/journal/fingerprint.hpp"
@@ -14,8 +13,6 @@
 
 namespace dovetail::studies {
 namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
 
 [[noreturn]] void cannot_resume(const std::string& file, const std::string& why) {
   refuse("--resume", why, file);

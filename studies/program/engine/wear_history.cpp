@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <utility>
 
 #include "paths/frequency_response.hpp"
@@ -17,9 +15,6 @@
 namespace dovetail::studies {
 
 namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Steps that a history in hundredths of its depth may take before it counts as going nowhere.
 constexpr int kSteps = 1000;

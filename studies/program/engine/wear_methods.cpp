@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "studies/program/answers/json.hpp"
 #include "studies/program/study_file/refusal.hpp"
@@ -13,7 +11,6 @@ namespace dovetail::studies {
 
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
 constexpr const char* kCyclesReached = "the cycles asked for were reached while wearing";
 
 WearAnswer by_history(const WearOptions& options, const LoadedModel& loaded, const WearStart& at,
@@ -82,7 +79,7 @@ WearStart wear_start(const WearOptions& options, const LoadedModel& loaded) {
 }
 
 WearAnswer unknown_answer(const WearOptions& options, Eigen::Index nodes, Status why) {
-  const Eigen::VectorXd unknown = Eigen::VectorXd::Constant(nodes, std::numeric_limits<double>::quiet_NaN());
+  const Eigen::VectorXd unknown = Eigen::VectorXd::Constant(nodes, kUnknown);
   WearAnswer answer;
   answer.solver = why;
   answer.depth = unknown;
@@ -96,7 +93,7 @@ WearAnswer unknown_answer(const WearOptions& options, Eigen::Index nodes, Status
     wear::Asymptote& asymptote = answer.asymptote.emplace();
     asymptote.status = why;
     asymptote.depth = unknown;
-    answer.frequencies_hz = {std::numeric_limits<double>::quiet_NaN()};
+    answer.frequencies_hz = {kUnknown};
   }
   return answer;
 }
@@ -108,7 +105,6 @@ WearAnswer wear_answer(const WearOptions& options, const LoadedModel& loaded, co
 }
 
 WearBand wear_band(const WearOptions& options, const LoadedModel& loaded, const wear::Watcher& watcher) {
-  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   WearBand band;
   band.answer = unknown_answer(options, loaded.joint.model->nodes(), Status::interrupted);
   double worst = -1;

@@ -2,10 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <array>
 #include <cmath>
 
+#include "numerics/dense_symmetric.hpp"
 #include "tests/unit/fem/structured_mesh.hpp"
 
 namespace dovetail::fem {
@@ -79,7 +80,7 @@ TEST_F(CurvedElement, RigidMotionsCarryNoForce) {
 }
 
 TEST_F(CurvedElement, HasThreeRigidModesAndNoOthers) {
-  const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<ElementMatrix<Triangle6>>(stiffness).eigenvalues();
+  const Eigen::VectorXd values = numerics::all_values<double>(stiffness).values;
   EXPECT_LT(values.head(3).cwiseAbs().maxCoeff(), 1e-13 * values[11]);
   EXPECT_GT(values[3], 1e-4 * values[11]);
 }

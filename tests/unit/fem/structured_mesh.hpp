@@ -1,15 +1,16 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 #include <cmath>
 #include <functional>
 #include <numbers>
 #include <random>
+#include <stdexcept>
 #include <vector>
 
 #include "fem/sector_mesh.hpp"
+#include "numerics/sparse_factor.hpp"
 
 namespace dovetail::fem::testing {
 
@@ -115,9 +116,9 @@ inline Eigen::VectorXd solve_held(const Eigen::SparseMatrix<double>& stiffness, 
   Eigen::VectorXd u = Eigen::VectorXd::Zero(stiffness.rows());
   for (int dof : held) u[dof] = prescribed[dof];
   const Eigen::VectorXd right = selection.transpose() * (force - stiffness * u);
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(restrict_to(stiffness, selection));
-  const Eigen::VectorXd inside = factor.solve(right);
-  return u + selection * inside;
+  numerics::SparseCholesky<double> factor;
+  if (factor.factorise(restrict_to(stiffness, selection)) != Status::converged) throw std::runtime_error("not held");
+  return u + selection * factor.solve(right);
 }
 
 /// Sector of an annulus without a joint.

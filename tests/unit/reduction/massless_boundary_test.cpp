@@ -5,6 +5,8 @@
 
 #include <Eigen/Dense>
 
+#include "numerics/dense_lu.hpp"
+#include "numerics/dense_symmetric.hpp"
 #include "reduction/validation.hpp"
 #include "tests/unit/reduction/stiffness_error.hpp"
 #include "tests/unit/reduction/truss_model.hpp"
@@ -17,10 +19,9 @@ constexpr double kAngular = 17.0;
 
 Eigen::VectorXd glued_frequencies(const FullModel& full) {
   const Eigen::Index internal = full.internal_size();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-      Eigen::MatrixXd(full.stiffness).topLeftCorner(internal, internal),
-      Eigen::MatrixXd(full.mass).topLeftCorner(internal, internal));
-  return eigen.eigenvalues().cwiseSqrt();
+  const Eigen::SparseMatrix<double> stiffness = full.stiffness.topLeftCorner(internal, internal);
+  const Eigen::SparseMatrix<double> mass = full.mass.topLeftCorner(internal, internal);
+  return numerics::all_values<double>(stiffness, mass).values.cwiseSqrt();
 }
 
 // Deterministic loads without structure.
@@ -69,8 +70,8 @@ TEST_P(AtSpeed, StaticResponseHoldsWithFewModes) {
   Eigen::MatrixXd loads(full.size(), 2), reduced_loads(model.size(), 2);
   loads << full.static_force, full.cosine_force;
   reduced_loads << model.static_force, model.cosine_force.transpose();
-  const Eigen::MatrixXd exact = held.partialPivLu().solve(loads);
-  const Eigen::MatrixXd q = held_reduced.partialPivLu().solve(reduced_loads);
+  const Eigen::MatrixXd exact = numerics::DenseLu(held).solve(loads);
+  const Eigen::MatrixXd q = numerics::DenseLu(held_reduced).solve(reduced_loads);
   const Eigen::MatrixXd u = reduction.recovery.apply(q, spring * q.topRows(contact));
   for (int column = 0; column < 2; ++column)
     EXPECT_LT((u.col(column) - exact.col(column)).norm(), 1e-9 * exact.col(column).norm());
@@ -87,7 +88,7 @@ TEST_P(Spinning, RecoveredFieldSolvesTheStaticEquationsForAnyContactForces) {
   const ReducedModel& model = reduction.model;
   Eigen::VectorXd load = model.static_force;
   load.head(contact) -= lambda;
-  const Eigen::VectorXd q = model.stiffness.partialPivLu().solve(load);
+  const Eigen::VectorXd q = numerics::DenseLu(model.stiffness).solve(load);
   const Eigen::VectorXd u = reduction.recovery.apply(q, lambda);
   Eigen::VectorXd residual = full.stiffness * u - full.static_force;
   residual.tail(contact) += lambda;

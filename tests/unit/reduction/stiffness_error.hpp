@@ -1,9 +1,6 @@
 #pragma once
 
-#include <Eigen/Dense>
-#include <Eigen/SparseCholesky>
-#include <limits>
-#include <numeric>
+#include <Eigen/Core>
 #include <span>
 #include <vector>
 
@@ -20,52 +17,15 @@ struct StiffnessError {
 };
 
 /// Z of a reduced model whose contact dofs come first, without damping, [nc, nc] N/m.
-inline Eigen::MatrixXd condensed_stiffness(const ReducedModel& model, double angular_frequency) {
-  const Eigen::Index contact = model.contact.count() * model.contact.directions(), internal = model.size() - contact;
-  const Eigen::MatrixXd dynamic = model.stiffness - angular_frequency * angular_frequency * model.mass;
-  const Eigen::MatrixXd corner = dynamic.topLeftCorner(contact, contact);
-  if (internal == 0) return corner;
-  const Eigen::MatrixXd coupling = dynamic.bottomLeftCorner(internal, contact);
-  return corner - coupling.transpose() * dynamic.bottomRightCorner(internal, internal).partialPivLu().solve(coupling);
-}
+Eigen::MatrixXd condensed_stiffness(const ReducedModel& model, double angular_frequency);
 
 /// Z of the full model without damping, by one sparse LDL^T of D_ii. Undamped on both sides because the modal damping
 /// of the reduced model has no sparse counterpart in the full one; at a glued resonance Z, at a free one Z^-1, is
 /// unbounded, so choose frequencies away from them. Empty when D_ii is singular.
-inline Eigen::MatrixXd condensed_stiffness(const FullModel& model, double angular_frequency) {
-  const Eigen::Index contact = model.contact_size();
-  const Eigen::Index internal = model.internal_size();
-  const Eigen::SparseMatrix<double> dynamic = model.stiffness - angular_frequency * angular_frequency * model.mass;
-  const Eigen::SparseMatrix<double> interior = dynamic.topLeftCorner(internal, internal);
-  const Eigen::SparseMatrix<double> coupling = dynamic.topRightCorner(internal, contact);
-  const Eigen::SparseMatrix<double> corner = dynamic.bottomRightCorner(contact, contact);
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(interior);
-  if (factor.info() != Eigen::Success) return {};
-  const Eigen::MatrixXd dense_coupling(coupling);
-  Eigen::MatrixXd response = factor.solve(dense_coupling);
-  // LDL^T without pivoting loses digits on an indefinite matrix; one refinement gives them back.
-  response += factor.solve(dense_coupling - interior * response);
-  return Eigen::MatrixXd(corner) - coupling.transpose() * response;
-}
+Eigen::MatrixXd condensed_stiffness(const FullModel& model, double angular_frequency);
 
 /// Compares with the full model: one factorisation and nc back-solves per frequency.
-inline std::vector<StiffnessError> compare(const FullModel& full, const Reduction& reduction,
-                                           std::span<const double> angular_frequencies) {
-  std::vector<StiffnessError> errors;
-  for (double angular_frequency : angular_frequencies) {
-    const Eigen::MatrixXd exact = condensed_stiffness(full, angular_frequency);
-    const Eigen::MatrixXd reduced = condensed_stiffness(reduction.model, angular_frequency);
-    StiffnessError error{.angular_frequency = angular_frequency,
-                         .stiffness = std::numeric_limits<double>::infinity(),
-                         .flexibility = std::numeric_limits<double>::infinity()};
-    if (exact.size() > 0 && exact.rows() == reduced.rows()) {
-      error.stiffness = (reduced - exact).norm() / exact.norm();
-      const Eigen::MatrixXd inverse = exact.partialPivLu().inverse();
-      error.flexibility = (reduced.partialPivLu().inverse() - inverse).norm() / inverse.norm();
-    }
-    errors.push_back(error);
-  }
-  return errors;
-}
+std::vector<StiffnessError> compare(const FullModel& full, const Reduction& reduction,
+                                    std::span<const double> angular_frequencies);
 
 }  // namespace dovetail::reduction

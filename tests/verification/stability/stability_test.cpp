@@ -2,11 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
 #include <string>
 
+#include "numerics/dense_general.hpp"
 #include "paths/steady_state.hpp"
 #include "tests/verification/steady/rod.hpp"
 
@@ -42,7 +43,7 @@ Eigen::VectorXcd linear_multipliers(const Eigen::MatrixXd& m, const Eigen::Matri
   a.topRightCorner(n, n).setIdentity();
   a.bottomLeftCorner(n, n) = -m.inverse() * k;
   a.bottomRightCorner(n, n) = -m.inverse() * c;
-  const Eigen::VectorXcd rates = Eigen::EigenSolver<Eigen::MatrixXd>(a, false).eigenvalues();
+  const Eigen::VectorXcd rates = numerics::eigenvalues(a).values;
   return (rates * (kTwoPi / omega)).array().exp();
 }
 
@@ -228,7 +229,7 @@ TEST(Stability, FindsTheMiddleBranchOfAClearanceUnstable) {
       map = clearance_map(orbit, omega);
       orbit -= (map.derivative - Eigen::Matrix2d::Identity()).inverse() * (map.end - orbit);
     }
-    const Eigen::VectorXcd exact = Eigen::EigenSolver<Eigen::MatrixXd>(Eigen::MatrixXd(map.derivative)).eigenvalues();
+    const Eigen::VectorXcd exact = numerics::eigenvalues(map.derivative).values;
     // The series of 25 harmonics moves the instants of contact by about its truncation error, 1e-4.
     EXPECT_LT(mismatch(found.multipliers, exact), 1e-3);
   }
@@ -368,9 +369,9 @@ TEST_P(NodeInSpace, HasTheMultipliersOfItsPerturbedMotion) {
     const NodeSimulation::State moved = simulation.period(orbit) - orbit;
     if (moved.norm() < 1e-7) break;
     const Eigen::MatrixXd shooting = map - Eigen::MatrixXd::Identity(8, 8);
-    orbit -= shooting.completeOrthogonalDecomposition().solve(moved);
+    orbit -= numerics::least_squares(shooting, moved, 1e-14);
   }
-  const Eigen::VectorXcd exact = Eigen::EigenSolver<Eigen::MatrixXd>(map).eigenvalues();
+  const Eigen::VectorXcd exact = numerics::eigenvalues(map).values;
   Eigen::VectorXcd all = Eigen::VectorXcd::Ones(found.multipliers.size() + found.neutral);
   all.head(found.multipliers.size()) = found.multipliers;
   // The simulation returns slip radially, first order in its 8000 steps; two turning touches in a period feel it most.
