@@ -2,7 +2,6 @@
 find_package(Threads REQUIRED)
 find_package(PkgConfig REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-find_package(spectra REQUIRED)
 find_package(Boost REQUIRED)
 find_package(CGAL REQUIRED)
 find_package(HDF5 REQUIRED COMPONENTS C CXX HL)

@@ -3,164 +3,226 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numeric>
 #include <random>
-#include <stdexcept>
 #include <vector>
 
-#include "numerics/block_modes.hpp"
-#include "numerics/deflated_inverse.hpp"
 #include "numerics/dense_product.hpp"
 #include "numerics/dense_symmetric.hpp"
-#include "numerics/lanczos.hpp"
 
 namespace dovetail::numerics {
 
 namespace {
 
-struct RunOptions {
-  LanczosOptions lanczos;
-  unsigned seed = 1;
+/// M times blocks of columns, row by row of M, without its stored zeros (a mass matrix on the pattern of a stiffness is
+/// mostly zeros).
+template <class Scalar>
+class Weight;
+
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+template <>
+class Weight<double> {
+ public:
+  explicit Weight(const Eigen::SparseMatrix<double>& mass) : mass_(mass) { mass_.prune(0.0); }
+  [[nodiscard]] Eigen::MatrixXd operator()(const Eigen::MatrixXd& x) const {
+    const Rows rows = x;
+    const Rows product = mass_ * rows;
+    return product;
+  }
+
+ private:
+  SparseRows mass_;
 };
 
-template <class Entry>
-struct Run {
-  Status status = Status::iteration_limit;
-  Eigen::VectorXd values;  // lambda - sigma, by increasing magnitude
-  Columns<Entry> vectors;
+/// Cyclic symmetry makes few entries complex, and complex products cost several real ones: real and imaginary parts
+/// side by side.
+template <>
+class Weight<std::complex<double>> {
+ public:
+  explicit Weight(const Eigen::SparseMatrix<std::complex<double>>& mass) : real_(mass.real()), imag_(mass.imag()) {
+    real_.prune(0.0);
+    imag_.prune(0.0);
+  }
+  [[nodiscard]] Eigen::MatrixXcd operator()(const Eigen::MatrixXcd& x) const {
+    const Eigen::Index k = x.cols();
+    Rows parts(x.rows(), 2 * k), turned(x.rows(), 2 * k);
+    parts << x.real(), x.imag();
+    turned << -x.imag(), x.real();
+    Rows product = real_ * parts;
+    product += imag_ * turned;
+    Eigen::MatrixXcd result(x.rows(), k);
+    result.real() = product.leftCols(k);
+    result.imag() = product.rightCols(k);
+    return result;
+  }
+
+ private:
+  SparseRows real_, imag_;
 };
 
-template <class Entry>
-Column<Entry> start_vector(Eigen::Index rows, unsigned seed) {
-  std::mt19937_64 random(seed);
-  std::uniform_real_distribution<double> uniform(-1, 1);
-  Column<Entry> start(rows);
-  double* reals = reinterpret_cast<double*>(start.data());
-  for (Eigen::Index k = 0; k < kReals<Entry> * rows; ++k) reals[k] = uniform(random);
-  return start;
+/// A block made M-orthonormal: x = vectors factor (+ what was projected out before).
+template <class Scalar>
+struct Orthonormal {
+  Dense<Scalar> vectors, weighted;  // Q and M Q
+  Dense<Scalar> factor;             // [columns of Q, columns of x]
+};
+
+/// Square root of sum_k x_k^H y_k over the columns.
+template <class Scalar>
+double joint_length(const Dense<Scalar>& x, const Dense<Scalar>& y) {
+  return std::sqrt(std::abs(x.conjugate().cwiseProduct(y).sum()));
 }
 
-// One run of Spectra on what is left of the problem.
-template <class Entry>
-Run<Entry> run_spectra(const ShiftInverse<Entry>& inverse, const Eigen::SparseMatrix<Entry>& mass,
-                       const MassProduct<Entry>& mass_product, const Found<Entry>& found, const RunOptions& options) {
-  Run<Entry> run;
-  const Eigen::Index n = mass.rows();
-  const auto norm = [&](const Column<Entry>& x) { return std::sqrt(std::max(0.0, std::real(x.dot(mass * x)))); };
+template <class Scalar>
+class Krylov {
+  static constexpr ModesParams kParams = {};
 
-  const Column<Entry> start = start_vector<Entry>(n, options.seed);
-  double scale = found.size() == 0 ? 0 : std::abs(found.values.back());
-  // Spectra compares Ritz values and residuals with absolute numbers near rounding: the operator is scaled. The
-  // quotient of a random vector is below its largest eigenvalue by no more than some square root of n.
-  if (scale == 0) {
-    Column<Entry> image(n);
-    inverse.perform_op((mass * start).eval().data(), image.data());
-    scale = norm(start) / norm(image);
-    if (!(std::isfinite(scale) && scale > 0)) {
-      run.status = Status::not_finite;
-      return run;
+ public:
+  Krylov(const ShiftInverse<Scalar>& inverse, const Eigen::SparseMatrix<Scalar>& mass, const ModesOptions& options)
+      : inverse_(inverse),
+        weight_(mass),
+        count_(std::min<Eigen::Index>(options.count, inverse.rows)),
+        tolerance_(options.tolerance),
+        block_size_(std::min<Eigen::Index>(
+            options.block > 0 ? options.block : (inverse.rows < kParams.large ? kParams.block : kParams.large_block),
+            inverse.rows)),
+        limit_(3 * Eigen::Index{options.vector_limit} * options.count + kParams.always),
+        most_(std::min<Eigen::Index>(inverse.rows, kParams.vectors * count_ + kParams.blocks * block_size_)) {}
+
+  Modes<Scalar> run() {
+    Modes<Scalar> modes;
+    if (!start()) {
+      modes.status = Status::not_finite;
+      return modes;
+    }
+    while (true) {
+      if (solves_ + block_.vectors.cols() > limit_) return modes;
+      const bool exhausted = !expand();
+      const bool enough = settle();
+      if (status_ != Status::converged) {
+        modes.status = status_;
+        return modes;
+      }
+      if (enough || exhausted) {
+        modes.status = Status::converged;
+        const Eigen::Index found = std::min<Eigen::Index>(count_, values_.size());
+        take(found, modes);
+        return modes;
+      }
+      if (basis_.cols() + block_.vectors.cols() > most_) restart();
     }
   }
 
-  const DeflatedInverse<Entry> deflated(inverse, found, scale);
-  const LanczosPairs pairs =
-      lanczos({.size = deflated.rows(), .apply = [&](const double* b, double* x) { deflated.perform_op(b, x); }},
-              {.size = deflated.rows(), .apply = [&](const double* x, double* y) { mass_product.perform_op(x, y); }},
-              reinterpret_cast<const double*>(start.data()), options.lanczos);
-  run.status = pairs.status;
-  run.values = pairs.values * scale;
-  run.vectors.resize(n, pairs.vectors.cols());
-  for (Eigen::Index k = 0; k < run.vectors.cols(); ++k)
-    run.vectors.col(k) = vector_at<Entry>(pairs.vectors.col(k).data(), n);
-  return run;
-}
-
-// All pairs with 1/(lambda - sigma) != 0 of M^(1/2) (K - sigma M)^{-1} M^(1/2); works for singular mass.
-template <class Entry>
-Found<Entry> dense_modes(const ShiftInverse<Entry>& inverse, const Eigen::SparseMatrix<Entry>& mass) {
-  const Pairs<Entry> spectrum = all_pairs<Entry>(mass);
-  // Rounding may leave eigenvalues of a singular mass matrix slightly below zero.
-  const Columns<Entry> scaled = spectrum.vectors * spectrum.values.cwiseMax(0).cwiseSqrt().asDiagonal();
-  const Columns<Entry> root = product(scaled, spectrum.vectors.adjoint());
-  Columns<Entry> flexible(mass.rows(), mass.rows());
-  for (Eigen::Index k = 0; k < root.cols(); ++k) inverse.perform_op(root.col(k).data(), flexible.col(k).data());
-  const Columns<Entry> between = product(root, flexible);
-  const Pairs<Entry> pairs = all_pairs<Entry>(0.5 * (between + between.adjoint()));
-  Found<Entry> found;
-  found.status = spectrum.status == Status::converged ? pairs.status : spectrum.status;
-  found.vectors.resize(mass.rows(), 0);
-  if (found.status != Status::converged) return found;
-  const Eigen::VectorXd& theta = pairs.values;
-  const double threshold = 1e-14 * theta.cwiseAbs().maxCoeff();
-  std::vector<Eigen::Index> kept;
-  for (Eigen::Index k = 0; k < theta.size(); ++k)
-    if (std::abs(theta(k)) > threshold) kept.push_back(k);
-  const Eigen::VectorXd values = theta(kept).cwiseInverse();
-  found.values.assign(values.begin(), values.end());
-  found.vectors = product(flexible, pairs.vectors(Eigen::all, kept)) * values.asDiagonal();
-  found.sort();
-  return found;
-}
-
-// Restarts that keep a run within `limit` applications of the operator.
-Eigen::Index restarts_within(Eigen::Index limit, Eigen::Index vectors, Eigen::Index count) {
-  return std::max<Eigen::Index>(1, (limit - vectors) / (vectors - count));
-}
-
-template <class Entry>
-Status find_modes(const ShiftInverse<Entry>& inverse, const Eigen::SparseMatrix<Entry>& mass,
-                  const ModesOptions& options, Found<Entry>& found) {
-  constexpr unsigned kRounds = 12;  // every one but the last finds a mode
-  // Of the look at what is left: relative accuracy of its largest value, and the vectors that usually give it.
-  constexpr double kLook = 0.02;
-  constexpr Eigen::Index kLookVectors = 10, kLookLimit = 120;
-  // Beyond this range values are rounding.
-  constexpr double kRange = 1e14;
-  const MassProduct<Entry> mass_product(mass);
-  const Eigen::Index wanted = options.count;
-  const Eigen::Index limit = Eigen::Index{options.vector_limit} * wanted + 40;
-  const Eigen::Index budget = 3 * limit + kRounds * kLookLimit;
-  Eigen::Index applied = 0;
-  // Spectra cannot be stopped otherwise; run_spectra turns it into a status.
-  const ShiftInverse<Entry> bounded{.rows = inverse.rows, .perform_op = [&](const Entry* b, Entry* x) {
-                                      if (++applied > budget) throw std::runtime_error("applications used up");
-                                      inverse.perform_op(b, x);
-                                    }};
-  for (unsigned round = 0; round < kRounds; ++round) {
-    const Eigen::Index missing = wanted - found.size();
-    double last = 0;
-    if (missing <= 0) {
-      last = std::abs(found.values[static_cast<std::size_t>(wanted - 1)]);
-      const Run<Entry> look = run_spectra(bounded, mass, mass_product, found,
-                                          {.lanczos = {.count = 1,
-                                                       .vectors = kLookVectors,
-                                                       .restarts = restarts_within(kLookLimit, kLookVectors, 1),
-                                                       .tolerance = kLook},
-                                           .seed = round + 1});
-      if (look.status != Status::converged) return look.status;
-      if (std::abs(look.values(0)) > last * (1 + kLook)) return Status::converged;
-    }
-    const Eigen::Index count = std::max<Eigen::Index>(1, missing);
-    // Fewer vectors mean more restarts, more vectors solves that were not needed: measured to be best.
-    const Eigen::Index vectors = 2 * count + 4;
-    const Run<Entry> run = run_spectra(bounded, mass, mass_product, found,
-                                       {.lanczos = {.count = count,
-                                                    .vectors = vectors,
-                                                    .restarts = restarts_within(limit, vectors, count),
-                                                    .tolerance = options.tolerance},
-                                        .seed = round + 1});
-    if (run.status != Status::converged) return run.status;
-    const double nearest = std::abs(found.size() == 0 ? run.values(0) : found.values.front());
-    for (Eigen::Index k = 0; k < run.values.size(); ++k) {
-      if (std::abs(run.values(k)) > kRange * nearest) return Status::converged;
-      found.add(run.values(k), run.vectors.col(k), mass);
-    }
-    found.sort();
-    // A copy of the last one is no news: the set may end within a multiple eigenvalue.
-    if (missing <= 0 && std::abs(run.values(0)) >= last * (1 - 1e-9)) return Status::converged;
+ private:
+  /// Of a matrix that is Hermitian but for rounding. Failures are kept in status_.
+  Pairs<Scalar> pairs_of(const Dense<Scalar>& matrix) {
+    Pairs<Scalar> pairs = all_pairs<Scalar>(0.5 * (matrix + matrix.adjoint()));
+    if (pairs.status != Status::converged) status_ = pairs.status;
+    return pairs;
   }
-  return Status::iteration_limit;
-}
+
+  /// Directions below `threshold` times the largest scale are dropped: the space is exhausted there.
+  Orthonormal<Scalar> orthonormal(const Dense<Scalar>& x, const Dense<Scalar>& weighted, double threshold) {
+    const Pairs<Scalar> pairs = pairs_of(adjoint_product(x, weighted));
+    std::vector<Eigen::Index> kept;
+    for (Eigen::Index k = 0; k < pairs.values.size(); ++k)
+      if (pairs.values(k) > threshold * threshold) kept.push_back(k);
+    const Eigen::VectorXd sizes = pairs.values(kept).cwiseSqrt();
+    const Dense<Scalar> directions = pairs.vectors(Eigen::all, kept);
+    const Dense<Scalar> scaled = directions * sizes.cwiseInverse().asDiagonal();
+    return {product(x, scaled), product(weighted, scaled), sizes.asDiagonal() * directions.adjoint()};
+  }
+
+  /// A random block, once through the operator: it has no part along massless directions then.
+  bool start() {
+    std::mt19937_64 random(1);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    Dense<Scalar> x(inverse_.rows, block_size_);
+    for (Scalar& entry : x.reshaped()) {
+      entry = uniform(random);
+      if constexpr (!std::is_same_v<Scalar, double>) entry += Scalar(0, uniform(random));
+    }
+    const Dense<Scalar> image = inverse_.solve(weight_(x));
+    solves_ += x.cols();
+    if (!image.allFinite()) return false;
+    const Dense<Scalar> weighted = weight_(image);
+    const double scale = joint_length<Scalar>(image, weighted);
+    // Twice: a Gram matrix squares the condition of the block.
+    const Orthonormal<Scalar> first = orthonormal(image, weighted, kParams.independent * scale);
+    block_ = orthonormal(first.vectors, weight_(first.vectors), kParams.second);
+    basis_.resize(inverse_.rows, 0);
+    return block_.vectors.cols() > 0;
+  }
+
+  /// Takes the block into the basis and makes the next one of its image; false when nothing is left.
+  bool expand() {
+    const Eigen::Index before = basis_.cols(), added = block_.vectors.cols();
+    basis_.conservativeResize(Eigen::NoChange, before + added);
+    basis_.rightCols(added) = block_.vectors;
+    Dense<Scalar> image = inverse_.solve(block_.weighted);
+    solves_ += added;
+    const Dense<Scalar> weighted = weight_(image);
+    const double scale = joint_length<Scalar>(image, weighted);
+    const Dense<Scalar> overlap = adjoint_product(basis_, weighted);
+    projected_.conservativeResize(before + added, before + added);
+    projected_.rightCols(added) = overlap;
+    projected_.bottomRows(added) = overlap.adjoint();
+    image -= product(basis_, overlap);
+    // Small remainders carry rounding along the basis, which normalising magnifies: again.
+    Orthonormal<Scalar> first = orthonormal(image, weight_(image), kParams.remainder * scale);
+    first.vectors -= product(basis_, adjoint_product(basis_, first.weighted));
+    block_ = orthonormal(first.vectors, weight_(first.vectors), kParams.second);
+    block_.factor = product(block_.factor, first.factor);
+    last_ = added;
+    return block_.vectors.cols() > 0 && basis_.cols() < inverse_.rows;
+  }
+
+  /// Ritz values by decreasing magnitude; whether those wanted have small residuals.
+  bool settle() {
+    const Pairs<Scalar> ritz = pairs_of(projected_);
+    std::vector<Eigen::Index> order(static_cast<std::size_t>(ritz.values.size()));
+    for (std::size_t k = 0; k < order.size(); ++k) order[k] = static_cast<Eigen::Index>(k);
+    std::stable_sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
+      return std::abs(ritz.values(a)) > std::abs(ritz.values(b));
+    });
+    values_ = ritz.values(order);
+    rotation_ = ritz.vectors(Eigen::all, order);
+    if (values_.size() < count_) return false;
+    coupling_ = product(block_.factor, rotation_.bottomRows(last_));
+    for (Eigen::Index k = 0; k < count_; ++k)
+      if (!(coupling_.col(k).norm() <= tolerance_ * std::abs(values_(k)))) return false;
+    return true;
+  }
+
+  /// Keeps the best Ritz vectors; what couples them to the next block is known.
+  void restart() {
+    const Eigen::Index kept = std::min<Eigen::Index>(count_ + block_size_, values_.size() - 1);
+    basis_ = product(basis_, Dense<Scalar>(rotation_.leftCols(kept)));
+    projected_ = values_.head(kept).template cast<Scalar>().asDiagonal();
+  }
+
+  void take(Eigen::Index found, Modes<Scalar>& modes) const {
+    while (found > 0 && std::abs(values_(found - 1)) * kParams.range < std::abs(values_(0))) --found;
+    std::vector<Eigen::Index> order(static_cast<std::size_t>(found));
+    for (std::size_t k = 0; k < order.size(); ++k) order[k] = static_cast<Eigen::Index>(k);
+    std::sort(order.begin(), order.end(),
+              [&](Eigen::Index a, Eigen::Index b) { return 1 / values_(a) < 1 / values_(b); });
+    modes.eigenvalues = values_(order).cwiseInverse();
+    modes.vectors = product(basis_, rotation_(Eigen::all, order));
+  }
+
+  const ShiftInverse<Scalar>& inverse_;
+  Weight<Scalar> weight_;
+  Eigen::Index count_;
+  double tolerance_;
+  Status status_ = Status::converged;
+  Eigen::Index block_size_, limit_, most_, solves_ = 0, last_ = 0;
+  Dense<Scalar> basis_, projected_;  // V and V^H M (K - sigma M)^{-1} M V
+  Orthonormal<Scalar> block_;        // the next one
+  Eigen::VectorXd values_;
+  Dense<Scalar> rotation_, coupling_;
+};
 
 }  // namespace
 
@@ -168,33 +230,9 @@ template <class Scalar>
 Modes<Scalar> nearest_modes(const ShiftInverse<Scalar>& inverse, const Eigen::SparseMatrix<Scalar>& mass,
                             const ModesOptions& options) {
   assert(options.count >= 1 && options.count <= inverse.rows && mass.rows() == inverse.rows);
-  constexpr Eigen::Index kDenseSize = 200;
-  // Factors of larger bodies are read from memory for every solve.
-  constexpr Eigen::Index kLarge = 30000;
-  ModesOptions in_blocks = options;
-  if (inverse.rows >= kLarge) in_blocks.block = std::max(options.block, kLargeBlock);
-  const bool dense = inverse.rows <= kDenseSize || 3 * Eigen::Index{options.count} > inverse.rows;
-  if (!dense && in_blocks.block > 0 && inverse.perform_block) return block_modes(inverse, mass, in_blocks);
-  Modes<Scalar> modes;
+  Modes<Scalar> modes = Krylov<Scalar>(inverse, mass, options).run();
   modes.shift = options.shift;
-  Found<Scalar> found;
-  found.vectors.resize(inverse.rows, 0);
-  found.weighted.resize(inverse.rows, 0);
-  if (dense) {
-    found = dense_modes(inverse, mass);
-    modes.status = found.status;
-  } else {
-    modes.status = find_modes(inverse, mass, options, found);
-  }
-  if (modes.status != Status::converged) return modes;
-
-  const Eigen::Index kept = std::min<Eigen::Index>(options.count, found.size());
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(kept));
-  std::iota(order.begin(), order.end(), Eigen::Index{0});
-  const Eigen::Map<const Eigen::VectorXd> values(found.values.data(), found.size());
-  std::sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) { return values(a) < values(b); });
-  modes.eigenvalues = values(order).array() + modes.shift;
-  modes.vectors = found.vectors(Eigen::all, order);
+  modes.eigenvalues.array() += options.shift;
   return modes;
 }
 

@@ -16,9 +16,22 @@ struct ModesOptions {
   /// rounding brings up the second vectors of pairs, which costs further runs and gains little.
   double tolerance = 1e-9;
   int vector_limit = 10;  ///< solves allowed per mode wanted (40 more are always), >= 3
-  /// >= 0. Vectors that block_modes solves for at once: about twice as fast as single ones (0), but an eigenvalue of a
-  /// multiplicity above it may be missed. From 30 000 unknowns on there are 16 at least.
+  /// >= 0. Vectors that are solved for at once: eigenvalues of a higher multiplicity may be missed. 0: see ModesParams.
   int block = 0;
+};
+
+/// Tuned on sections, sectors and beams of 1 000 to 300 000 unknowns.
+struct ModesParams {
+  /// Vectors at once: more than any multiplicity of a blade's or a sector's frequencies. From `large` unknowns on,
+  /// whose factors are read from memory for every solve, more of them cost next to nothing.
+  int block = 6, large_block = 16;
+  Eigen::Index large = 30000;
+  int vectors = 3, blocks = 5;  ///< the space holds so many vectors per mode wanted, and so many blocks besides
+  Eigen::Index always = 400;    ///< solves that are allowed always
+  /// Length, over that of the block, below which a direction of it is rounding: of a first image, of what is left of
+  /// one, and when it is made orthonormal once more, as a Gram matrix squares the condition of a block.
+  double independent = 1e-12, remainder = 1e-13, second = 1e-3;
+  double range = 1e14;  ///< between values of 1/(lambda - sigma): those beyond belong to no finite eigenvalue
 };
 
 template <class Scalar>
@@ -29,36 +42,26 @@ struct Modes {
   double shift = 0;                                               ///< sigma that was used
 };
 
-/// The seam to a linear solver: perform_op computes x = (K - sigma M)^{-1} b of contiguous vectors of `rows`
-/// scalars. K - sigma M is symmetric (Hermitian), not necessarily positive definite. It may be a generalised
-/// inverse on the M-complement of some modes: those are then not found.
+/// The seam to a linear solver: X = (K - sigma M)^{-1} B of many columns [rows, k] at once. K - sigma M is symmetric
+/// (Hermitian), not necessarily positive definite. It may be a generalised inverse on the M-complement of some modes:
+/// those are then not found.
 template <class Scalar>
 struct ShiftInverse {
-  Eigen::Index rows = 0;
-  std::function<void(const Scalar* b, Scalar* x)> perform_op;
-  /// The same of many columns [rows, k] at once, if the solver gains by it; may be left empty.
   using Columns = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
-  std::function<Columns(const Columns& b)> perform_block = {};
+  Eigen::Index rows = 0;
+  std::function<Columns(const Columns& b)> solve;
 };
 
-/// The `count` modes of K v = lambda M v nearest to sigma = `options.shift`, on either side, by Spectra's implicitly
-/// restarted Lanczos method (Spectra::SymGEigsShiftSolver; a Hermitian problem in its real form of twice the size)
-/// on (K - sigma M)^{-1} M. M is symmetric (Hermitian) positive semi-definite. Fewer modes are returned, as
-/// `converged`, only when (K - sigma M)^{-1} M has no more that are not zero.
+/// The `count` modes of K v = lambda M v nearest to sigma = `options.shift`, on either side, by a block Krylov method
+/// [Golub & Underwood 1977] on (K - sigma M)^{-1} M with the restart of Stewart's Krylov-Schur method [2001] and full
+/// M-orthogonalisation. M is symmetric (Hermitian) positive semi-definite. Eigenvalues of a multiplicity up to the size
+/// of the block come out together. A mode is taken when its residual |(K - sigma M)^{-1} M v - theta v|_M is below
+/// tolerance |theta|. Fewer modes are returned, as `converged`, only when (K - sigma M)^{-1} M has no more that are not
+/// zero.
 ///
-/// A Krylov space of one vector holds one vector of each eigenspace, so multiple eigenvalues would be missed: what
-/// was found is deflated (projected out, in the inner product of M) and Spectra is run again, until the largest
-/// 1/|lambda - sigma| left, to 2 %, is below those found. From a random start that bound fails only with the
-/// probability that the start is nearly orthogonal to a mode. In the real form of a Hermitian problem v and i v
-/// are two modes: the second is recognised and dropped, complex deflation removes both.
-///
-/// With a `block`, when the solver takes blocks, block_modes does it.
-///
-/// Start vectors are fixed: results are reproducible. Cost: some 3 to 6 solves per mode, 20 or more for the check, and
-/// about five M products per solve. Up to 200 unknowns, or when more than a third of the modes are wanted: a dense
-/// decomposition, O(n^3). All runs together apply the operator at most
-/// 3 (vector_limit count + 40) + 1440 times, several times what is usual. Statuses: `iteration_limit` (also when
-/// Spectra fails), `not_finite`.
+/// Start vectors are fixed: results are reproducible. Cost: some 3 (blocks of 4) to 7 (of 16) solves per mode, three M
+/// products per block. Memory: under 4 count + 6 block vectors. At most 3 vector_limit count + 400 solves. Statuses:
+/// `iteration_limit`, `not_finite`.
 template <class Scalar>
 [[nodiscard]] Modes<Scalar> nearest_modes(const ShiftInverse<Scalar>& inverse, const Eigen::SparseMatrix<Scalar>& mass,
                                           const ModesOptions& options);

@@ -49,8 +49,7 @@ Modes<Scalar> smallest_modes(const Eigen::SparseMatrix<Scalar>& stiffness, const
   if (status != Status::converged) return {.status = status, .eigenvalues = {}, .vectors = {}, .shift = shifted.shift};
   const ShiftInverse<Scalar> inverse{
       .rows = stiffness.rows(),
-      .perform_op = [&](const Scalar* b, Scalar* x) { cholesky.solve(b, x); },
-      .perform_block = [&](const typename ShiftInverse<Scalar>::Columns& b) { return cholesky.solve(b); }};
+      .solve = [&](const typename ShiftInverse<Scalar>::Columns& b) { return cholesky.solve(b); }};
   return nearest_modes(inverse, mass, shifted);
 }
 

@@ -16,8 +16,6 @@ namespace {
 // S carries the rounding of the elimination, some 1e-13 of its largest entry; the rigid stiffness that
 // spin softening leaves at speed is above 1e-9 of it.
 constexpr double kRigidThreshold = 1e-11;
-// Vectors at once. Rigid motions softened alike by the spin share an eigenvalue: three of them.
-constexpr int kBlock = 5;
 // The search for negative modes ends at this multiple of the modes first asked for.
 constexpr Eigen::Index kSearchRange = 4, kSearchAlways = 100;  // but not below so many modes
 }  // namespace
@@ -82,13 +80,8 @@ FreeModes free_modes(const FloatingInverse& inverse, int count, Eigen::Index lim
   const Eigen::SparseMatrix<double>& mass = inverse.mass();
   const Eigen::Index n = mass.rows();
   const Eigen::Index rigid = inverse.rigid_modes().cols();
-  const numerics::ShiftInverse<double> operation{
-      .rows = n,
-      .perform_op =
-          [&](const double* b, double* x) {
-            Eigen::Map<Eigen::VectorXd>(x, n) = inverse.apply(Eigen::Map<const Eigen::VectorXd>(b, n));
-          },
-      .perform_block = [&](const Eigen::MatrixXd& b) { return inverse.apply(b); }};
+  const numerics::ShiftInverse<double> operation{.rows = n,
+                                                 .solve = [&](const Eigen::MatrixXd& b) { return inverse.apply(b); }};
   Eigen::Index wanted = std::min(std::max<Eigen::Index>(count - rigid, inverse.negative()), limit - rigid);
   const Eigen::Index most = std::max(kSearchRange * (wanted + 1), kSearchAlways);
   FreeModes result;
@@ -96,9 +89,8 @@ FreeModes free_modes(const FloatingInverse& inverse, int count, Eigen::Index lim
   std::vector<Eigen::Index> order;
   for (Eigen::Index asked = wanted + 1;; asked *= 2) {
     asked = std::min(asked, n);
-    modes = numerics::nearest_modes(
-        operation, mass,
-        {.count = static_cast<int>(asked), .tolerance = tolerance, .vector_limit = 20, .block = kBlock});
+    modes = numerics::nearest_modes(operation, mass,
+                                    {.count = static_cast<int>(asked), .tolerance = tolerance, .vector_limit = 20});
     result.status = modes.status;
     if (modes.status != Status::converged) return result;
     order = by_distance_from_zero(modes.eigenvalues);

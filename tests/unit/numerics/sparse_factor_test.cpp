@@ -164,14 +164,14 @@ TEST(SmallestModes, SaysWhenItsVectorsDoNotSuffice) {
 
 /// Diagonal K with the given eigenvalues and M = I / 4: lambda = 4 k.
 ShiftInverse<double> diagonal_inverse(const Eigen::VectorXd& stiffness) {
-  return {.rows = stiffness.size(), .perform_op = [&stiffness](const double* b, double* x) {
-            Eigen::Map<Eigen::VectorXd>(x, stiffness.size()) =
-                Eigen::Map<const Eigen::VectorXd>(b, stiffness.size()).cwiseQuotient(stiffness);
+  return {.rows = stiffness.size(), .solve = [&stiffness](const Eigen::MatrixXd& b) {
+            return Eigen::MatrixXd(stiffness.cwiseInverse().asDiagonal() * b);
           }};
 }
 
 TEST(NearestModes, FindsEveryCopyAndBothSigns) {
-  // Fourfold -0.3 and threefold 0.5 among 500 eigenvalues from 1 on: a Krylov space of one vector holds one of each.
+  // Fourfold -0.3 and threefold 0.5 among 500 eigenvalues from 1 on: a Krylov space of one vector would hold one of
+  // each.
   Eigen::VectorXd stiffness = Eigen::VectorXd::LinSpaced(500, 1, 300);
   stiffness.segment(100, 4).setConstant(-0.3);
   stiffness.segment(300, 3).setConstant(0.5);
@@ -206,15 +206,17 @@ TEST(NearestModes, EndsWithinItsApplications) {
   // An operator that never gives the same image twice has no modes: only the bound ends the search.
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> uniform(-1, 1);
-  for (int count : {1, 30, 130}) {
+  for (int count : {1, 30}) {
     int applied = 0;
-    const ShiftInverse<double> noise{.rows = 400, .perform_op = [&](const double*, double* x) {
-                                       ++applied;
-                                       for (int k = 0; k < 400; ++k) x[k] = uniform(random);
+    const ShiftInverse<double> noise{.rows = 400, .solve = [&](const Eigen::MatrixXd& b) {
+                                       applied += static_cast<int>(b.cols());
+                                       Eigen::MatrixXd x(400, b.cols());
+                                       for (double& entry : x.reshaped()) entry = uniform(random);
+                                       return x;
                                      }};
     const Modes<double> modes = nearest_modes(noise, identity<double>(400), {.count = count, .vector_limit = 3});
     EXPECT_EQ(modes.status, Status::iteration_limit);
-    EXPECT_LE(applied, 3 * (3 * count + 40) + 1440);
+    EXPECT_LE(applied, 3 * 3 * count + 400);
   }
 }
 

@@ -1,4 +1,4 @@
-#include "numerics/block_modes.hpp"
+#include "numerics/nearest_modes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,9 +18,7 @@ using Sparse = Eigen::SparseMatrix<double>;
 
 template <class Scalar>
 ShiftInverse<Scalar> inverse_of(const Eigen::SparseMatrix<Scalar>& matrix, const LuFactors<Scalar>& lu) {
-  return {.rows = matrix.rows(), .perform_op = {}, .perform_block = [&lu](const Dense<Scalar>& b) -> Dense<Scalar> {
-            return lu.solve(b);
-          }};
+  return {.rows = matrix.rows(), .solve = [&lu](const Dense<Scalar>& b) -> Dense<Scalar> { return lu.solve(b); }};
 }
 
 /// A ring of `count` points around `phase`, spring 1: eigenvalues 2 - 2 cos((2 pi k + phase) / count).
@@ -61,10 +59,10 @@ Sparse identity(Eigen::Index size) {
   return matrix;
 }
 
-TEST(BlockModes, FindsEveryVectorOfMultipleEigenvalues) {
+TEST(NearestModes, FindsEveryVectorOfMultipleEigenvalues) {
   const Sparse mass = identity(400), stiffness = torus(20) + 0.01 * mass;
   const DenseLu lu{Eigen::MatrixXd(stiffness)};
-  const Modes<double> modes = block_modes(inverse_of<double>(stiffness, lu), mass, {.count = 29, .tolerance = 1e-10});
+  const Modes<double> modes = nearest_modes(inverse_of<double>(stiffness, lu), mass, {.count = 29, .tolerance = 1e-10});
   ASSERT_EQ(modes.status, Status::converged);
   std::vector<double> exact;
   const auto value = [](int k) { return 2 - 2 * std::cos(2 * std::numbers::pi * k / 20); };
@@ -80,7 +78,7 @@ TEST(BlockModes, FindsEveryVectorOfMultipleEigenvalues) {
   EXPECT_LT(residual.norm(), 1e-7);
 }
 
-TEST(BlockModes, FindsModesOnBothSidesOfTheShiftThroughRestarts) {
+TEST(NearestModes, FindsModesOnBothSidesOfTheShiftThroughRestarts) {
   // Singular mass: every third point has none. The count is small against what the basis may hold, the tolerance
   // small: it restarts.
   const int size = 300;
@@ -90,7 +88,7 @@ TEST(BlockModes, FindsModesOnBothSidesOfTheShiftThroughRestarts) {
   const Sparse stiffness = ring<double>(size, 0.3), shifted = stiffness - shift * mass;
   const DenseLu lu{Eigen::MatrixXd(shifted)};
   const Modes<double> modes =
-      block_modes(inverse_of<double>(shifted, lu), mass, {.count = 12, .shift = shift, .tolerance = 1e-12});
+      nearest_modes(inverse_of<double>(shifted, lu), mass, {.count = 12, .shift = shift, .tolerance = 1e-12});
   ASSERT_EQ(modes.status, Status::converged);
   // Dense: eigenvalues theta of M^(1/2) (K - sigma M)^{-1} M^(1/2).
   const Eigen::VectorXd root = Eigen::VectorXd(mass.diagonal()).cwiseSqrt();
@@ -108,14 +106,15 @@ TEST(BlockModes, FindsModesOnBothSidesOfTheShiftThroughRestarts) {
   EXPECT_GT(modes.eigenvalues[11], shift);
 }
 
-TEST(BlockModes, SolvesHermitianProblems) {
+TEST(NearestModes, SolvesHermitianProblems) {
   const int size = 256;
   const double phase = 0.7;
   const Eigen::SparseMatrix<Complex> stiffness = ring<Complex>(size, std::polar(1.0, phase));
   Eigen::SparseMatrix<Complex> mass(size, size);
   mass.setIdentity();
   const ComplexLu lu{Eigen::MatrixXcd(stiffness)};
-  const Modes<Complex> modes = block_modes(inverse_of<Complex>(stiffness, lu), mass, {.count = 10, .tolerance = 1e-10});
+  const Modes<Complex> modes =
+      nearest_modes(inverse_of<Complex>(stiffness, lu), mass, {.count = 10, .tolerance = 1e-10});
   ASSERT_EQ(modes.status, Status::converged);
   std::vector<double> exact;
   for (int k = 0; k < size; ++k) exact.push_back(2 - 2 * std::cos((2 * std::numbers::pi * k + phase) / size));
@@ -124,7 +123,7 @@ TEST(BlockModes, SolvesHermitianProblems) {
   EXPECT_LT((modes.vectors.adjoint() * modes.vectors - Eigen::MatrixXcd::Identity(10, 10)).norm(), 1e-11);
 }
 
-TEST(BlockModes, ReturnsAllThereIs) {
+TEST(NearestModes, ReturnsAllThereIs) {
   // Two points with mass among twenty: two modes, however many are asked for.
   const int size = 20;
   Sparse mass(size, size);
@@ -132,25 +131,24 @@ TEST(BlockModes, ReturnsAllThereIs) {
   mass.insert(11, 11) = 2;
   const Sparse stiffness = ring<double>(size, 0.5);
   const DenseLu lu{Eigen::MatrixXd(stiffness)};
-  const Modes<double> modes = block_modes(inverse_of<double>(stiffness, lu), mass, {.count = 5});
+  const Modes<double> modes = nearest_modes(inverse_of<double>(stiffness, lu), mass, {.count = 5});
   ASSERT_EQ(modes.status, Status::converged);
   EXPECT_EQ(modes.eigenvalues.size(), 2);
   EXPECT_LT((stiffness * modes.vectors - mass * modes.vectors * modes.eigenvalues.asDiagonal()).norm(), 1e-10);
 }
 
-TEST(BlockModes, SaysWhenItMayNotGoOnOrMeetsNoNumbers) {
+TEST(NearestModes, SaysWhenItMayNotGoOnOrMeetsNoNumbers) {
   const Sparse mass = identity(400), stiffness = torus(20) + 0.01 * mass;
-  const ShiftInverse<double> broken{.rows = 400, .perform_op = {}, .perform_block = [](const Eigen::MatrixXd& b) {
-                                      return Eigen::MatrixXd(b * std::nan(""));
-                                    }};
-  EXPECT_EQ(block_modes(broken, mass, {.count = 5}).status, Status::not_finite);
+  const ShiftInverse<double> broken{
+      .rows = 400, .solve = [](const Eigen::MatrixXd& b) { return Eigen::MatrixXd(b * std::nan("")); }};
+  EXPECT_EQ(nearest_modes(broken, mass, {.count = 5}).status, Status::not_finite);
   // An operator that is no inverse of anything symmetric: nothing converges.
   int calls = 0;
-  const ShiftInverse<double> erratic{.rows = 400, .perform_op = {}, .perform_block = [&](const Eigen::MatrixXd& b) {
+  const ShiftInverse<double> erratic{.rows = 400, .solve = [&](const Eigen::MatrixXd& b) {
                                        std::srand(static_cast<unsigned>(++calls));
                                        return Eigen::MatrixXd(Eigen::MatrixXd::Random(400, b.cols()));
                                      }};
-  EXPECT_EQ(block_modes(erratic, mass, {.count = 5, .tolerance = 1e-12}).status, Status::iteration_limit);
+  EXPECT_EQ(nearest_modes(erratic, mass, {.count = 5, .tolerance = 1e-12}).status, Status::iteration_limit);
 }
 
 }  // namespace
