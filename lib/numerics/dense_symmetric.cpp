@@ -61,6 +61,7 @@ Pairs<Scalar> all_values(Dense<Scalar> a, Dense<Scalar> b) {
 template Pairs<double> all_pairs(Eigen::MatrixXd);
 template Pairs<double> all_pairs(Eigen::MatrixXd, Eigen::MatrixXd);
 template Pairs<double> all_values(Eigen::MatrixXd);
+template Pairs<double> all_values(Eigen::MatrixXd, Eigen::MatrixXd);
 template Pairs<std::complex<double>> all_pairs(Eigen::MatrixXcd);
 template Pairs<std::complex<double>> all_values(Eigen::MatrixXcd, Eigen::MatrixXcd);
 
