@@ -56,6 +56,17 @@ TEST(DenseLu, SolvesBothWaysAndEstimatesTheCondition) {
   EXPECT_LE(lu.reciprocal_condition(), 3 * exact);
 }
 
+TEST(DenseLu, SolvesWithComplexNumbers) {
+  const Eigen::MatrixXcd a = Eigen::MatrixXcd::Random(30, 30) + 6 * Eigen::MatrixXcd::Identity(30, 30);
+  const Eigen::MatrixXcd b = Eigen::MatrixXcd::Random(30, 3);
+  const ComplexLu lu(a);
+  EXPECT_LT((a * lu.solve(b) - b).norm(), 1e-13);
+  EXPECT_LT((a.transpose() * lu.solve_transposed(b) - b).norm(), 1e-13);
+  EXPECT_GT(lu.reciprocal_condition(), 1e-3);
+  const Eigen::MatrixXcd real = (Eigen::MatrixXd(2, 2) << 0, 1, 1, 0).finished().cast<std::complex<double>>();
+  EXPECT_EQ(ComplexLu(real).determinant_sign(), -1);
+}
+
 TEST(DenseLu, SaysWhatIsWrong) {
   EXPECT_EQ(DenseLu(Eigen::MatrixXd::Zero(3, 3)).status(), Status::singular);
   Eigen::MatrixXd bad = Eigen::MatrixXd::Identity(3, 3);
