@@ -1,6 +1,7 @@
 #pragma once
 
 #include "branches/follow.hpp"
+#include "steady/state.hpp"
 
 namespace dovetail::paths {
 
@@ -99,8 +100,9 @@ struct Steps {
   double longest = 0, shortest = 0, growth = 1.3, cut = 2.5;
 };
 
-/// Fallbacks; tests/hard_cases prints what each earns.
+/// Fallbacks; tests/hard_cases prints what each earns, and what is lost without it.
 struct WayParams {
+  steady::Way left_out = steady::Way::none;  ///< not tried
   // Shares of the Jacobians that the ways before have left; the last takes the rest.
   double open = 0.024, harmonics = 0.08, growing_penalty = 0.03, frequency = 0.15, damping = 0.4, softer_damping = 1;
   double softer = 0.1;             ///< eps of softer_damping

@@ -8,7 +8,7 @@
 namespace dovetail::paths {
 
 steady::State steady_state(const steady::Joint& joint, double omega, const Eigen::MatrixXd& guess,
-                           const std::shared_ptr<const steady::Tangent>& reuse) {
+                           const std::shared_ptr<const steady::Tangent>& reuse, const WayParams& ways) {
   steady::validate(joint.options);
   if (!kPositive.contains(omega))
     throw InputError({.file = {}, .key = "omega", .value = shortest(omega), .allowed = kPositive.phrase()});
@@ -28,7 +28,7 @@ steady::State steady_state(const steady::Joint& joint, double omega, const Eigen
     without.status = system->status;
     return without;
   }
-  Found found = try_ways(joint, std::make_shared<const steady::Problem>(joint, std::move(system)), guess, reuse);
+  Found found = try_ways(joint, std::make_shared<const steady::Problem>(joint, std::move(system)), guess, reuse, ways);
   const steady::AtSolution jacobian = joint.options.linearise      ? steady::AtSolution::linearise
                                       : joint.options.show_regular ? steady::AtSolution::show_regular
                                                                    : steady::AtSolution::trust;

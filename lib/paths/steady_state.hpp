@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <memory>
 
-#include "steady/state.hpp"
+#include "paths/params.hpp"
 
 namespace dovetail::paths {
 
@@ -12,7 +12,8 @@ namespace dovetail::paths {
 /// the forces balance but the Jacobian is singular there, as for a body that nothing holds. `reuse`, the tangent of a
 /// nearby state (another frequency, wear or contact condition), may spare factorisations on the way from `guess`.
 [[nodiscard]] steady::State steady_state(const steady::Joint& joint, double omega, const Eigen::MatrixXd& guess = {},
-                                         const std::shared_ptr<const steady::Tangent>& reuse = {});
+                                         const std::shared_ptr<const steady::Tangent>& reuse = {},
+                                         const WayParams& ways = {});
 
 /// Coefficients [rows, 2H+1] cut or filled with zeros to [rows, 2 harmonics + 1].
 [[nodiscard]] Eigen::MatrixXd padded(const Eigen::MatrixXd& coefficients, int harmonics);

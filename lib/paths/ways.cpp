@@ -4,7 +4,6 @@
 
 #include "contact/params.hpp"
 #include "paths/dashpots.hpp"
-#include "paths/params.hpp"
 
 namespace dovetail::paths {
 namespace {
@@ -15,10 +14,11 @@ constexpr contact::PenaltyParams kPenalty;
 
 class Ways {
  public:
-  Ways(const steady::Joint& joint, const std::shared_ptr<const steady::Problem>& problem)
+  Ways(const steady::Joint& joint, const std::shared_ptr<const steady::Problem>& problem, const WayParams& params)
       : joint_(joint),
         options_(joint.options),
         problem_(problem),
+        params_(params),
         method_(options_.solver == "powell"      ? steady::Method::powell
                 : options_.solver == "powell_fd" ? steady::Method::powell_fd
                                                  : steady::Method::newton),
@@ -34,12 +34,13 @@ class Ways {
 
  private:
   Way way_to(const Eigen::MatrixXd& guess, const std::shared_ptr<const steady::Tangent>& reuse) {
-    if (guess.size() > 0 && plain(problem_, guess, method_, reuse)) return Way::guess;
-    if (plain(problem_, problem_->closed_start(), method_)) return Way::closed;
+    const auto allowed = [&](Way way) { return way != params_.left_out; };
+    if (guess.size() > 0 && allowed(Way::guess) && plain(problem_, guess, method_, reuse)) return Way::guess;
+    if (allowed(Way::closed) && plain(problem_, problem_->closed_start(), method_)) return Way::closed;
     if (!options_.penalty_cascade) return Way::none;
-    if (other_penalty()) return Way::other_penalty;
+    if (allowed(Way::other_penalty) && other_penalty()) return Way::other_penalty;
     if (options_.solver != "auto") return Way::none;
-    if (plain(problem_, problem_->closed_start(), steady::Method::powell)) return Way::powell;
+    if (allowed(Way::powell) && plain(problem_, problem_->closed_start(), steady::Method::powell)) return Way::powell;
     struct Rescue {
       Way way;
       bool (Ways::*take)();
@@ -52,7 +53,7 @@ class Ways {
                                            {Way::damping, &Ways::damping, params_.damping},
                                            {Way::softer_damping, &Ways::softer_damping, params_.softer_damping}}) {
       reserve_ = left_ - static_cast<int>(share * left_);
-      if (exhausted() || !(this->*take)()) continue;
+      if (!allowed(way) || exhausted() || !(this->*take)()) continue;
       best_ = std::move(last_);
       return way;
     }
@@ -208,7 +209,7 @@ class Ways {
   const steady::Joint& joint_;
   const steady::Options& options_;
   const std::shared_ptr<const steady::Problem>& problem_;
-  const WayParams params_ = {};
+  const WayParams& params_;
   steady::Method method_;
   int left_, reserve_ = 0, iterations_ = 0, evaluations_ = 0;
   steady::Attempt best_, last_;
@@ -217,8 +218,9 @@ class Ways {
 }  // namespace
 
 Found try_ways(const steady::Joint& joint, const std::shared_ptr<const steady::Problem>& problem,
-               const Eigen::MatrixXd& guess, const std::shared_ptr<const steady::Tangent>& reuse) {
-  return Ways(joint, problem).run(guess, reuse);
+               const Eigen::MatrixXd& guess, const std::shared_ptr<const steady::Tangent>& reuse,
+               const WayParams& params) {
+  return Ways(joint, problem, params).run(guess, reuse);
 }
 
 }  // namespace dovetail::paths

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <memory>
 
+#include "paths/params.hpp"
 #include "steady/solve.hpp"
 #include "steady/state.hpp"
 
@@ -17,6 +18,7 @@ struct Found {
 /// Tries the ways that the joint's options allow until one leads to a solution. `guess` and `reuse` may be empty.
 /// Neighbouring problems spend at most `max_rescue_iterations` Jacobians, more by one attempt for each way.
 [[nodiscard]] Found try_ways(const steady::Joint& joint, const std::shared_ptr<const steady::Problem>& problem,
-                             const Eigen::MatrixXd& guess, const std::shared_ptr<const steady::Tangent>& reuse);
+                             const Eigen::MatrixXd& guess, const std::shared_ptr<const steady::Tangent>& reuse,
+                             const WayParams& params);
 
 }  // namespace dovetail::paths

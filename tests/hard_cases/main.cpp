@@ -17,12 +17,13 @@ int main(int argc, char** argv) {
   std::string csv;
   std::string slip_return;
   std::uint64_t seed = seed_of_run();
-  bool quiet = false;
+  bool quiet = false, without_each = false;
   app.add_option("--only", only, "families, or single problems as FAMILY/NUMBER");
   app.add_option("--csv", csv, "file for one line per problem");
   app.add_option("--slip-return", slip_return, "first_order or second_order for all problems instead of their own");
   app.add_option("--seed", seed, "of the fresh problems; default: DOVETAIL_SEED, or another one in every run");
   app.add_flag("--quiet", quiet, "no line per problem that did not converge");
+  app.add_flag("--without-each", without_each, "also solve them without each single way to a solution");
   CLI11_PARSE(app, argc, argv);
   const auto asked = [&](const std::string& family, int index) {
     return only.empty() || std::any_of(only.begin(), only.end(), [&](const std::string& name) {
@@ -46,6 +47,7 @@ int main(int argc, char** argv) {
     }
   fmt::print("\n{}", table(outcomes));
   if (only.empty()) fmt::print("\n{}", table(scores));
+  if (without_each) fmt::print("\n{}", marginal_table(asked_of, outcomes));
   if (!csv.empty()) std::ofstream(csv) << comma_separated(outcomes);
   return std::any_of(outcomes.begin(), outcomes.end(), [](const Outcome& o) { return !o.wrong.empty(); }) ? 1 : 0;
 }

@@ -12,7 +12,7 @@
 
 namespace dovetail::hard_cases {
 
-Outcome attempt(const Family& family, int index, const Problem& problem) {
+Outcome attempt(const Family& family, int index, const Problem& problem, const paths::WayParams& ways) {
   Outcome outcome{.family = family.name,
                   .index = index,
                   .fresh = family.fresh,
@@ -23,7 +23,7 @@ Outcome attempt(const Family& family, int index, const Problem& problem) {
   steady::State state;
   try {
     const auto model = std::make_shared<const dynamics::CondensedModel>(problem.model);
-    state = paths::steady_state({model, problem.condition, problem.options}, problem.omega);
+    state = paths::steady_state({model, problem.condition, problem.options}, problem.omega, {}, {}, ways);
   } catch (const std::exception& error) {
     outcome.thrown = error.what();
     return outcome;
@@ -101,6 +101,13 @@ struct Line {
   }
 };
 
+// The kind of a problem: those whose number of solutions means something are told apart.
+std::string_view kind(const Outcome& outcome) {
+  if (!outcome.has_answer) return "no steady state exists";
+  if (outcome.contact_mass) return "mass on contact nodes";
+  return outcome.fresh ? "massless, fresh" : "massless, tuned on";
+}
+
 // States that each way led to, and what they took with all ways before it.
 std::string ways(const std::vector<Outcome>& outcomes) {
   std::map<steady::Way, std::vector<double>> iterations;
@@ -117,11 +124,12 @@ std::string ways(const std::vector<Outcome>& outcomes) {
 std::string table(const std::vector<Outcome>& outcomes) {
   std::vector<std::string> order;
   std::map<std::string, Line> lines;
-  Line tuned, fresh, massive, none, all;
+  std::map<std::string_view, Line> kinds;
+  Line all;
   for (const Outcome& outcome : outcomes) {
     if (!lines.contains(outcome.family)) order.push_back(outcome.family);
     lines[outcome.family].add(outcome);
-    (!outcome.has_answer ? none : outcome.contact_mass ? massive : outcome.fresh ? fresh : tuned).add(outcome);
+    kinds[kind(outcome)].add(outcome);
     all.add(outcome);
   }
   std::string text = fmt::format("{:<24}{:>9}{:>11}{:>7}{:>8}{:>6}{:>9}  {}\n", "family", "problems", "converged",
@@ -129,11 +137,39 @@ std::string table(const std::vector<Outcome>& outcomes) {
   text += fmt::format("{:<24}{:>9}{:>11}{:>7}{:>14}{:>9}\n", "", "", "", "", "iterations", "ms");
   for (const std::string& name : order) text += lines.at(name).print(name);
   text += "\n";
-  if (tuned.problems > 0) text += tuned.print("massless, tuned on");
-  if (fresh.problems > 0) text += fresh.print("massless, fresh");
-  if (massive.problems > 0) text += massive.print("mass on contact nodes");
-  if (none.problems > 0) text += none.print("no steady state exists");
+  for (const auto& [name, line] : kinds) text += line.print(std::string(name));
   return text + all.print("all") + ways(outcomes);
+}
+
+std::string marginal_table(const std::vector<Family>& families, const std::vector<Outcome>& outcomes) {
+  struct Yield {
+    int earned = 0, lost = 0, gained = 0;
+    double with = 0, without = 0;
+  };
+  std::map<std::pair<steady::Way, std::string_view>, Yield> yields;
+  for (const Outcome& outcome : outcomes) {
+    const auto family =
+        std::find_if(families.begin(), families.end(), [&](const Family& f) { return f.name == outcome.family; });
+    const Problem problem = family->make(outcome.index);
+    for (int i = static_cast<int>(steady::Way::closed); i < static_cast<int>(steady::Way::none); ++i) {
+      const auto way = static_cast<steady::Way>(i);
+      const bool same = outcome.way < way;
+      const Outcome other = same ? outcome : attempt(*family, outcome.index, problem, {.left_out = way});
+      const auto right = [](const Outcome& o) { return o.converged() && o.wrong.empty(); };
+      Yield& yield = yields[{way, kind(outcome)}];
+      yield.earned += outcome.way == way ? 1 : 0;
+      yield.lost += right(outcome) && !right(other) ? 1 : 0;
+      yield.gained += right(other) && !right(outcome) ? 1 : 0;
+      yield.with += outcome.iterations;
+      yield.without += other.iterations;
+    }
+  }
+  std::string text =
+      fmt::format("{:<18}{:<24}{:>8}{:>8}{:>8}{:>18}\n", "way left out", "", "earned", "lost", "gained", "Jacobians");
+  for (const auto& [where, yield] : yields)
+    text += fmt::format("{:<18}{:<24}{:>8}{:>8}{:>8}{:>8.0f} ->{:>7.0f}\n", steady::to_string(where.first),
+                        where.second, yield.earned, yield.lost, yield.gained, yield.with, yield.without);
+  return text;
 }
 
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/status.hpp"
-#include "steady/state.hpp"
+#include "paths/params.hpp"
 #include "tests/hard_cases/mutations.hpp"
 #include "tests/hard_cases/oracle.hpp"
 
@@ -31,7 +31,8 @@ struct Outcome {
 };
 
 /// Solves and examines one problem.
-[[nodiscard]] Outcome attempt(const Family& family, int index, const Problem& problem);
+[[nodiscard]] Outcome attempt(const Family& family, int index, const Problem& problem,
+                              const paths::WayParams& ways = {});
 
 /// One problem in a dozen of each family, by turns of either rule for slip.
 [[nodiscard]] bool chosen_for_spoiling(int index);
@@ -41,6 +42,9 @@ void spoil(const Problem& problem, const Outcome& outcome, std::vector<Score>& s
 
 /// One line per family and their sums, and one per way to a solution: what it earned.
 [[nodiscard]] std::string table(const std::vector<Outcome>& outcomes);
+/// One line per way and kind of problems: what it earned, and what is lost, gained and paid when it alone is left out.
+/// `outcomes` are those of all ways; those that earlier ways led to are the same without it and not solved again.
+[[nodiscard]] std::string marginal_table(const std::vector<Family>& families, const std::vector<Outcome>& outcomes);
 /// One line per problem that did not converge or is wrong.
 [[nodiscard]] std::string failures(const std::vector<Outcome>& outcomes);
 /// One line of a comma-separated table per problem, with a header.
