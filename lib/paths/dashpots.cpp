@@ -3,6 +3,7 @@
 #include "dynamics/real_block.hpp"
 
 namespace dovetail::paths {
+
 std::shared_ptr<const dynamics::HarmonicSystem> Dashpots::system(double alpha) const {
   if (alpha == 0) return problem_.shared_system();
   auto damped = std::make_shared<dynamics::HarmonicSystem>(problem_.system());
@@ -21,8 +22,8 @@ Eigen::MatrixXd Dashpots::slope(const steady::Point& point) const {
   return forces - steady::apply_force_derivative(point, forces);
 }
 
-Dashpots::Followed Dashpots::follow(double alpha, const Eigen::MatrixXd& displacement,
-                                    const branches::FollowOptions& steps) const {
+branches::Branch Dashpots::follow(double alpha, const Eigen::MatrixXd& displacement,
+                                  const branches::FollowOptions& steps) const {
   // The states on the way are forgotten: none keeps its factors.
   steady::Options options = problem_.options();
   options.linearise = false;
@@ -33,11 +34,7 @@ Dashpots::Followed Dashpots::follow(double alpha, const Eigen::MatrixXd& displac
   steady::evaluate(equations.at(alpha), displacement, point);
   steady::State start = steady::described(std::move(point), Status::converged, steady::AtSolution::linearise);
   start.iterations = start.evaluations = 1;
-  const branches::Branch branch =
-      branches::follow(equations, std::move(start), {.from = alpha, .to = 0, .back = kInfinity}, steps);
-  Followed followed{.displacement = {}, .jacobians = branch.jacobians, .evaluations = branch.evaluations};
-  if (branch.status == Status::converged) followed.displacement = branch.points.back().state.displacement;
-  return followed;
+  return branches::follow(equations, std::move(start), {.from = alpha, .to = 0, .back = kInfinity}, steps);
 }
 
 }  // namespace dovetail::paths

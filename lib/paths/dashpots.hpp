@@ -19,14 +19,10 @@ class Dashpots {
 
   [[nodiscard]] std::shared_ptr<const dynamics::HarmonicSystem> system(double alpha) const;
 
-  struct Followed {
-    Eigen::MatrixXd displacement;  ///< U [nc, 2H+1] where alpha vanished; empty when the branch was lost
-    int jacobians = 0, evaluations = 0;
-  };
   /// Follows the branch f(U; alpha) = 0 from its point (`displacement`, alpha > 0) through its turns until alpha
-  /// vanishes, in steps as `steps` says.
-  [[nodiscard]] Followed follow(double alpha, const Eigen::MatrixXd& displacement,
-                                const branches::FollowOptions& steps) const;
+  /// vanishes, in steps as `steps` says. The states on the way keep no tangents.
+  [[nodiscard]] branches::Branch follow(double alpha, const Eigen::MatrixXd& displacement,
+                                        const branches::FollowOptions& steps) const;
 
  private:
   [[nodiscard]] Eigen::MatrixXd slope(const steady::Point& point) const;

@@ -25,7 +25,7 @@ class Sweep {
       for (const double further : kParams.further) {
         if (state.status == Status::converged) break;
         const double beyond = omega * (1 + std::copysign(further, omega - before.omega));
-        const steady::State other = steady_state(plain(), beyond);
+        const steady::State other = steady_state(joint_.with(joint_.options.plain()), beyond);
         steady::State back;
         if (other.status == Status::converged) {
           last_ = other;
@@ -52,14 +52,6 @@ class Sweep {
     return state;
   }
 
-  // One method and one eps: failing is cheap and says where the branch ends.
-  [[nodiscard]] steady::Joint plain() const {
-    steady::Joint plain = joint_;
-    plain.options.penalty_cascade = false;
-    if (plain.options.solver == "auto") plain.options.solver = "newton";
-    return plain;
-  }
-
   [[nodiscard]] steady::State from_last(double omega, const steady::Joint& joint) const {
     if (!last_.tangent) return steady_state(joint, omega);
     const Eigen::MatrixXd guess = last_.displacement + (omega - last_.omega) * last_.tangent->response_to_frequency();
@@ -69,8 +61,9 @@ class Sweep {
   // Halves the way to omega while that fails, and carries on from where it got.
   steady::State approached(double omega) {
     steady::State state;
+    const steady::Joint plain = joint_.with(joint_.options.plain());
     const Reach reached = reach(last_.omega, omega, kParams.halvings, [&](double target) {
-      state = added(from_last(target, plain()), state);
+      state = added(from_last(target, plain), state);
       if (state.status == Status::converged) last_ = state;
       return state.status == Status::converged;
     });

@@ -94,25 +94,17 @@ struct SweepParams {
   double further[3] = {0.01, 0.03, 0.1};
 };
 
-/// How far neighbouring problems are from each other. A step is relative to what changes; one that fails is cut, one
-/// that succeeds lets the next grow, and when it has become too short the way is given up.
-struct Steps {
-  double longest = 0, shortest = 0, growth = 1.3, cut = 2.5;
-};
-
 /// Fallbacks; tests/hard_cases prints what each earns, and what is lost without it.
 struct WayParams {
   steady::Way left_out = steady::Way::none;  ///< not tried
   // Shares of the Jacobians that the ways before have left; the last takes the rest.
-  double open = 0.024, harmonics = 0.08, growing_penalty = 0.03, frequency = 0.15, damping = 0.4, softer_damping = 1;
-  double softer = 0.1;             ///< eps of softer_damping
-  double smallest_penalty = 1e-3;  ///< where eps starts to grow, by factors of two
-  double highest_frequency = 3;    ///< times the one asked for
-  int higher = 3;                  ///< tries above that
-  Steps down{.longest = 0.15, .shortest = 3e-4};
+  double harmonics = 0.08, damping = 0.4, softer_damping = 1;
+  double softer = 0.1;                    ///< eps of softer_damping
   double strongest = 10, weakest = 1e-5;  ///< dashpots, in units of eps: below the weakest there are none
   int weaker = 2;                         ///< tries below the strongest, each a tenth
-  Steps fade{.longest = 0.6, .shortest = 1e-2};
+  /// Steps in which they fade, relative: one that fails is cut, one that succeeds lets the next grow, and when it has
+  /// become too short the curve is followed.
+  double longest = 0.6, shortest = 1e-2, growth = 1.3, cut = 2.5;
   /// Along the curve of fading dashpots only the end counts. With shorter steps the many kinks of hard cases cost more
   /// Jacobians than there are, with longer ones they are lost.
   branches::FollowOptions curve{
@@ -130,9 +122,7 @@ static_assert(ClosingInParams{}.cautious < ClosingInParams{}.tries, "more tries 
 static_assert(PeakSweepParams{}.hopeless < PeakSweepParams{}.height, "what is climbed may be lower than its summit");
 static_assert(BackboneParams{}.moved < BackboneParams{}.elsewhere, "moved before it is another peak");
 static_assert(WidthParams{}.sharpest < ClosingInParams{}.beside, "beside a peak is outside the sharpest");
-static_assert(WayParams{}.down.shortest < WayParams{}.down.longest &&
-                  WayParams{}.fade.shortest < WayParams{}.fade.longest,
-              "steps may be cut");
+static_assert(WayParams{}.shortest < WayParams{}.longest, "steps may be cut");
 static_assert(WayParams{}.weakest < WayParams{}.strongest, "dashpots fade");
 
 }  // namespace dovetail::paths

@@ -91,11 +91,8 @@ class PeakSearch {
   // The response at omega, continued from the last point, or part of the way there. Where Newton's method alone does
   // not get there soon, half the way costs less than its rescues, and they may end on another branch: these come last.
   bool go(double omega) {
-    steady::Joint cautious = joint_;
-    cautious.options.solver = "newton";
+    steady::Joint cautious = joint_.with(joint_.options.plain());
     cautious.options.max_iterations = std::min(kParams.hard, joint_.options.max_iterations);
-    cautious.options.penalty_cascade = false;
-    cautious.options.max_rescue_iterations = 0;
     const auto tried = [&](const steady::Joint& joint, int tries) {
       double target = omega;
       for (int i = 0; i < tries && !cut_short(last_status_); ++i, target = (target + now_.omega) / 2)

@@ -28,16 +28,14 @@ steady::State steady_state(const steady::Joint& joint, double omega, const Eigen
     without.status = system->status;
     return without;
   }
-  Found found = try_ways(joint, std::make_shared<const steady::Problem>(joint, std::move(system)), guess, reuse, ways);
+  steady::Attempt found =
+      try_ways(joint, std::make_shared<const steady::Problem>(joint, std::move(system)), guess, reuse, ways);
   const steady::AtSolution jacobian = joint.options.linearise      ? steady::AtSolution::linearise
                                       : joint.options.show_regular ? steady::AtSolution::show_regular
                                                                    : steady::AtSolution::trust;
-  steady::State state =
-      steady::described(std::move(found.attempt.point), found.attempt.status, jacobian, found.attempt.tangent.get());
+  steady::State state = steady::described(std::move(found.point), found.status, jacobian, found.tangent.get());
   state.status = within(joint.options.budget, state.status);
-  state.way = found.way;
-  state.iterations = found.attempt.iterations;
-  state.evaluations = found.attempt.evaluations;
+  static_cast<steady::Work&>(state) = found;
   return state;
 }
 
@@ -51,8 +49,7 @@ Eigen::MatrixXd padded(const Eigen::MatrixXd& coefficients, int harmonics) {
 steady::State refined_state(steady::Joint finer, const steady::State& state,
                             const std::shared_ptr<const steady::Tangent>& reuse) {
   finer.options.penalty_scale *= state.penalty_ratio;
-  finer.options.penalty_cascade = false;
-  finer.options.max_rescue_iterations = 0;
+  finer.options = finer.options.plain();
   finer.options.show_regular = false;
   steady::State refined = steady_state(finer, state.omega, padded(state.displacement, finer.options.harmonics), reuse);
   refined.penalty_ratio *= state.penalty_ratio;

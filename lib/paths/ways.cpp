@@ -4,6 +4,7 @@
 
 #include "contact/params.hpp"
 #include "paths/dashpots.hpp"
+#include "paths/steady_state.hpp"
 
 namespace dovetail::paths {
 namespace {
@@ -24,12 +25,10 @@ class Ways {
                                                  : steady::Method::newton),
         left_(options_.max_rescue_iterations) {}
 
-  Found run(const Eigen::MatrixXd& guess, const std::shared_ptr<const steady::Tangent>& reuse) {
-    Found found{.attempt = {}, .way = way_to(guess, reuse)};
-    found.attempt = std::move(best_);
-    found.attempt.iterations = iterations_;
-    found.attempt.evaluations = evaluations_;
-    return found;
+  steady::Attempt run(const Eigen::MatrixXd& guess, const std::shared_ptr<const steady::Tangent>& reuse) {
+    const Way way = way_to(guess, reuse);
+    static_cast<steady::Work&>(best_) = {.iterations = iterations_, .evaluations = evaluations_, .way = way};
+    return std::move(best_);
   }
 
  private:
@@ -40,16 +39,12 @@ class Ways {
     if (!options_.penalty_cascade) return Way::none;
     if (allowed(Way::other_penalty) && other_penalty()) return Way::other_penalty;
     if (options_.solver != "auto") return Way::none;
-    if (allowed(Way::powell) && plain(problem_, problem_->closed_start(), steady::Method::powell)) return Way::powell;
     struct Rescue {
       Way way;
       bool (Ways::*take)();
       double share;
     };
-    for (const auto& [way, take, share] : {Rescue{Way::open, &Ways::open, params_.open},
-                                           {Way::harmonics, &Ways::harmonics, params_.harmonics},
-                                           {Way::growing_penalty, &Ways::growing_penalty, params_.growing_penalty},
-                                           {Way::frequency, &Ways::frequency, params_.frequency},
+    for (const auto& [way, take, share] : {Rescue{Way::harmonics, &Ways::harmonics, params_.harmonics},
                                            {Way::damping, &Ways::damping, params_.damping},
                                            {Way::softer_damping, &Ways::softer_damping, params_.softer_damping}}) {
       reserve_ = left_ - static_cast<int>(share * left_);
@@ -101,75 +96,20 @@ class Ways {
     return last_.status == Status::converged;
   }
 
-  [[nodiscard]] std::shared_ptr<const dynamics::HarmonicSystem> system(int harmonics, double omega) const {
-    if (harmonics == options_.harmonics && omega == problem_->system().omega) return problem_->shared_system();
-    return std::make_shared<const dynamics::HarmonicSystem>(dynamics::harmonic_system(*joint_.model, harmonics, omega));
-  }
-
-  bool open() {
-    steady::Joint joint = joint_;
-    joint.condition.released.assign(static_cast<std::size_t>(joint.model->nodes()), 1);
-    return neighbour(*problem_, steady::Problem(joint, problem_->shared_system()).closed_start());
-  }
-
   bool harmonics() {
     Eigen::MatrixXd start;
     for (int h = 1; !exhausted(); h = std::min(options_.harmonics, h + 1 + h / 4)) {
-      Eigen::MatrixXd padded = Eigen::MatrixXd::Zero(start.rows(), start.size() > 0 ? 2 * h + 1 : 0);
-      if (start.size() > 0) padded.leftCols(std::min(start.cols(), padded.cols())) = start;
       steady::Joint joint = joint_;
       joint.options.harmonics = h;
-      const bool found = neighbour(steady::Problem(joint, system(h, problem_->system().omega)), padded);
+      const auto system = h == options_.harmonics
+                              ? problem_->shared_system()
+                              : std::make_shared<const dynamics::HarmonicSystem>(
+                                    dynamics::harmonic_system(*joint.model, h, problem_->system().omega));
+      const bool found = neighbour(steady::Problem(joint, system), start.size() > 0 ? padded(start, h) : start);
       if (h == options_.harmonics) return found;
       if (found) start = last_.point.displacement;
     }
     return false;
-  }
-
-  bool growing_penalty() {
-    Eigen::MatrixXd start;
-    for (double ratio = params_.smallest_penalty; !exhausted(); ratio = std::min(1.0, 2 * ratio)) {
-      if (!neighbour(problem_->with_penalty(ratio), start)) return false;
-      if (ratio == 1) return true;
-      start = last_.point.displacement;
-    }
-    return false;
-  }
-
-  // From the last solution through the neighbours at `next(step)` to the one at its end; false when steps become too
-  // short. `go(target)` tries a neighbour, `here` is where the last solution stands.
-  template <class Next, class Go>
-  bool step_towards(double end, double& here, const Steps& steps, const Next& next, const Go& go) {
-    Eigen::MatrixXd start = last_.point.displacement;
-    // Each from the one before as it is: a predictor across the kinks of a contact state misleads more than it helps.
-    for (double step = steps.longest; !exhausted() && step > steps.shortest;) {
-      const double target = next(step);
-      if (!go(target, start)) {
-        step /= steps.cut;
-        continue;
-      }
-      if (target == end) return true;
-      start = last_.point.displacement;
-      here = target;
-      step = std::min(steps.longest, step * steps.growth);
-    }
-    // What the last success left is where another way may go on.
-    last_.point.displacement = start;
-    return false;
-  }
-
-  bool frequency() {
-    const double end = problem_->system().omega;
-    double omega = params_.highest_frequency * end;
-    const auto go = [&](double target, const Eigen::MatrixXd& start) {
-      return neighbour(problem_->at(system(options_.harmonics, target)), start);
-    };
-    for (int tries = 0; !go(omega, {}); ++tries) {
-      if (tries == params_.higher || exhausted()) return false;
-      omega *= params_.down.growth;
-    }
-    return step_towards(
-        end, omega, params_.down, [&](double step) { return std::max(end, omega * (1 - step)); }, go);
   }
 
   bool damping() { return fade(*problem_); }
@@ -194,16 +134,27 @@ class Ways {
       if (tries == params_.weaker || exhausted()) return false;
       alpha /= 10;
     }
-    const auto next = [&](double step) { return alpha * (1 - step) < params_.weakest ? 0 : alpha * (1 - step); };
-    if (step_towards(0, alpha, params_.fade, next, go)) return true;
+    Eigen::MatrixXd start = last_.point.displacement;
+    // Each from the one before as it is: a predictor across the kinks of a contact state misleads more than it helps.
+    for (double step = params_.longest; !exhausted() && step > params_.shortest;) {
+      const double target = alpha * (1 - step) < params_.weakest ? 0 : alpha * (1 - step);
+      if (!go(target, start)) {
+        step /= params_.cut;
+        continue;
+      }
+      if (target == 0) return true;
+      start = last_.point.displacement;
+      alpha = target;
+      step = std::min(params_.longest, step * params_.growth);
+    }
     if (exhausted()) return false;
     branches::FollowOptions curve = params_.curve;
     curve.max_jacobians = left_ - reserve_;
-    const Dashpots::Followed followed = dashpots.follow(alpha, last_.point.displacement, curve);
+    const branches::Branch followed = dashpots.follow(alpha, start, curve);
     iterations_ += followed.jacobians;
     evaluations_ += followed.evaluations;
     left_ -= followed.jacobians;
-    return followed.displacement.size() > 0 && neighbour(problem, followed.displacement);
+    return followed.status == Status::converged && neighbour(problem, followed.points.back().state.displacement);
   }
 
   const steady::Joint& joint_;
@@ -217,9 +168,9 @@ class Ways {
 
 }  // namespace
 
-Found try_ways(const steady::Joint& joint, const std::shared_ptr<const steady::Problem>& problem,
-               const Eigen::MatrixXd& guess, const std::shared_ptr<const steady::Tangent>& reuse,
-               const WayParams& params) {
+steady::Attempt try_ways(const steady::Joint& joint, const std::shared_ptr<const steady::Problem>& problem,
+                         const Eigen::MatrixXd& guess, const std::shared_ptr<const steady::Tangent>& reuse,
+                         const WayParams& params) {
   return Ways(joint, problem, params).run(guess, reuse);
 }
 

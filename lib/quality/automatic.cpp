@@ -94,7 +94,7 @@ AutomaticState chosen_from(const steady::Joint& joint, double omega, const Autom
     Refinements refined = refine(at, result.state);
     result.solves += 4;
     result.jacobians += refined.jacobians;
-    result.bars = bars_from(at, result.state, refined, {});
+    result.bars = bars_from(at, result.state, refined);
     const double input = result.state.input_energy;
     const Quantities& value = result.bars.value;
     if (excess(result.bars.total, value, input, automatic) <= 1) break;

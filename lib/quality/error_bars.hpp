@@ -7,10 +7,6 @@
 
 namespace dovetail::quality {
 
-struct ErrorBarOptions {
-  double safety = 1;  ///< multiplies all bars, > 0
-};
-
 /// How far the results of a steady state may be from those of infinitely many harmonics and samples. Absolute, in the
 /// unit of the value; infinite where a refined state did not converge: unknown, never zero.
 struct ErrorBars {
@@ -39,12 +35,6 @@ struct ErrorBars {
 /// which has no limit.
 ///
 /// Cost: about one state of 2H+1 harmonics and three of H, each started close.
-[[nodiscard]] ErrorBars error_bars(const steady::Joint& joint, const steady::State& state,
-                                   const ErrorBarOptions& bar_options = {});
+[[nodiscard]] ErrorBars error_bars(const steady::Joint& joint, const steady::State& state);
 
 }  // namespace dovetail::quality
-
-namespace dovetail {
-template <>
-std::span<const Field<quality::ErrorBarOptions>> option_table<quality::ErrorBarOptions>();
-}

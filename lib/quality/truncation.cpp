@@ -62,10 +62,9 @@ double bar_from(const ScalarChanges& changes, bool massless) {
          factors.penalty * std::max(changes.softer, changes.stiffer);
 }
 
-ErrorBars bars_from(const Quantities& value, const TruncationChanges& changes, double tolerance, double safety,
-                    bool massless) {
+ErrorBars bars_from(const Quantities& value, const TruncationChanges& changes, double tolerance, bool massless) {
   const TruncationFactors factors = truncation_factors(massless);
-  const auto times = [safety](double factor) { return [factor, safety](double x) { return safety * factor * x; }; };
+  const auto times = [](double factor) { return [factor](double x) { return factor * x; }; };
   const auto larger = [](double a, double b) { return std::max(a, b); };
   const auto sum = [](double a, double b) { return a + b; };
   ErrorBars bars{.status = Status::converged,
@@ -73,13 +72,12 @@ ErrorBars bars_from(const Quantities& value, const TruncationChanges& changes, d
                  .harmonics = transform(changes.harmonics, times(factors.harmonics)),
                  .samples = transform(changes.samples, times(factors.samples)),
                  .penalty = transform(combine(changes.softer, changes.stiffer, larger), times(factors.penalty))};
-  const Quantities rest = transform(value, [=](double x) { return safety * tolerance * std::abs(x); });
+  const Quantities rest = transform(value, [=](double x) { return tolerance * std::abs(x); });
   bars.total = combine(combine(combine(bars.harmonics, bars.samples, sum), bars.penalty, sum), rest, sum);
   return bars;
 }
 
-ErrorBars bars_from(const steady::Joint& joint, const steady::State& state, const Refinements& refinements,
-                    const ErrorBarOptions& bar_options) {
+ErrorBars bars_from(const steady::Joint& joint, const steady::State& state, const Refinements& refinements) {
   const dynamics::CondensedModel& model = *joint.model;
   const Quantities value = quantities(model, state);
   const std::array<const steady::State*, 4> states{&refinements.harmonics, &refinements.samples, &refinements.softer,
@@ -98,7 +96,7 @@ ErrorBars bars_from(const steady::Joint& joint, const steady::State& state, cons
   for (const std::size_t i : {2u, 3u}) changes[i] = transform(changes[i], [=](double x) { return weight * x; });
   ErrorBars bars =
       bars_from(value, {.harmonics = changes[0], .samples = changes[1], .softer = changes[2], .stiffer = changes[3]},
-                joint.options.tolerance, bar_options.safety, model.massless_contact());
+                joint.options.tolerance, model.massless_contact());
   bars.status = status;
   bars.jacobians = refinements.jacobians;
   return bars;

@@ -34,11 +34,11 @@ struct TruncationChanges {
   Quantities harmonics, samples, softer, stiffer;
 };
 [[nodiscard]] ErrorBars bars_from(const Quantities& value, const TruncationChanges& changes, double tolerance,
-                                  double safety, bool massless);
+                                  bool massless);
 
 /// The same from the refined states.
 [[nodiscard]] ErrorBars bars_from(const steady::Joint& joint, const steady::State& state,
-                                  const Refinements& refinements, const ErrorBarOptions& bar_options);
+                                  const Refinements& refinements);
 
 /// What of a change counts, see error_bars.
 struct TruncationFactors {

@@ -12,8 +12,6 @@
 namespace dovetail::stability {
 namespace {
 
-using contact::SampleState;
-
 constexpr double kPeriod = 2 * std::numbers::pi;
 
 // A zero of f between a and b; b when f does not change its sign.
@@ -47,7 +45,7 @@ ContactTimeline::ContactTimeline(Eigen::MatrixXd prediction, const contact::Node
   const double largest_limit = law.limit(march_.force.col(0).maxCoeff()).force;
   if (march_.always_closed && law.rubs() &&
       march_.slip_distance * law.tangential_penalty <= StabilityParams{}.settled * largest_limit) {
-    start_ = ContactMode::stuck;
+    start_ = SampleState::stuck;
     return;
   }
   // Begin where nothing happens, so that no event is moved across the ends of the walk.
@@ -61,11 +59,11 @@ ContactTimeline::ContactTimeline(Eigen::MatrixXd prediction, const contact::Node
   start_ = events_.empty() ? mode_at(0) : events_.back().mode;
   start_sign_ = 1;
   for (const ContactEvent& event : events_)
-    if (event.mode == ContactMode::slipping) start_sign_ = event.sign;
-  if (events_.empty() && start_ == ContactMode::slipping) start_sign_ = direction_at(0)(0);
+    if (event.mode == SampleState::slipping) start_sign_ = event.sign;
+  if (events_.empty() && start_ == SampleState::slipping) start_sign_ = direction_at(0)(0);
 }
 
-bool ContactTimeline::ever(ContactMode mode) const {
+bool ContactTimeline::ever(SampleState mode) const {
   return start_ == mode ||
          std::any_of(events_.begin(), events_.end(), [&](const ContactEvent& event) { return event.mode == mode; });
 }
@@ -91,16 +89,8 @@ double ContactTimeline::instant(int sample) const {
   return kPeriod * sample / basis_.samples();
 }
 
-ContactMode ContactTimeline::mode_at(int sample) const {
-  switch (march_.state[static_cast<std::size_t>(wrapped(sample))]) {
-    case SampleState::separated:
-      return ContactMode::open;
-    case SampleState::stuck:
-      return ContactMode::stuck;
-    case SampleState::slipping:
-      break;
-  }
-  return ContactMode::slipping;
+SampleState ContactTimeline::mode_at(int sample) const {
+  return march_.state[static_cast<std::size_t>(wrapped(sample))];
 }
 
 Eigen::Vector2d ContactTimeline::direction_at(int sample) const {
@@ -132,7 +122,7 @@ Eigen::Vector2d ContactTimeline::turned_from(int sample, double tau) const {
 
 SlipFrame ContactTimeline::frame(double tau) const {
   const int n = static_cast<int>(std::floor(tau / kPeriod * basis_.samples()));
-  const bool before = mode_at(n) == ContactMode::slipping, after = mode_at(n + 1) == ContactMode::slipping;
+  const bool before = mode_at(n) == SampleState::slipping, after = mode_at(n + 1) == SampleState::slipping;
   const double weight = (tau - instant(n)) / (instant(n + 1) - instant(n));
   Eigen::Vector2d along = slope(tau).tail<2>().normalized();
   if (before && after && direction_at(n).dot(direction_at(n + 1)) > 0) {
@@ -156,12 +146,12 @@ void ContactTimeline::locate_touches() {
   const int samples = basis_.samples();
   const Eigen::Index d = prediction_.rows();
   int first = 0;
-  while (mode_at(first) != ContactMode::open) ++first;
+  while (mode_at(first) != SampleState::separated) ++first;
   const Eigen::MatrixXd table = prediction_ * basis_.synthesis_table().transpose();
   contact::Memory memory;
   for (int k = 0; k < samples; ++k) {
     const int n = wrapped(first + k);
-    if (k > 0 && mode_at(n - 1) == ContactMode::open && table(0, n) > 0) {
+    if (k > 0 && mode_at(n - 1) == SampleState::separated && table(0, n) > 0) {
       const Eigen::Vector3d at = value(touch(first + k - 1));
       for (Eigen::Index r = 0; r + 1 < d; ++r) memory.slip_force[r] = at(1 + r);
       memory.separated = false;
@@ -206,30 +196,30 @@ void ContactTimeline::add(ContactEvent event) {
 
 // What changes between one sample and the next.
 void ContactTimeline::walk(int sample) {
-  const ContactMode from = mode_at(sample), to = mode_at(sample + 1);
+  const SampleState from = mode_at(sample), to = mode_at(sample + 1);
   const double a = instant(sample), b = instant(sample + 1);
-  const double sign = to == ContactMode::slipping ? direction_at(sample + 1)(0) : 1;
+  const double sign = to == SampleState::slipping ? direction_at(sample + 1)(0) : 1;
   if (from == to) {
     // Slip that reverses within one sample rests at an instant.
-    if (from != ContactMode::slipping || direction_at(sample).dot(direction_at(sample + 1)) > 0) return;
+    if (from != SampleState::slipping || direction_at(sample).dot(direction_at(sample + 1)) > 0) return;
     if (!law_.rubs()) return;
     const double end = slip_end(sample);
-    add({.tau = end, .mode = ContactMode::stuck});
+    add({.tau = end, .mode = SampleState::stuck});
     const Eigen::Vector3d at = value(end);
     add({.tau = slip_start(end, b, at.tail<2>() - law_.limit(at(0)).force * turned_from(sample, end)),
-         .mode = ContactMode::slipping,
+         .mode = SampleState::slipping,
          .sign = sign});
-  } else if (to == ContactMode::open) {
+  } else if (to == SampleState::separated) {
     add({.tau = touch(sample), .mode = to});
-  } else if (from == ContactMode::open) {
+  } else if (from == SampleState::separated) {
     ContactEvent event{.tau = touch(sample), .mode = to, .closing = true, .sign = sign};
     const Eigen::Vector3d rate = slope(event.tau);
     event.ratio = rate.tail<2>() / std::max(rate(0), 1e-300);
     const double length = event.ratio.norm();
     const double steepest = law_.limit(0).by_normal;
-    if (to == ContactMode::slipping || length > steepest) event.ratio *= steepest / std::max(length, 1e-300);
+    if (to == SampleState::slipping || length > steepest) event.ratio *= steepest / std::max(length, 1e-300);
     add(event);
-  } else if (to == ContactMode::slipping) {
+  } else if (to == SampleState::slipping) {
     Eigen::Vector2d slip_force(0, 0);
     slip_force.head(prediction_.rows() - 1) =
         march_.slip_force.row(wrapped(sample)).tail(prediction_.rows() - 1).transpose();

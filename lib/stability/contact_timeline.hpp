@@ -9,15 +9,15 @@
 
 namespace dovetail::stability {
 
-enum class ContactMode : unsigned char { open, stuck, slipping };
+using contact::SampleState;
 
 /// A change of contact state of one node at tau in [0, 2 pi).
 struct ContactEvent {
   double tau = 0;
-  ContactMode mode = ContactMode::open;  ///< afterwards
-  bool closing = false;                  ///< it was open before
-  Eigen::Vector2d ratio = {0, 0};        ///< lambda_T' / lambda_N' just after closing, no longer than mu
-  double sign = 1;                       ///< of lambda_T while it slips next, with one tangential direction
+  SampleState mode = SampleState::separated;  ///< afterwards
+  bool closing = false;                       ///< it was open before
+  Eigen::Vector2d ratio = {0, 0};             ///< lambda_T' / lambda_N' just after closing, no longer than mu
+  double sign = 1;                            ///< of lambda_T while it slips next, with one tangential direction
 };
 
 /// What the slip of one node is like at an instant. Rates are per tau.
@@ -42,10 +42,10 @@ class ContactTimeline {
   [[nodiscard]] bool rubs() const { return law_.rubs(); }
   [[nodiscard]] contact::FrictionLimit limit_at(double tau) const { return law_.limit(value(tau)(0)); }
   [[nodiscard]] const std::vector<ContactEvent>& events() const { return events_; }  ///< ascending in tau
-  [[nodiscard]] ContactMode start_mode() const { return start_; }                    ///< at tau = 0
+  [[nodiscard]] SampleState start_mode() const { return start_; }                    ///< at tau = 0
   [[nodiscard]] double start_sign() const { return start_sign_; }                    ///< of slip at tau = 0
-  [[nodiscard]] bool always(ContactMode mode) const { return events_.empty() && start_ == mode; }
-  [[nodiscard]] bool ever(ContactMode mode) const;
+  [[nodiscard]] bool always(SampleState mode) const { return events_.empty() && start_ == mode; }
+  [[nodiscard]] bool ever(SampleState mode) const;
 
   /// For two tangential directions, at an instant of slip.
   [[nodiscard]] SlipFrame frame(double tau) const;
@@ -55,7 +55,7 @@ class ContactTimeline {
   [[nodiscard]] Eigen::Vector3d slope(double tau) const;  // d lambda_u / d tau
   [[nodiscard]] int wrapped(int sample) const;
   [[nodiscard]] double instant(int sample) const;
-  [[nodiscard]] ContactMode mode_at(int sample) const;
+  [[nodiscard]] SampleState mode_at(int sample) const;
   [[nodiscard]] Eigen::Vector2d direction_at(int sample) const;  // of lambda_T at a slipping sample
   [[nodiscard]] Eigen::Vector2d turned_from(int sample, double tau) const;
   [[nodiscard]] SlipFrame frame_along(const Eigen::Vector2d& along, double tau) const;
@@ -71,7 +71,7 @@ class ContactTimeline {
   const numerics::FourierBasis& basis_;
   contact::MarchResult march_;
   std::vector<ContactEvent> events_;
-  ContactMode start_ = ContactMode::open;
+  SampleState start_ = SampleState::separated;
   double start_sign_ = 1;
 };
 

@@ -45,7 +45,7 @@ class Propagator {
     const double across = s_.coupling.size() > 0 ? s_.coupling.cwiseAbs().maxCoeff() : 0;
     if (across > 0) unit_ = rate_ * rate_ * s_.omega * s_.omega / across;
     for (const SwitchingNode& node : s_.nodes) {
-      const ContactMode mode = node.timeline->start_mode();
+      const SampleState mode = node.timeline->start_mode();
       states_.push_back({.now = after(mode), .sign = node.timeline->start_sign()});
     }
   }
@@ -82,8 +82,8 @@ class Propagator {
     map_.middleRows(2 * dynamic_ + node.memory + kept, directions - kept).setZero();
   }
 
-  static Now after(ContactMode mode) {
-    return mode == ContactMode::open ? Now::open : mode == ContactMode::stuck ? Now::stuck : Now::slipping;
+  static Now after(SampleState mode) {
+    return mode == SampleState::separated ? Now::open : mode == SampleState::stuck ? Now::stuck : Now::slipping;
   }
   [[nodiscard]] bool in_space(std::size_t i) const { return s_.nodes[i].tangential.size() == 2; }
   [[nodiscard]] bool turning(std::size_t i) const { return states_[i].now == Now::slipping && in_space(i); }
@@ -208,7 +208,7 @@ class Propagator {
     NodeState& state = states_[i];
     const auto directions = static_cast<Eigen::Index>(node.tangential.size());
     Eigen::MatrixXd memory = Eigen::MatrixXd::Zero(directions, size_);
-    if (node.memory >= 0 && event.mode != ContactMode::open) {
+    if (node.memory >= 0 && event.mode != SampleState::separated) {
       if (event.closing) {
         state.now = Now::touching;
         state.ratio = event.ratio;

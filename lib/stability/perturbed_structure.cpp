@@ -28,12 +28,12 @@ Split split(const reduction::ReducedModel& model, const std::vector<ContactTimel
   };
   for (Eigen::Index i = 0; i < model.contact.count(); ++i) {
     const ContactTimeline& timeline = timelines[static_cast<std::size_t>(i)];
-    const bool opens = timeline.ever(ContactMode::open), friction = timeline.rubs();
-    if (timeline.always(ContactMode::open)) continue;
+    const bool opens = timeline.ever(SampleState::separated), friction = timeline.rubs();
+    if (timeline.always(SampleState::separated)) continue;
     const Eigen::Index normal = take(model.contact.normal(i));
     SwitchingNode node;
     node.timeline = &timeline;
-    if (timeline.always(ContactMode::stuck)) {
+    if (timeline.always(SampleState::stuck)) {
       for (Eigen::Index r = 0; r < directions; ++r) take(model.contact.tangential(i, r));
       structure.neutral += static_cast<int>(directions);
       continue;
@@ -47,7 +47,7 @@ Split split(const reduction::ReducedModel& model, const std::vector<ContactTimel
       result.switching.push_back(take(model.contact.tangential(i, r)));
     }
     // With one direction, slip leaves nothing to remember; with two, the direction of slip is a memory.
-    if (friction && (timeline.ever(ContactMode::stuck) || directions == 2)) {
+    if (friction && (timeline.ever(SampleState::stuck) || directions == 2)) {
       node.memory = structure.memory;
       structure.memory += directions;
     }

@@ -83,19 +83,8 @@ Pass pass(const reduction::ReducedModel& model, const steady::Tangent& tangent, 
 }  // namespace
 
 std::string_view to_string(StabilityVerdict verdict) {
-  switch (verdict) {
-    case StabilityVerdict::stable:
-      return "stable";
-    case StabilityVerdict::unstable:
-      return "unstable";
-    case StabilityVerdict::marginal:
-      return "marginal";
-    case StabilityVerdict::not_meaningful:
-      return "not_meaningful";
-    case StabilityVerdict::undetermined:
-      return "undetermined";
-  }
-  return "unknown";
+  constexpr std::array<std::string_view, 5> kNames{"stable", "unstable", "marginal", "not_meaningful", "undetermined"};
+  return kNames[static_cast<std::size_t>(verdict)];
 }
 
 Stability local_stability(const reduction::ReducedModel& model, const steady::State& state,

@@ -49,6 +49,13 @@ std::span<const Field<PreloadOptions>> option_table<PreloadOptions>() {
 
 namespace dovetail::steady {
 
+Options Options::plain() const {
+  Options options = *this;
+  options.penalty_cascade = false;
+  if (options.solver == "auto") options.solver = "newton";
+  return options;
+}
+
 void validate(const Options& options) {
   std::vector<Violation> found = violations(options);
   if (options.samples <= 2 * options.harmonics)

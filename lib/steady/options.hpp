@@ -27,6 +27,9 @@ struct Options {
   /// `linearise` for a state next to one that was shown to be.
   bool show_regular = true;
   SharedBudget budget = {};  ///< of everything computed with these options; null: not limited
+
+  /// The same with one method and one eps, no fallbacks: failing is cheap and says where a branch ends.
+  [[nodiscard]] Options plain() const;
 };
 
 /// Throws InputError listing every option out of range.

@@ -25,7 +25,6 @@ class Problem {
   [[nodiscard]] Problem worn(const Eigen::VectorXd& depth) const;
 
   [[nodiscard]] const dynamics::CondensedModel& model() const { return *joint_.model; }
-  [[nodiscard]] const std::shared_ptr<const dynamics::CondensedModel>& shared_model() const { return joint_.model; }
   [[nodiscard]] const dynamics::HarmonicSystem& system() const { return *system_; }
   [[nodiscard]] const std::shared_ptr<const dynamics::HarmonicSystem>& shared_system() const { return system_; }
   [[nodiscard]] const numerics::FourierBasis& basis() const { return *basis_; }

@@ -2,16 +2,37 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <string_view>
 
 #include "steady/tangent.hpp"
 
 namespace dovetail::steady {
 
-/// One attempt to solve f(U) = 0 with one method, pseudo-penalty and start.
-struct Attempt {
+/// Ways to a steady state, in the order in which they are tried. From `harmonics` on each starts from solutions of
+/// neighbouring problems, cheapest first. All end with the problem as it was asked, at worst with another eps: the way
+/// changes whether there is an answer and not what counts as one.
+enum class Way {
+  guess,           ///< from the displacement given
+  closed,          ///< from closed contact
+  other_penalty,   ///< with other eps, then with the one asked for from there
+  harmonics,       ///< the series grows from one harmonic to H
+  damping,         ///< dashpots across the contact fade away; where steps fail, along the curve of solutions
+  softer_damping,  ///< the same with a tenth of eps
+  none,
+};
+[[nodiscard]] std::string_view to_string(Way way);
+
+/// What solving took.
+struct Work {
+  int iterations = 0;    ///< Jacobians, all penalties tried together
+  int evaluations = 0;   ///< residuals
+  int intermediate = 0;  ///< states on the way to this one that are not reported (paths/frequency_response.hpp)
+  Way way = Way::none;   ///< that led to it
+};
+
+/// Where an attempt to solve f(U) = 0, or all attempts on the ways to a solution, ended.
+struct Attempt : Work {
   Status status = Status::iteration_limit;
-  int iterations = 0;                           ///< Jacobians
-  int evaluations = 0;                          ///< residuals
   double residual = 0;                          ///< |f| / force scale
   Point point = {};                             ///< the best one
   std::shared_ptr<const Tangent> tangent = {};  ///< the last one factorised on the way, or null

@@ -1,7 +1,6 @@
 #include "steady/state.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -63,13 +62,6 @@ void truncation_errors(const Point& point, Summary& summary) {
 }
 
 }  // namespace
-
-std::string_view to_string(Way way) {
-  constexpr std::array<std::string_view, 11> kNames{
-      "guess",           "closed",    "other_penalty", "powell",         "open", "harmonics",
-      "growing_penalty", "frequency", "damping",       "softer_damping", "none"};
-  return kNames[static_cast<std::size_t>(way)];
-}
 
 Summary summarise(const Point& point) {
   const Problem& of = *point.problem;

@@ -2,11 +2,10 @@
 
 #include <Eigen/Core>
 #include <memory>
-#include <string_view>
 #include <vector>
 
 #include "core/status.hpp"
-#include "steady/tangent.hpp"
+#include "steady/solve.hpp"
 
 namespace dovetail::steady {
 
@@ -47,32 +46,6 @@ struct Summary {
   double error_energy = 0;  ///< e_E [Salles 2009, eq. 38]
 };
 [[nodiscard]] Summary summarise(const Point& point);
-
-/// Ways to a steady state, in the order in which they are tried. From `open` on each starts from solutions of
-/// neighbouring problems, cheapest first. All end with the problem as it was asked, at worst with another eps: the way
-/// changes whether there is an answer and not what counts as one.
-enum class Way {
-  guess,            ///< from the displacement given
-  closed,           ///< from closed contact
-  other_penalty,    ///< with other eps, then with the one asked for from there
-  powell,           ///< Powell's method from closed contact
-  open,             ///< from the linear response without contact
-  harmonics,        ///< the series grows from one harmonic to H
-  growing_penalty,  ///< eps grows from a thousandth to its value
-  frequency,        ///< omega falls from three times its value, above the resonances, with steps that shrink on failure
-  damping,          ///< dashpots across the contact fade away; where steps fail, along the curve of solutions
-  softer_damping,   ///< the same with a tenth of eps
-  none,
-};
-[[nodiscard]] std::string_view to_string(Way way);
-
-/// What solving took.
-struct Work {
-  int iterations = 0;    ///< Jacobians, all penalties tried together
-  int evaluations = 0;   ///< residuals
-  int intermediate = 0;  ///< states on the way to this one that are not reported (paths/frequency_response.hpp)
-  Way way = Way::none;   ///< that led to it
-};
 
 /// One steady state. Nothing in it is meaningful unless status is converged, but all of it is filled with the
 /// best point found.

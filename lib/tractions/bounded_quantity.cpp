@@ -1,6 +1,7 @@
 #include "tractions/bounded_quantity.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "paths/amplitude.hpp"
@@ -46,39 +47,20 @@ double FamilyQuantity::scale(const steady::State& member) const {
 }
 
 double FamilyQuantity::value(const steady::State& member) const {
-  switch (quantity_) {
-    case BoundedQuantity::friction_energy:
-      return member.friction_energy;
-    case BoundedQuantity::wear_rate:
-      return joint_.model->contact().area.dot(member.wear_rate);
-    case BoundedQuantity::amplitude:
-      break;
-  }
+  if (quantity_ == BoundedQuantity::friction_energy) return member.friction_energy;
+  if (quantity_ == BoundedQuantity::wear_rate) return joint_.model->contact().area.dot(member.wear_rate);
   return member.amplitudes(output_);
 }
 
 // dq/dX_T.
 Eigen::MatrixXd FamilyQuantity::gradient(const steady::State& member) const {
-  switch (quantity_) {
-    case BoundedQuantity::friction_energy:
-    case BoundedQuantity::wear_rate:
-      return slip_to_slip_origin(member, weights(member));
-    case BoundedQuantity::amplitude:
-      break;
-  }
-  return amplitude_to_slip_origin(member, output_);
+  if (quantity_ == BoundedQuantity::amplitude) return amplitude_to_slip_origin(member, output_);
+  return slip_to_slip_origin(member, weights(member));
 }
 
 std::string_view to_string(BoundedQuantity quantity) {
-  switch (quantity) {
-    case BoundedQuantity::amplitude:
-      return "amplitude";
-    case BoundedQuantity::friction_energy:
-      return "friction_energy";
-    case BoundedQuantity::wear_rate:
-      return "wear_rate";
-  }
-  return "unknown";
+  constexpr std::array<std::string_view, 3> kNames{"amplitude", "friction_energy", "wear_rate"};
+  return kNames[static_cast<std::size_t>(quantity)];
 }
 
 }  // namespace dovetail::tractions

@@ -36,16 +36,16 @@ Eigen::MatrixXd mean_tractions(const steady::State& state, const dynamics::Conde
 TractionFamily::TractionFamily(const steady::State& nominal) {
   assert(nominal.tangent);
   const steady::Problem& problem = nominal.tangent->problem();
-  const Eigen::Index count = problem.model().nodes(), d = problem.model().directions();
-  model_ = problem.shared_model();
+  const dynamics::CondensedModel& model = problem.model();
+  const Eigen::Index count = model.nodes(), d = model.directions();
   origin_ = problem.condition().slip_origin;
   std::vector<Eigen::Index> stuck, free;
   std::vector<double> limit;
   for (Eigen::Index i = 0; i < count; ++i) {
     const steady::NodeSummary& node = nominal.nodes[static_cast<std::size_t>(i)];
-    if (node.stuck && model_->contact_law(i).rubs()) {
+    if (node.stuck && model.contact_law(i).rubs()) {
       nodes_.push_back(i);
-      limit.push_back(model_->contact_law(i).limit(nominal.force(i * d, 0)).force);
+      limit.push_back(model.contact_law(i).limit(nominal.force(i * d, 0)).force);
       // Where it ended if it slipped before it stayed stuck.
       origin_.row(i) = nominal.slip_end.row(i);
       for (Eigen::Index r = 1; r < d; ++r) stuck.push_back(i * d + r);
@@ -64,11 +64,7 @@ TractionFamily::TractionFamily(const steady::State& nominal) {
     seen -= numerics::transposed_product(across, numerics::least_squares(stiffness(free, free), across, threshold));
   }
   compliance_ = pseudo_inverse(seen);
-  nominal_ = traction(nominal);
-}
-
-Eigen::MatrixXd TractionFamily::traction(const steady::State& state) const {
-  return mean_tractions(state, *model_)(nodes_, Eigen::all);
+  nominal_ = mean_tractions(nominal, model)(nodes_, Eigen::all);
 }
 
 Eigen::MatrixXd TractionFamily::slip_origin(const Eigen::MatrixXd& traction) const {

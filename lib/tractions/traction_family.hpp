@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <memory>
 #include <vector>
 
 #include "steady/state.hpp"
@@ -21,15 +20,12 @@ class TractionFamily {
   [[nodiscard]] const std::vector<Eigen::Index>& nodes() const { return nodes_; }
   [[nodiscard]] const Eigen::MatrixXd& nominal() const { return nominal_; }          ///< m of the nominal state
   [[nodiscard]] Eigen::MatrixXd slip_origin(const Eigen::MatrixXd& traction) const;  ///< X_T [Nc, d-1]
-  /// m of a state [stuck nodes, d-1].
-  [[nodiscard]] Eigen::MatrixXd traction(const steady::State& state) const;
   /// dq/dm from dq/dX_T [Nc, d-1].
   [[nodiscard]] Eigen::MatrixXd gradient(const Eigen::MatrixXd& by_slip_origin) const;
   /// The nearest m with |m| <= 1 for each node.
   [[nodiscard]] static Eigen::MatrixXd admissible(Eigen::MatrixXd traction);
 
  private:
-  std::shared_ptr<const dynamics::CondensedModel> model_;
   std::vector<Eigen::Index> nodes_;
   Eigen::VectorXd limit_;             // of the stuck ones, under the mean lambda_N
   Eigen::MatrixXd origin_, nominal_;  // X_T and m of the nominal state
