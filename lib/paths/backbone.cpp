@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <iterator>
 
 #include "paths/params.hpp"
 #include "paths/peak.hpp"
@@ -196,21 +196,7 @@ class Tracker {
 Backbone backbone(const BackboneFamily& family, std::span<const double> parameters, double omega_start,
                   const BackboneOptions& backbone_options, const std::function<bool(const BackbonePoint&)>& progress) {
   std::vector<Violation> found = violations(backbone_options.resonance, "resonance");
-  if (backbone_options.max_iterations < 2)
-    found.push_back({.file = {},
-                     .key = "max_iterations",
-                     .value = std::to_string(backbone_options.max_iterations),
-                     .allowed = "must be >= 2"});
-  if (backbone_options.halvings < 0)
-    found.push_back({.file = {},
-                     .key = "halvings",
-                     .value = std::to_string(backbone_options.halvings),
-                     .allowed = kNonNegative.phrase()});
-  if (!(backbone_options.check_range >= 0 && backbone_options.check_range < 1))
-    found.push_back({.file = {},
-                     .key = "check_range",
-                     .value = shortest(backbone_options.check_range),
-                     .allowed = "must be >= 0 and < 1"});
+  std::ranges::move(violations(backbone_options), std::back_inserter(found));
   if (!found.empty()) throw InputError(std::move(found));
   Tracker tracker(family, backbone_options);
   Backbone result{.status = Status::converged, .points = {}};

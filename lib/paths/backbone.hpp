@@ -69,3 +69,8 @@ struct Backbone {
                                 const std::function<bool(const BackbonePoint&)>& progress = {});
 
 }  // namespace dovetail::paths
+
+namespace dovetail {
+template <>
+std::span<const Field<paths::BackboneOptions>> option_table<paths::BackboneOptions>();
+}

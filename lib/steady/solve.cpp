@@ -31,10 +31,6 @@ struct Scaled {
     if (at.use_count() > 1) at = std::make_shared<Point>();
     evaluate(problem, displacement, *at);
   }
-  Eigen::VectorXd residual(const Eigen::VectorXd& x) {
-    go_to(x);
-    return at->residual.reshaped() / force;
-  }
   Status newton_step(Eigen::VectorXd& step) {
     if (spent(problem->budget())) return Status::budget_spent;
     differentiate(*at);
@@ -83,7 +79,10 @@ Attempt solve(const std::shared_ptr<const Problem>& problem, const Eigen::Matrix
   scaled.go_to(x);
   const double goal = attainable(*scaled.at, problem->options().tolerance);
   Attempt attempt;
-  const auto residual = [&](const Eigen::VectorXd& at) { return scaled.residual(at); };
+  const auto residual = [&](const Eigen::VectorXd& at) -> Eigen::VectorXd {
+    scaled.go_to(at);
+    return scaled.at->residual.reshaped() / scaled.force;
+  };
   if (method == Method::newton) {
     const numerics::NewtonSystem system{.residual = residual,
                                         .newton_step = [&](Eigen::VectorXd& step) { return scaled.newton_step(step); },
