@@ -109,6 +109,10 @@ struct Asymptote {
 [[nodiscard]] Asymptote asymptote(const steady::Joint& joint, double omega, const AsymptoteOptions& options = {},
                                   const steady::State* unworn = nullptr, const Watcher& watcher = {});
 
+/// Whether an answer that rests does so at 2H+1 harmonics and 2N samples, too: its `finer`, `holds_finer` and, where it
+/// does not, its doubt. `joint` and `options` as asked for the answer. Cost: one steady state.
+void certify_finer(const steady::Joint& joint, const AsymptoteOptions& options, Asymptote& answer);
+
 }  // namespace dovetail::wear
 
 namespace dovetail {
