@@ -15,9 +15,9 @@ struct NodeLine {
   [[nodiscard]] double length(std::size_t k) const { return ends[k + 1] - ends[k]; }
 };
 
-/// A line for each flank of a plane model, in the order of its nodes along its longer extent; nodes are as long as their
-/// areas. None where positions or flanks are not known, and none in space: there the nodes of a flank cover a surface,
-/// and which of them follow one another across the slot is not in the model.
+/// A line for each flank of a plane model, in the order of its nodes along its longer extent; nodes are as long as
+/// their areas. None where positions or flanks are not known, and none in space: there the nodes of a flank cover a
+/// surface, and which of them follow one another across the slot is not in the model.
 [[nodiscard]] std::vector<NodeLine> flank_lines(const reduction::ContactNodes& contact);
 
 }  // namespace dovetail::wear

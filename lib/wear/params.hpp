@@ -139,10 +139,10 @@ struct ApartParams {
   double most = 0.2;
 };
 
-/// What the end of a slipping zone leaves open of its energy. Slip is largest near the end of a zone that lifts off, and
-/// the zone may end anywhere between its last node and the middle of the next, which sticks. The energy between is open
-/// by a part that grows with the node's share s of the zone's energy like s^2, as a finer mesh sees what happens in a
-/// zone of several nodes. A zone that ends on both sides is open on both.
+/// What the end of a slipping zone leaves open of its energy. Slip is largest near the end of a zone that lifts off,
+/// and the zone may end anywhere between its last node and the middle of the next, which sticks. The energy between is
+/// open by a part that grows with the node's share s of the zone's energy like s^2, as a finer mesh sees what happens
+/// in a zone of several nodes. A zone that ends on both sides is open on both.
 struct OpenEnergyParams {
   double part = 0.4;  ///< the one with which designs of studies/error_bars, seeds 2 and 3, had energies inside the bars
   double sticks = 0.01;  ///< of the energy per area of its neighbour: creep of nodes that all but stick

@@ -72,8 +72,7 @@ class Rule {
     const steady::Joint joint = with_own_budget(joint_);
     Rest asked = found(joint, "auto", &unworn);
     Asymptote &history = asked.asymptote, &direct = rest.asymptote;
-    const Unfinished unfinished =
-        spent(joint.options.budget) ? Unfinished::history_budget : Unfinished::history;
+    const Unfinished unfinished = spent(joint.options.budget) ? Unfinished::history_budget : Unfinished::history;
     if (history.verdict == Verdict::not_converged && history.status != Status::interrupted) {
       direct.doubt = history.doubt == Doubt::none ? Doubt::unfinished : history.doubt;
       rest.unfinished = unfinished;

@@ -13,7 +13,7 @@ namespace dovetail::wear {
 struct RestOptions {
   AsymptoteOptions asymptote = {};  ///< its arbitration is what comes_to_rest decides
   bool follow = false;              ///< the resonance of the joint as worn, see followed_asymptote
-  bool history = true;              ///< asks the history where the direct answer is in doubt, not only where there is none
+  bool history = true;  ///< asks the history where the direct answer is in doubt, not only where there is none
   std::vector<NodeLine> lines = {};  ///< neighbours; without, no two states are a node apart
   /// A budget of its own for each history that is asked, at the settings given; empty: that of the joint.
   std::function<SharedBudget(const steady::Options&)> budget = {};
@@ -36,8 +36,8 @@ struct Rest {
   int solves = 0, jacobians = 0;  ///< over everything
 };
 
-/// The rule for where wear comes to rest. The direct answer is looked for first, and by the history where there is none.
-/// Where it is in doubt, the history decides, with these exceptions, in which the direct answer stands, in doubt:
+/// The rule for where wear comes to rest. The direct answer is looked for first, and by the history where there is
+/// none. Where it is in doubt, the history decides, with these exceptions, in which the direct answer stands, in doubt:
 ///   - the history does not come to an end;
 ///   - it ends within a node of the direct answer at the ends of worn zones (a_node_apart): on other nodes it may well
 ///     end in it;

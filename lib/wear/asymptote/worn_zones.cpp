@@ -18,7 +18,9 @@ bool ends_differ(std::span<const NodeLine> lines, const std::vector<bool>& one, 
   bool apart = false;
   for (const NodeLine& line : lines) {
     const auto count = static_cast<std::ptrdiff_t>(line.count());
-    const auto node = [&](std::ptrdiff_t k) { return static_cast<std::size_t>(line.nodes[static_cast<std::size_t>(k)]); };
+    const auto node = [&](std::ptrdiff_t k) {
+      return static_cast<std::size_t>(line.nodes[static_cast<std::size_t>(k)]);
+    };
     const auto in = [&](const std::vector<bool>& nodes, std::ptrdiff_t k) {
       return k >= 0 && k < count && nodes[node(k)];
     };
@@ -77,8 +79,8 @@ bool a_node_apart(std::span<const NodeLine> lines, const Eigen::VectorXd& area, 
   if (!ends_differ(lines, worn_one, worn_other)) return false;
   // The wider of the two is what the last node would belong to.
   const bool first_wider = area.dot(one) > area.dot(other);
-  const WornChange explained = first_wider ? ends_moved_by(1, lines, area, worn_one, one)
-                                           : ends_moved_by(1, lines, area, worn_other, other);
+  const WornChange explained =
+      first_wider ? ends_moved_by(1, lines, area, worn_one, one) : ends_moved_by(1, lines, area, worn_other, other);
   return !far_apart(area, one, other) && std::abs(area.dot(one) - area.dot(other)) <= explained.volume &&
          std::abs(one.maxCoeff() - other.maxCoeff()) <= explained.depth;
 }
