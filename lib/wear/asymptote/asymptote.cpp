@@ -20,7 +20,7 @@ using Eigen::VectorXd;
 void set_depth(const reduction::ContactNodes& contact, const VectorXd& depth, Asymptote& result) {
   result.depth = depth;
   result.worn_volume = worn_volume(contact, depth);
-  result.largest_depth = depth.size() == 0 ? 0.0 : depth.maxCoeff();
+  result.largest_depth = largest(depth);
 }
 
 /// What rates are held against, m per cycle.
@@ -40,15 +40,8 @@ struct Rates {
 
 Rates rates(const dynamics::CondensedModel& model, const AsymptoteOptions& options, const steady::State& unworn) {
   Rates found{.fastest = options.reference_rate, .none = no_wear_rate(options.rate_threshold, model, unworn)};
-  if (!(found.fastest > 0.0) && unworn.wear_rate.size() > 0) found.fastest = unworn.wear_rate.maxCoeff();
+  if (!(found.fastest > 0.0)) found.fastest = largest(unworn.wear_rate);
   return found;
-}
-
-OtherState other_state(FoundBy found_by, const reduction::ContactNodes& contact, const VectorXd& depth) {
-  return {.found_by = found_by,
-          .depth = depth,
-          .worn_volume = worn_volume(contact, depth),
-          .largest_depth = depth.size() == 0 ? 0.0 : depth.maxCoeff()};
 }
 
 /// The direct answer, what is in doubt about it, and who settles that.
@@ -254,6 +247,13 @@ std::string_view to_string(Verdict verdict) {
       return "not_converged";
   }
   return "unknown";
+}
+
+OtherState other_state(FoundBy found_by, const reduction::ContactNodes& contact, const VectorXd& depth) {
+  return {.found_by = found_by,
+          .depth = depth,
+          .worn_volume = worn_volume(contact, depth),
+          .largest_depth = largest(depth)};
 }
 
 Asymptote asymptote(const steady::Joint& joint, double omega, const AsymptoteOptions& options,

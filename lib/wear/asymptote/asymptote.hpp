@@ -62,6 +62,8 @@ struct OtherState {
   double worn_volume = 0.0;    ///< m^3
   double largest_depth = 0.0;  ///< m
 };
+[[nodiscard]] OtherState other_state(FoundBy found_by, const reduction::ContactNodes& contact,
+                                     const Eigen::VectorXd& depth);
 
 /// The worn geometry at which wear stops.
 struct Asymptote {

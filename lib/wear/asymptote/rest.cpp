@@ -6,17 +6,11 @@
 #include "paths/steady_state.hpp"
 #include "wear/asymptote/followed_asymptote.hpp"
 #include "wear/asymptote/worn_zones.hpp"
+#include "wear/measures.hpp"
 
 namespace dovetail::wear {
 
 namespace {
-
-OtherState other_state(FoundBy found_by, Asymptote found) {
-  return {.found_by = found_by,
-          .depth = std::move(found.depth),
-          .worn_volume = found.worn_volume,
-          .largest_depth = found.largest_depth};
-}
 
 /// Where history and direct method end, and where a finer history does if they are far apart.
 struct Ends {
@@ -40,24 +34,23 @@ class Rule {
   }
 
  private:
+  [[nodiscard]] const reduction::ContactNodes& contact() const { return joint_.model->contact(); }
+
   [[nodiscard]] Rest found(const steady::Joint& joint, const char* arbitration, const steady::State* unworn) {
     AsymptoteOptions settings = options_.asymptote;
     settings.arbitration = arbitration;
     settings.certify_finer = false;  // of the answer alone
     Rest rest;
     if (options_.follow) {
-      FollowedAsymptote followed = followed_asymptote(joint, omega_, settings, {}, unworn, watcher_);
-      rest.asymptote = std::move(followed.asymptote);
-      rest.held = std::move(followed.held);
-      rest.omegas = std::move(followed.omegas);
-      solves_ += followed.solves;
-      jacobians_ += followed.jacobians;
+      rest = followed_asymptote(joint, omega_, settings, {}, unworn, watcher_);
     } else {
       rest.asymptote = asymptote(joint, omega_, settings, unworn, watcher_);
       rest.omegas = {omega_};
-      solves_ += rest.asymptote.solves;
-      jacobians_ += rest.asymptote.jacobians;
+      rest.solves = rest.asymptote.solves;
+      rest.jacobians = rest.asymptote.jacobians;
     }
+    solves_ += rest.solves;
+    jacobians_ += rest.jacobians;
     return rest;
   }
 
@@ -85,7 +78,7 @@ class Rule {
     if (ends.direct_stays) {
       direct.doubt = history.doubt;
       direct.confirmed_by_history = true;
-      direct.other_states = {other_state(FoundBy::history, std::move(history))};
+      direct.other_states = {other_state(FoundBy::history, contact(), history.depth)};
     } else {
       rest = std::move(asked);
       const bool undecided = direct.doubt != Doubt::none && !direct.confirmed_by_history;
@@ -95,7 +88,7 @@ class Rule {
   }
 
   [[nodiscard]] Ends compared(const Asymptote& history, const Asymptote& direct, const steady::State& unworn) {
-    const Eigen::VectorXd& area = joint_.model->contact().area;
+    const Eigen::VectorXd& area = contact().area;
     if (!far_apart(area, history.depth, direct.depth))
       return {.direct_stays = a_node_apart(options_.lines, area, history.depth, direct.depth)};
     Ends ends{.finer = finer_history(unworn)};
@@ -117,14 +110,13 @@ class Rule {
     if (start.status != Status::converged) return {};
     Asymptote finer = found(joint, "always", &start).asymptote;
     if (finer.verdict != Verdict::asymptote || !finer.confirmed_by_history) return {};
-    return other_state(FoundBy::finer_history, std::move(finer));
+    return other_state(FoundBy::finer_history, contact(), finer.depth);
   }
 
   /// What is left of the wear is held against the unworn rate, also where it came to rest at another frequency.
   void certify(Rest& rest) {
     AsymptoteOptions settings = options_.asymptote;
-    if (rest.held && rest.held->unworn_rate.size() > 0 && !(settings.reference_rate > 0.0))
-      settings.reference_rate = rest.held->unworn_rate.maxCoeff();
+    if (rest.held && !(settings.reference_rate > 0.0)) settings.reference_rate = largest(rest.held->unworn_rate);
     if (rest.asymptote.verdict != Verdict::asymptote) return;
     certify_finer(joint_, settings, rest.asymptote);
     ++solves_;

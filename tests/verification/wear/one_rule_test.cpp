@@ -1,7 +1,6 @@
 // `wear --method asymptote` and `evaluate` ask one rule where wear comes to rest.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <map>
 #include <string>
 
@@ -16,7 +15,7 @@ namespace {
 using Design = std::map<std::string, std::string>;
 
 /// Expects the command to end where the evaluation does, and returns that.
-wear::Asymptote agreed(const Design& design) {
+wear::Asymptote agreed(const Design& design, bool from_positions = false) {
   std::vector<Override> overrides;
   for (const auto& [key, value] : design) overrides.push_back({.key = key, .value = value, .origin = "--set"});
   const Study study = load_study(QUICKSTART, overrides);
@@ -25,7 +24,8 @@ wear::Asymptote agreed(const Design& design) {
   WearOptions options;
   options.method = "asymptote";
   options.follow = "fixed";
-  const LoadedModel loaded = load_model(QUICKSTART, overrides, {});
+  LoadedModel loaded = load_model(QUICKSTART, overrides, {});
+  if (from_positions) loaded.lines = wear::flank_lines(loaded.model.contact);
   const WearAnswer answer =
       wear_answer(options, loaded, wear_start_at(evaluated.evaluation.model.at("wear_frequency_hz")), {});
   EXPECT_TRUE(answer.worn_out());
@@ -38,18 +38,29 @@ wear::Asymptote agreed(const Design& design) {
   return *evaluated.asymptote;
 }
 
-// The first history ends with twice the direct volume, one with more harmonics and samples in the direct state.
+// The first history ends with more than twice the direct volume, one with more harmonics and samples next to it.
 TEST(WhereWearComesToRest, IsTheSameWhereAFinerHistoryDecides) {
-  const wear::Asymptote worn = agreed({{"geometry.flank_mismatch_um", "8"},
-                                       {"geometry.flank_crown_um", "-2"},
-                                       {"geometry.flank_angle_deg", "53"},
-                                       {"contact.friction", "0.6"},
-                                       {"loading.tip_force_n", "3"}});
+  const wear::Asymptote worn = agreed({{"geometry.flank_mismatch_um", "23.7"},
+                                       {"geometry.flank_crown_um", "-1.3"},
+                                       {"geometry.flank_angle_deg", "54.9"},
+                                       {"contact.friction", "0.3"},
+                                       {"loading.tip_force_n", "2"}});
+  EXPECT_EQ(worn.decided_by, wear::FoundBy::release);
   EXPECT_EQ(worn.other_states.size(), 2U);
 }
 
-TEST(WhereWearComesToRest, IsTheSameOnFlanksThatHardlyWear) {
-  (void)agreed({{"geometry.flank_mismatch_um", "22"}, {"geometry.flank_crown_um", "4.4"}});
+// The history ends within a node of the direct answer. From a file the command knows the nodes by their positions.
+TEST(WhereWearComesToRest, IsTheSameWhereTheHistoryEndsANodeApart) {
+  for (const bool from_positions : {false, true}) {
+    const wear::Asymptote worn = agreed({{"geometry.flank_mismatch_um", "21.4"},
+                                         {"geometry.flank_crown_um", "4.5"},
+                                         {"geometry.flank_angle_deg", "55.6"},
+                                         {"contact.friction", "0.7"},
+                                         {"loading.tip_force_n", "1.5"}},
+                                        from_positions);
+    EXPECT_EQ(worn.decided_by, wear::FoundBy::release);
+    EXPECT_EQ(worn.other_states.size(), 1U);
+  }
 }
 
 }  // namespace
