@@ -8,6 +8,10 @@
 
 namespace dovetail::wear {
 
+double largest(const Eigen::VectorXd& of_nodes) {
+  return of_nodes.size() == 0 ? 0.0 : of_nodes.maxCoeff();
+}
+
 double worn_volume(const reduction::ContactNodes& contact, const Eigen::VectorXd& depth) {
   return depth.size() == 0 ? 0.0 : contact.area.dot(depth);
 }
@@ -26,16 +30,16 @@ bool rests_in_slip(const dynamics::CondensedModel& model) {
 }
 
 double cycle_jump(const Eigen::VectorXd& rate, double increment) {
-  const double largest = rate.size() == 0 ? 0.0 : rate.maxCoeff();
-  return largest > 0.0 ? increment / largest : std::numeric_limits<double>::infinity();
+  const double fastest = largest(rate);
+  return fastest > 0.0 ? increment / fastest : std::numeric_limits<double>::infinity();
 }
 
 double own_stiffness(const dynamics::CondensedModel& model, Eigen::Index node, Eigen::Index direction) {
   constexpr contact::PenaltyParams kParams;
-  const double largest = model.local_stiffness().maxCoeff();
+  const double stiffest = model.local_stiffness().maxCoeff();
   const double own = model.local_stiffness()[node * model.directions() + direction];
-  if (own > kParams.no_stiffness * largest) return own;
-  return largest > 0.0 ? kParams.least_stiffness * largest : 1.0;
+  if (own > kParams.no_stiffness * stiffest) return own;
+  return stiffest > 0.0 ? kParams.least_stiffness * stiffest : 1.0;
 }
 
 double largest_penetration(const dynamics::CondensedModel& model, const steady::State& state) {

@@ -8,6 +8,9 @@
 
 namespace dovetail::wear {
 
+/// Largest value over the contact nodes; 0 where there are none.
+[[nodiscard]] double largest(const Eigen::VectorXd& of_nodes);
+
 /// Volume removed by nodal depths W: V = sum_i A_i W_i, m^3 (per metre of thickness where areas are).
 /// `depth` is [Nc] m, both surfaces together.
 [[nodiscard]] double worn_volume(const reduction::ContactNodes& contact, const Eigen::VectorXd& depth);

@@ -130,6 +130,24 @@ struct EdgeParams {
   double excess = 0.7;
 };
 
+/// When two worn states differ by no more than where within a node their zones end.
+struct ApartParams {
+  /// Of the larger worn volume. Where a node is more of it the nodes are too long to tell. Of designs whose histories
+  /// end a node apart the direct volume stands on ever shorter nodes where the two differ by up to a fifth; farther
+  /// apart it is the one or the other. Larger: a history that ends elsewhere is not heard; smaller: finer histories for
+  /// nothing.
+  double most = 0.2;
+};
+
+/// What the end of a slipping zone leaves open of its energy. Slip is largest near the end of a zone that lifts off,
+/// and the zone may end anywhere between its last node and the middle of the next, which sticks. The energy between is
+/// open by a part that grows with the node's share s of the zone's energy like s^2, as a finer mesh sees what happens
+/// in a zone of several nodes. A zone that ends on both sides is open on both.
+struct OpenEnergyParams {
+  double part = 0.4;  ///< the one with which designs of studies/error_bars, seeds 2 and 3, had energies inside the bars
+  double sticks = 0.01;  ///< of the energy per area of its neighbour: creep of nodes that all but stick
+};
+
 // What must hold between them, whatever their values.
 static_assert(DoubtParams{}.early < DoubtParams{}.late && DoubtParams{}.late < 1, "looked at on the way, in order");
 static_assert(DoubtParams{}.light_load < DoubtParams{}.near_slip, "what is ignored is less than what decides");

@@ -6,9 +6,10 @@
 #include <vector>
 
 #include "optimizer/candidate/candidate_result.hpp"
-#include "optimizer/candidate/worn_zones.hpp"
+#include "optimizer/candidate/node_lines.hpp"
 #include "optimizer/evaluator.hpp"
 #include "wear/asymptote/drift.hpp"
+#include "wear/asymptote/worn_zones.hpp"
 
 namespace dovetail::optimizer {
 
@@ -114,7 +115,7 @@ double slip_at_zone_ends(const CandidateResult& result) {
     energy[static_cast<Eigen::Index>(i)] = nodes[i].dissipated_energy;
     loaded[i] = nodes[i].carries_load;
   }
-  return energy_left_open(result.model.cells, energy, loaded);
+  return wear::energy_left_open(node_lines(result.model.cells), result.model.cells.area, energy, loaded);
 }
 
 }  // namespace dovetail::optimizer

@@ -8,9 +8,10 @@
 #include <vector>
 
 #include "optimizer/candidate/candidate_result.hpp"
-#include "optimizer/candidate/worn_zones.hpp"
+#include "optimizer/candidate/node_lines.hpp"
 #include "optimizer/evaluator.hpp"
 #include "wear/asymptote/drift.hpp"
+#include "wear/asymptote/worn_zones.hpp"
 #include "wear/measures.hpp"
 
 namespace dovetail::optimizer {
@@ -19,14 +20,14 @@ namespace {
 
 /// Whole nodes are worn off or bear: where wear of a history comes to rest the end of a zone lies somewhere within a
 /// node, and a history on shorter ones may end a part of it from there.
-WornChange within_nodes(const fem::ContactCells& cells, const wear::Asymptote& asymptote) {
+wear::WornChange within_nodes(const fem::ContactCells& cells, const wear::Asymptote& asymptote) {
   // Of a node, from histories on nodes a quarter as long. Where another order of release ends elsewhere, or nodes that
   // stick have little to spare, a history depends on its nodes much more than where some touch at times only.
   const double part = asymptote.doubt == wear::Doubt::lift_off ? 0.055 : 0.25;
   // Of a history that decided nodes may touch that it has worn: they carry what is left there.
   const std::vector<bool> worn =
       asymptote.decided_by == wear::FoundBy::history ? wear::worn_nodes(asymptote.depth) : asymptote.released;
-  return ends_moved_by(part, cells, worn, asymptote.depth);
+  return wear::ends_moved_by(part, node_lines(cells), cells.area, worn, asymptote.depth);
 }
 
 /// The other state at rest that a history which came to an end leaves possible: its own, or that of the direct method
@@ -42,7 +43,7 @@ const wear::OtherState* rival(const wear::Asymptote& asymptote) {
 /// What a doubt of the direct worn state leaves open: by how much a history that decided ends elsewhere; where it ends
 /// in the same state, or nothing else was there to compare with, what its nodes leave open; and without a history that
 /// ends it may be anything.
-WornChange left_in_doubt(const fem::ContactCells& cells, const wear::Asymptote& asymptote) {
+wear::WornChange left_in_doubt(const fem::ContactCells& cells, const wear::Asymptote& asymptote) {
   if (asymptote.doubt == wear::Doubt::none) return {};
   if (!asymptote.confirmed_by_history) return {.volume = asymptote.worn_volume, .depth = asymptote.largest_depth};
   if (const wear::OtherState* other = rival(asymptote))
@@ -53,7 +54,7 @@ WornChange left_in_doubt(const fem::ContactCells& cells, const wear::Asymptote& 
 
 /// What wear changes, it changes in proportion to the volume.
 /// @param ends_alone  only the ends of worn zones are in doubt: on what those bear the amplitude hardly depends
-void worn_otherwise(const char* source, const WornChange& doubt, bool ends_alone,
+void worn_otherwise(const char* source, const wear::WornChange& doubt, bool ends_alone,
                     const std::map<std::string, double>& responses, Bars& bars) {
   bars.add(source, "asymptotic_wear_volume_m3", doubt.volume);
   bars.add(source, "asymptotic_wear_depth_max_m", doubt.depth);
@@ -77,7 +78,7 @@ void add_worn_bars(const Scene& scene, const CandidateResult& result, Bars& bars
                    {.volume = std::min(1.0, 2.5 * moved) * responses.at("asymptotic_wear_volume_m3"),
                     .depth = std::min(1.0, 1.5 * moved) * responses.at("asymptotic_wear_depth_max_m")},
                    moved < 1, responses, bars);
-  if (const WornChange doubt = left_in_doubt(result.model.cells, *result.asymptote); doubt.volume > 0)
+  if (const wear::WornChange doubt = left_in_doubt(result.model.cells, *result.asymptote); doubt.volume > 0)
     worn_otherwise("history", doubt, result.asymptote->confirmed_by_history, responses, bars);
   if (const wear::OtherState* other = rival(*result.asymptote)) {
     // On what the ends of worn zones bear the amplitude hardly depends; on a whole other state it may.

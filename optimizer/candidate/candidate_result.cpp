@@ -100,10 +100,10 @@ std::string dynamics(const Scene& scene, const Computation& how, const ContactFi
   evaluation.timings_s["stress"] = watch.lap();
   if (!how.wear) return "converged";
 
-  WornState state = worn_state(scene, model, joint, result.unworn->state, how.history);
+  wear::Rest state = worn_state(scene, model, joint, result.unworn->state, how.history);
   result.asymptote = std::move(state.asymptote);
   result.held = std::move(state.held);
-  evaluation.model["wear_frequency_hz"] = hertz(state.omega);
+  evaluation.model["wear_frequency_hz"] = hertz(state.omegas.back());
   evaluation.timings_s["asymptote"] = watch.lap();
   const wear::Asymptote& asymptote = *result.asymptote;
   if (asymptote.verdict != wear::Verdict::asymptote)

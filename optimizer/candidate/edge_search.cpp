@@ -2,17 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+
+#include "optimizer/candidate/node_lines.hpp"
 
 namespace dovetail::optimizer {
 
 std::vector<std::vector<Edge>> edge_places(const fem::ContactCells& cells, const wear::ReleaseTrail& trail) {
   const std::vector<fem::CellStrip> strips = cells.strips();
-  std::vector<std::vector<int>> lines;
-  for (const fem::CellStrip& strip : strips) {
-    std::vector<int>& line = lines.emplace_back(strip.count());
-    std::iota(line.begin(), line.end(), static_cast<int>(strip.first));
-  }
+  const std::vector<wear::NodeLine> lines = node_lines(cells);
   std::vector<std::vector<Edge>> places(lines.size());
   for (const wear::ZoneEdge& edge : wear::zone_edges(trail, lines, cells.area)) {
     const auto line = static_cast<std::size_t>(edge.line);

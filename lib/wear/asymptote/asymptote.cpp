@@ -20,7 +20,7 @@ using Eigen::VectorXd;
 void set_depth(const reduction::ContactNodes& contact, const VectorXd& depth, Asymptote& result) {
   result.depth = depth;
   result.worn_volume = worn_volume(contact, depth);
-  result.largest_depth = depth.size() == 0 ? 0.0 : depth.maxCoeff();
+  result.largest_depth = largest(depth);
 }
 
 /// What rates are held against, m per cycle.
@@ -38,11 +38,10 @@ struct Rates {
   }
 };
 
-OtherState other_state(FoundBy found_by, const reduction::ContactNodes& contact, const VectorXd& depth) {
-  return {.found_by = found_by,
-          .depth = depth,
-          .worn_volume = worn_volume(contact, depth),
-          .largest_depth = depth.size() == 0 ? 0.0 : depth.maxCoeff()};
+Rates rates(const dynamics::CondensedModel& model, const AsymptoteOptions& options, const steady::State& unworn) {
+  Rates found{.fastest = options.reference_rate, .none = no_wear_rate(options.rate_threshold, model, unworn)};
+  if (!(found.fastest > 0.0)) found.fastest = largest(unworn.wear_rate);
+  return found;
 }
 
 /// The direct answer, what is in doubt about it, and who settles that.
@@ -64,7 +63,6 @@ class WornStateSearch {
         look_further();
       if (doubt() == Doubt::none && asked) result_.doubt = Doubt::always;
       if (history_decides()) arbitrate();
-      certify_finer();
     }
     refuse_gross_sliding();
     result_.released = std::move(passes_.released);
@@ -90,9 +88,7 @@ class WornStateSearch {
     result_.status = passes_.state.status;
     if (result_.status != Status::converged) return false;
     result_.unworn_rate = passes_.state.wear_rate;
-    rates_.fastest = options_.reference_rate;
-    rates_.none = no_wear_rate(options_.rate_threshold, model_, result_.unworn);
-    if (!(rates_.fastest > 0.0) && result_.unworn_rate.size() > 0) rates_.fastest = result_.unworn_rate.maxCoeff();
+    rates_ = rates(model_, options_, result_.unworn);
     threshold_ = std::max(rates_.none, options_.relative_threshold * rates_.fastest);
     return true;
   }
@@ -227,21 +223,6 @@ class WornStateSearch {
     result_.status = Status::gross_sliding;
   }
 
-  /// Whether the answer rests at finer settings, too.
-  void certify_finer() {
-    if (!rests() || !options_.certify_finer || watcher_.stopped()) return;
-    Certificate& finer = result_.finer;
-    finer =
-        certificate(joint_.worn(result_.depth).with(finer_settings(joint_.options)), rates_.fastest, result_.steady);
-    wearing_.count(1, finer.jacobians);
-    if (!(rates_.fastest > rates_.none)) finer.remaining = rates_.certificate(finer.remaining * rates_.fastest);
-    result_.holds_finer =
-        finer.status == Status::converged && finer.remaining <= rates_.limit(options_.certificate_limit);
-    // Whatever else was in doubt has been settled when the history has decided.
-    if (!result_.holds_finer && (doubt() == Doubt::none || result_.confirmed_by_history))
-      result_.doubt = Doubt::finer_settings;
-  }
-
   const steady::Joint& joint_;
   const dynamics::CondensedModel& model_;
   const AsymptoteOptions& options_;
@@ -268,13 +249,38 @@ std::string_view to_string(Verdict verdict) {
   return "unknown";
 }
 
+OtherState other_state(FoundBy found_by, const reduction::ContactNodes& contact, const VectorXd& depth) {
+  return {.found_by = found_by,
+          .depth = depth,
+          .worn_volume = worn_volume(contact, depth),
+          .largest_depth = largest(depth)};
+}
+
 Asymptote asymptote(const steady::Joint& joint, double omega, const AsymptoteOptions& options,
                     const steady::State* unworn, const Watcher& watcher) {
   if (std::vector<Violation> wrong = violations(options, "asymptote"); !wrong.empty())
     throw InputError(std::move(wrong));
   require_nothing_released(joint.condition);
 
-  return WornStateSearch(joint, omega, options, watcher).run(unworn);
+  Asymptote found = WornStateSearch(joint, omega, options, watcher).run(unworn);
+  if (options.certify_finer && found.verdict == Verdict::asymptote && !watcher.stopped())
+    certify_finer(joint, options, found);
+  return found;
+}
+
+void certify_finer(const steady::Joint& joint, const AsymptoteOptions& options, Asymptote& answer) {
+  const Rates reference = rates(*joint.model, options, answer.unworn);
+  Certificate& finer = answer.finer;
+  finer = certificate(joint.worn(answer.depth).with(finer_settings(joint.options)), reference.fastest, answer.steady);
+  ++answer.solves;
+  answer.jacobians += finer.jacobians;
+  if (!(reference.fastest > reference.none))
+    finer.remaining = reference.certificate(finer.remaining * reference.fastest);
+  answer.holds_finer =
+      finer.status == Status::converged && finer.remaining <= reference.limit(options.certificate_limit);
+  // Whatever else was in doubt has been settled when the history has decided.
+  if (!answer.holds_finer && (answer.doubt == Doubt::none || answer.confirmed_by_history))
+    answer.doubt = Doubt::finer_settings;
 }
 
 }  // namespace dovetail::wear

@@ -62,6 +62,8 @@ struct OtherState {
   double worn_volume = 0.0;    ///< m^3
   double largest_depth = 0.0;  ///< m
 };
+[[nodiscard]] OtherState other_state(FoundBy found_by, const reduction::ContactNodes& contact,
+                                     const Eigen::VectorXd& depth);
 
 /// The worn geometry at which wear stops.
 struct Asymptote {
@@ -108,6 +110,10 @@ struct Asymptote {
 /// range and for nodes released at the start.
 [[nodiscard]] Asymptote asymptote(const steady::Joint& joint, double omega, const AsymptoteOptions& options = {},
                                   const steady::State* unworn = nullptr, const Watcher& watcher = {});
+
+/// Whether an answer that rests does so at 2H+1 harmonics and 2N samples, too: its `finer`, `holds_finer` and, where it
+/// does not, its doubt. `joint` and `options` as asked for the answer. Cost: one steady state.
+void certify_finer(const steady::Joint& joint, const AsymptoteOptions& options, Asymptote& answer);
 
 }  // namespace dovetail::wear
 

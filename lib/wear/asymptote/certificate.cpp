@@ -5,6 +5,7 @@
 
 #include "paths/steady_state.hpp"
 #include "quality/truncation.hpp"
+#include "wear/measures.hpp"
 
 namespace dovetail::wear {
 
@@ -24,8 +25,7 @@ Certificate certificate(steady::Joint joint, double fastest, const steady::State
                      .samples = joint.options.samples,
                      .jacobians = state.iterations};
   if (state.status != Status::converged) return result;
-  const double largest = state.wear_rate.size() == 0 ? 0.0 : state.wear_rate.maxCoeff();
-  result.remaining = fastest > 0.0 ? largest / fastest : 0.0;
+  result.remaining = fastest > 0.0 ? largest(state.wear_rate) / fastest : 0.0;
   return result;
 }
 

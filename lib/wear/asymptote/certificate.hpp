@@ -1,8 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <memory>
-
 #include "steady/state.hpp"
 
 namespace dovetail::wear {

@@ -18,7 +18,7 @@ DepthScale depth_scale(const steady::Joint& joint, double omega, double rate_thr
   if (scale.released) {
     const Eigen::VectorXd& start = joint.condition.wear_depth;
     const Eigen::VectorXd worn = start.size() > 0 ? Eigen::VectorXd(found.depth - start) : found.depth;
-    scale.depth = worn.size() > 0 ? worn.maxCoeff() : 0.0;
+    scale.depth = largest(worn);
   } else {
     scale.depth = largest_penetration(*joint.model, found.unworn);
   }

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <memory>
-
 #include "steady/state.hpp"
 #include "wear/watcher.hpp"
 

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <memory>
-
 #include "paths/resonance.hpp"
 
 namespace dovetail::wear {

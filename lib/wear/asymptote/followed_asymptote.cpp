@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "wear/measures.hpp"
 #include "wear/params.hpp"
 
 namespace dovetail::wear {
@@ -29,23 +30,21 @@ void keep_doubt(const Asymptote& earlier, Asymptote& last) {
 
 }  // namespace
 
-FollowedAsymptote followed_asymptote(const steady::Joint& joint, double omega, const AsymptoteOptions& options,
-                                     const paths::ResonanceOptions& resonance, const steady::State* unworn,
-                                     const Watcher& watcher) {
-  FollowedAsymptote result;
-  result.held = asymptote(joint, omega, options, unworn, watcher);
-  result.asymptote = result.held;
+Rest followed_asymptote(const steady::Joint& joint, double omega, const AsymptoteOptions& options,
+                        const paths::ResonanceOptions& resonance, const steady::State* unworn, const Watcher& watcher) {
+  Rest result;
+  Asymptote& last = result.asymptote;
+  last = asymptote(joint, omega, options, unworn, watcher);
+  result.held = last;
   result.omegas = {omega};
-  result.solves = result.held.solves;
-  result.jacobians = result.held.jacobians;
+  result.solves = last.solves;
+  result.jacobians = last.jacobians;
   // The peak is followed: one found elsewhere would be another.
   paths::ResonanceOptions near = resonance;
   near.sweep_range = 0;
-  Asymptote& last = result.asymptote;
   // Later passes begin worn: what is left of the wear is held against the unworn rate.
   AsymptoteOptions onwards = options;
-  if (result.held.unworn_rate.size() > 0 && !(onwards.reference_rate > 0.0))
-    onwards.reference_rate = result.held.unworn_rate.maxCoeff();
+  if (!(onwards.reference_rate > 0.0)) onwards.reference_rate = largest(last.unworn_rate);
   const auto fail = [&](Status status) {
     last.verdict = Verdict::not_converged;
     last.status = status;

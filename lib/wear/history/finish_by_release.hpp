@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <memory>
 
 #include "steady/state.hpp"
 #include "wear/watcher.hpp"

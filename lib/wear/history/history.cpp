@@ -51,10 +51,6 @@ void store(const std::vector<WornRecord>& records, Index nodes, History& result)
   }
 }
 
-double largest(const VectorXd& rate) {
-  return rate.size() > 0 ? rate.maxCoeff() : 0.0;
-}
-
 /// The one loop of wear: depth -> state -> rate -> depth.
 class Loop {
  public:

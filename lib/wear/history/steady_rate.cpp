@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "wear/measures.hpp"
 #include "wear/params.hpp"
 
 namespace dovetail::wear {
@@ -20,7 +21,7 @@ bool unchanged_while_doubling(const std::vector<WornRecord>& records) {
 }
 
 bool insensitive_to_wear(const steady::State& state, double depth) {
-  const double fastest = state.wear_rate.size() == 0 ? 0.0 : state.wear_rate.maxCoeff();
+  const double fastest = largest(state.wear_rate);
   if (!(fastest > 0.0) || !state.tangent) return false;
   std::vector<Eigen::Index> nodes(static_cast<std::size_t>(state.wear_rate.size()));
   std::iota(nodes.begin(), nodes.end(), Eigen::Index{0});

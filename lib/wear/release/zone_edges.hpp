@@ -4,6 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "wear/node_line.hpp"
+
 namespace dovetail::wear {
 
 /// What the passes of release saw on their way, for finding where between two nodes a worn zone ends.
@@ -26,7 +28,7 @@ struct ZoneEdge {
 /// vanishes; between the worn node and the bearing one the reserve of the pass that released the first is interpolated
 /// linearly. `size` [Nc]: lengths or areas of the nodes. An end beside a node without load is no edge: there the flanks
 /// are apart.
-[[nodiscard]] std::vector<ZoneEdge> zone_edges(const ReleaseTrail& trail, std::span<const std::vector<int>> lines,
+[[nodiscard]] std::vector<ZoneEdge> zone_edges(const ReleaseTrail& trail, std::span<const NodeLine> lines,
                                                const Eigen::VectorXd& size);
 
 }  // namespace dovetail::wear

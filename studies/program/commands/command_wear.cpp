@@ -83,9 +83,11 @@ std::string certificate_words(const wear::Asymptote& asymptote) {
   if (asymptote.doubt == wear::Doubt::none) return text;
   text += fmt::format("doubt           {}: {}", to_string(asymptote.doubt), entry(asymptote.doubt).meaning);
   if (asymptote.confirmed_by_history && asymptote.holds_finer) text += ", settled by the history at these settings";
-  for (const wear::OtherState& other : asymptote.other_states)
-    if (other.found_by == wear::FoundBy::release)
-      text += fmt::format("; the direct method ends with {:.6g} m^3", other.worn_volume);
+  for (const auto& [way, name] :
+       {std::pair{wear::FoundBy::release, "the direct method"}, std::pair{wear::FoundBy::history, "the history"},
+        std::pair{wear::FoundBy::finer_history, "one with more harmonics and samples"}})
+    for (const wear::OtherState& other : asymptote.other_states)
+      if (other.found_by == way) text += fmt::format("; {} ends with {:.6g} m^3", name, other.worn_volume);
   return text + "\n";
 }
 

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "dynamics/condensed_model.hpp"
+#include "optimizer/candidate/node_lines.hpp"
 #include "quality/truncation.hpp"
 #include "reduction/model_file.hpp"
 #include "studies/program/engine/model_toml.hpp"
@@ -111,6 +112,7 @@ LoadedModel from_study(const std::string& file, const std::vector<Override>& ove
   }
   loaded.model = candidate.model;
   loaded.joint.model = candidate.condensed;
+  loaded.lines = optimizer::node_lines(candidate.cells);
   loaded.glued_omega = candidate.reduction.glued_frequencies(study.scene.loading.mode - 1);
   return loaded;
 }
@@ -181,6 +183,7 @@ LoadedModel from_model(const std::string& file, reduction::ReducedModel model, s
   LoadedModel loaded;
   loaded.joint.options = steady;
   loaded.model = std::move(model);
+  loaded.lines = wear::flank_lines(loaded.model.contact);
   loaded.joint.model = std::make_shared<const dynamics::CondensedModel>(loaded.model);
   // Ascending; those of free motion are no resonance to start from.
   constexpr double kFree = 1e-6;

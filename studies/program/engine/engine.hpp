@@ -5,12 +5,14 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "dynamics/condensed_model.hpp"
 #include "optimizer/evaluator.hpp"
 #include "reduction/reduced_model.hpp"
 #include "steady/options.hpp"
 #include "studies/program/commands/commands.hpp"
+#include "wear/node_line.hpp"
 
 namespace dovetail::studies {
 
@@ -31,10 +33,11 @@ inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();  //
 /// A reduced model to compute with, from a model file or from a study's candidate.
 struct LoadedModel {
   reduction::ReducedModel model;
-  steady::Joint joint;           ///< of that model, unworn
-  double glued_omega = 0;        ///< rad/s, of the followed mode (a file: the lowest); 0 when the model has none
-  std::string follow = "fixed";  ///< the study's choice of what drives the wear
-  std::string failure;           ///< not empty: the candidate's model did not converge, and why
+  steady::Joint joint;                ///< of that model, unworn
+  std::vector<wear::NodeLine> lines;  ///< of its contact nodes: strips of cells, of a file what its positions tell
+  double glued_omega = 0;             ///< rad/s, of the followed mode (a file: the lowest); 0 when the model has none
+  std::string follow = "fixed";       ///< the study's choice of what drives the wear
+  std::string failure;                ///< not empty: the candidate's model did not converge, and why
 };
 
 /// Whether the file is HDF5 rather than a text: by its first bytes, or its ending when it cannot be read.

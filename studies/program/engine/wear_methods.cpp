@@ -5,7 +5,7 @@
 
 #include "studies/program/answers/json.hpp"
 #include "studies/program/study_file/refusal.hpp"
-#include "wear/asymptote/followed_asymptote.hpp"
+#include "wear/asymptote/rest.hpp"
 
 namespace dovetail::studies {
 
@@ -38,18 +38,15 @@ WearAnswer by_asymptote(const WearOptions& options, const LoadedModel& loaded, c
   const steady::Condition& condition = loaded.joint.condition;
   const bool unchanged = condition.slip_origin.size() == 0 && condition.wear_depth.size() == 0;
   const steady::State* initial = at.resonance && unchanged ? &at.resonance->state : nullptr;
-  const wear::AsymptoteOptions settings;
+  wear::RestOptions settings;
+  settings.follow = options.follow == "resonance";
+  settings.lines = loaded.lines;
+  wear::Rest found = wear::comes_to_rest(loaded.joint, at.omega, settings, initial, watcher);
   WearAnswer answer;
   answer.frequencies_hz = {at.hz};
-  if (options.follow == "resonance") {
-    wear::FollowedAsymptote found = wear::followed_asymptote(loaded.joint, at.omega, settings, {}, initial, watcher);
-    for (std::size_t i = 1; i < found.omegas.size(); ++i) answer.frequencies_hz.push_back(found.omegas[i] / kTurn);
-    answer.solves = found.solves;
-    answer.asymptote = std::move(found.asymptote);
-  } else {
-    answer.asymptote = wear::asymptote(loaded.joint, at.omega, settings, initial, watcher);
-    answer.solves = answer.asymptote->solves;
-  }
+  for (std::size_t i = 1; i < found.omegas.size(); ++i) answer.frequencies_hz.push_back(found.omegas[i] / kTurn);
+  answer.solves = found.solves;
+  answer.asymptote = std::move(found.asymptote);
   if (at.resonance) answer.solves += at.resonance->solves;
   answer.status = answer.asymptote->verdict;
   answer.solver = answer.asymptote->status;

@@ -109,8 +109,8 @@ TEST(Punch, EdgesLieBetweenTheNodesWhereStickEnds) {
     const auto model = std::make_shared<const dynamics::CondensedModel>(reduced);
     const Asymptote worn = asymptote({model, {}, {.harmonics = 9, .samples = 256}}, 1.0, kOptions);
     ASSERT_EQ(worn.verdict, Verdict::asymptote);
-    std::vector<std::vector<int>> line(1);
-    for (int node = 0; node < data.nodes; ++node) line[0].push_back(node);
+    std::vector<NodeLine> line(1);
+    for (int node = 0; node < data.nodes; ++node) line[0].nodes.push_back(node);
     const std::vector<ZoneEdge> edges = zone_edges(worn.trail, line, reduced.contact.area);
     ASSERT_EQ(edges.size(), 2u);
     const double spacing = 2.0 * data.half_length / (data.nodes - 1);

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "core/budget.hpp"
+#include "wear/asymptote/asymptote.hpp"
+#include "wear/node_line.hpp"
+
+namespace dovetail::wear {
+
+struct RestOptions {
+  AsymptoteOptions asymptote = {};  ///< its arbitration is what comes_to_rest decides
+  bool follow = false;              ///< the resonance of the joint as worn, see followed_asymptote
+  bool history = true;  ///< asks the history where the direct answer is in doubt, not only where there is none
+  std::vector<NodeLine> lines = {};  ///< neighbours; without, no two states are a node apart
+  /// A budget of its own for each history that is asked, at the settings given; empty: that of the joint.
+  std::function<SharedBudget(const steady::Options&)> budget = {};
+};
+
+/// A history that was asked and came to no end.
+enum class Unfinished {
+  none,
+  history,
+  history_budget,  ///< it spent its budget
+  finer_history,   ///< the one with more harmonics and samples
+};
+
+/// Where wear comes to rest.
+struct Rest {
+  Asymptote asymptote;
+  std::optional<Asymptote> held = {};  ///< where the resonance is followed: the first one, at the frequency given
+  std::vector<double> omegas = {};     ///< rad/s, of the successive asymptotes; the last is where wear came to rest
+  Unfinished unfinished = Unfinished::none;
+  int solves = 0, jacobians = 0;  ///< over everything
+};
+
+/// The rule for where wear comes to rest. The direct answer is looked for first, and by the history where there is
+/// none. Where it is in doubt, the history decides, with these exceptions, in which the direct answer stands, in doubt:
+///   - the history does not come to an end;
+///   - it ends within a node of the direct answer at the ends of worn zones (a_node_apart): on other nodes it may well
+///     end in it;
+///   - the two volumes are far apart, and a second history with 2H+1 harmonics and 2N samples ends nearer to the direct
+///     one. Which nodes lift off first may hang on harmonics and samples: then histories of neighbouring designs and
+///     meshes end far from one another, and more of both tell where wear goes. Where that one comes to no end, the
+///     first history decides.
+/// What did not decide is in other_states. Without lines, states that differ by a node are told apart by their volumes
+/// alone: the history decides unless they are far apart.
+///
+/// @param unworn  steady state of `joint` at omega, or null
+/// Cost: two direct answers, and up to two histories, the second at twice the harmonics and samples. Throws as
+/// asymptote() does.
+[[nodiscard]] Rest comes_to_rest(const steady::Joint& joint, double omega, const RestOptions& options,
+                                 const steady::State* unworn = nullptr, const Watcher& watcher = {});
+
+}  // namespace dovetail::wear

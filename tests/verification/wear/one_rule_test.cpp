@@ -1,0 +1,67 @@
+// `wear --method asymptote` and `evaluate` ask one rule where wear comes to rest.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+
+#include "optimizer/evaluator.hpp"
+#include "studies/program/engine/engine.hpp"
+#include "studies/program/engine/wear_methods.hpp"
+#include "studies/program/study_file/study.hpp"
+
+namespace dovetail::studies {
+namespace {
+
+using Design = std::map<std::string, std::string>;
+
+/// Expects the command to end where the evaluation does, and returns that.
+wear::Asymptote agreed(const Design& design, bool from_positions = false) {
+  std::vector<Override> overrides;
+  for (const auto& [key, value] : design) overrides.push_back({.key = key, .value = value, .origin = "--set"});
+  const Study study = load_study(QUICKSTART, overrides);
+  const optimizer::CandidateResult evaluated = scene_evaluator(study)->evaluate(study.scene, {.bars = false});
+  EXPECT_TRUE(evaluated.evaluation.converged()) << evaluated.evaluation.status;
+  WearOptions options;
+  options.method = "asymptote";
+  options.follow = "fixed";
+  LoadedModel loaded = load_model(QUICKSTART, overrides, {});
+  if (from_positions) loaded.lines = wear::flank_lines(loaded.model.contact);
+  const WearAnswer answer =
+      wear_answer(options, loaded, wear_start_at(evaluated.evaluation.model.at("wear_frequency_hz")), {});
+  EXPECT_TRUE(answer.worn_out());
+  const wear::Asymptote& command = *answer.asymptote;
+  EXPECT_EQ(to_string(command.decided_by), to_string(evaluated.asymptote->decided_by));
+  EXPECT_EQ(command.confirmed_by_history, evaluated.asymptote->confirmed_by_history);
+  EXPECT_EQ(command.other_states.size(), evaluated.asymptote->other_states.size());
+  // The frequency is the same to rounding, and so is the state to the tolerance of its residual.
+  EXPECT_NEAR(command.worn_volume, evaluated.asymptote->worn_volume, 1e-4 * evaluated.asymptote->worn_volume);
+  return *evaluated.asymptote;
+}
+
+// The first history ends with more than twice the direct volume, one with more harmonics and samples next to it.
+TEST(WhereWearComesToRest, IsTheSameWhereAFinerHistoryDecides) {
+  const wear::Asymptote worn = agreed({{"geometry.flank_mismatch_um", "23.7"},
+                                       {"geometry.flank_crown_um", "-1.3"},
+                                       {"geometry.flank_angle_deg", "54.9"},
+                                       {"contact.friction", "0.3"},
+                                       {"loading.tip_force_n", "2"}});
+  EXPECT_EQ(worn.decided_by, wear::FoundBy::release);
+  EXPECT_EQ(worn.other_states.size(), 2U);
+}
+
+// The history ends within a node of the direct answer. From a file the command knows the nodes by their positions.
+TEST(WhereWearComesToRest, IsTheSameWhereTheHistoryEndsANodeApart) {
+  for (const bool from_positions : {false, true}) {
+    const wear::Asymptote worn = agreed({{"geometry.flank_mismatch_um", "21.4"},
+                                         {"geometry.flank_crown_um", "4.5"},
+                                         {"geometry.flank_angle_deg", "55.6"},
+                                         {"contact.friction", "0.7"},
+                                         {"loading.tip_force_n", "1.5"}},
+                                        from_positions);
+    EXPECT_EQ(worn.decided_by, wear::FoundBy::release);
+    EXPECT_EQ(worn.other_states.size(), 1U);
+  }
+}
+
+}  // namespace
+}  // namespace dovetail::studies
