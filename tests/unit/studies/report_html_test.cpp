@@ -194,17 +194,16 @@ TEST(Report, SaysWhenTheStartStaysTheBest) {
 TEST(ReportPlots, MergeFlanksOnlyWhenTheyAreAlike) {
   DesignRecord design = sample_design(2);
   // Depths are the same on both sides, pressures differ by 10 %.
-  EXPECT_EQ(wear_depth_plot({.before = nullptr, .after = &design}).lines.size(), 1U);
-  EXPECT_EQ(pressure_plot({.before = nullptr, .after = &design}).lines.size(), 2U);
+  EXPECT_EQ(wear_depth_plot({.before = nullptr, .after = &design}).series.size(), 1U);
+  EXPECT_EQ(pressure_plot({.before = nullptr, .after = &design}).series.size(), 2U);
 }
 
 TEST(ReportPlots, ShowTheObjectiveInItsUnit) {
   const Plot plot = objective_plot(sample_record());
   EXPECT_EQ(plot.y.unit, "mm\u00b3");
-  ASSERT_EQ(plot.lines.size(), 1U);
+  ASSERT_EQ(plot.series.size(), 5U);
   // Best so far: the second candidate breaks the limit, the third has no value.
-  EXPECT_THAT(plot.lines[0].y, testing::Pointwise(testing::DoubleEq(), {0.8, 0.8, 0.8, 0.1}));
-  EXPECT_EQ(plot.points.size(), 4U);
+  EXPECT_THAT(plot.series[0].y, testing::Pointwise(testing::DoubleEq(), {0.8, 0.8, 0.8, 0.1}));
 }
 
 }  // namespace
