@@ -1,12 +1,11 @@
 #include "studies/paper_sequence/figures.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
+#include "studies/paper_sequence/contact_figures.hpp"
 #include "studies/paper_sequence/findings.hpp"
 #include "studies/report/pages/units.hpp"
 #include "studies/report/plots/report_plots.hpp"
@@ -20,7 +19,6 @@ using report::scaled;
 using report::Series;
 using report::significant;
 using report::Stroke;
-using report::Unit;
 
 /// Colours and strokes of lines that stand for a sequence or for nodes.
 constexpr std::array<std::pair<Role, Stroke>, 6> kLooks{{{Role::after, Stroke::solid},
@@ -30,49 +28,10 @@ constexpr std::array<std::pair<Role, Stroke>, 6> kLooks{{{Role::after, Stroke::s
                                                          {Role::bad, Stroke::dashed},
                                                          {Role::before, Stroke::dashed}}};
 
-report::PlotAxis cycle_axis() {
-  return {.label = "load cycles", .logarithmic = true, .tight = true};
-}
+const report::PlotAxis kCycles{.label = "load cycles", .logarithmic = true, .tight = true};
 
 Numbers relative_frequency(const Results& r) {
   return scaled(r.frequency_hz, r.resonance_hz);
-}
-
-/// Both flanks of the contact nodes; one line where the flanks are alike.
-std::vector<Series> flank_lines(const report::ContactRecord& contact, const Numbers& values, double si) {
-  const Numbers left = of_flank(contact, values, 0), right = of_flank(contact, values, 1);
-  const double most = report::largest(values);
-  const bool alike = std::equal(left.begin(), left.end(), right.begin(), right.end(),
-                                [&](double a, double b) { return std::abs(a - b) < 0.01 * most; });
-  Series first{.name = alike ? "both flanks" : "left flank",
-               .x = scaled(of_flank(contact, contact.along_m, 0), 1e-3),
-               .y = scaled(left, si),
-               .mark = report::Mark::dot};
-  if (alike) return {first};
-  Series second{.name = "right flank",
-                .x = scaled(of_flank(contact, contact.along_m, 1), 1e-3),
-                .y = scaled(right, si),
-                .role = Role::bad,
-                .stroke = Stroke::dashed};
-  return {first, second};
-}
-
-Plot along_flank(const Results& r, const Numbers& values, const Unit& unit, Plot plot) {
-  plot.x = report::kAlongFlank;
-  plot.y.unit = unit.symbol;
-  plot.y.from_zero = true;
-  plot.series = flank_lines(r.design.contact, values, unit.si);
-  return plot;
-}
-
-/// Along the flank in the plane, over the flanks in space.
-Figure of_contact(const Results& r, const Numbers& values, const Unit& unit, Plot plot) {
-  if (!r.in_space()) return along_flank(r, values, unit, std::move(plot));
-  return report::FlankMap{.title = plot.title,
-                          .description = plot.description,
-                          .quantity = plot.y.label,
-                          .unit = unit,
-                          .panels = report::flank_panels(r.design.contact, values)};
 }
 
 /// Up to five nodes of the left flank, evenly over those that wear.
@@ -92,7 +51,7 @@ std::vector<std::size_t> shown_nodes(const Results& r) {
 
 /// Depths or rates of the shown nodes over cycles; the unworn state stands at half the cycles of the first step.
 Plot courses(const Results& r, const std::vector<Numbers>& values, double si, Plot plot) {
-  plot.x = cycle_axis();
+  plot.x = kCycles;
   plot.y.from_zero = true;
   Numbers cycles = r.history.cycles;
   if (cycles.size() > 1) cycles.front() = 0.5 * cycles[1];
@@ -140,69 +99,48 @@ std::vector<Series> state_lines(const Results& r, Numbers Curve::*quantity, doub
   return lines;
 }
 
-}  // namespace
-
-Figure nodal_diameter_figure(const Results& r) {
-  return report::nodal_diameter_plot(r.design);
+/// Over the frequencies of the study, from none.
+Plot over_frequency(Plot plot, std::vector<Series> series) {
+  plot.y.from_zero = true;
+  plot.series = std::move(series);
+  return plot;
 }
 
-Figure pressure_figure(const Results& r) {
-  const Numbers& pressure = r.design.contact.preload_pressure_pa;
-  return of_contact(r, pressure, report::readable_unit("Pa", report::largest(pressure)),
-                    {.title = "Pressure after spin-up",
-                     .description = "Under the centrifugal load alone. The last nodes stand for a sharp edge, whose "
-                                    "pressure grows as the mesh gets finer.",
-                     .y = {.label = "pressure"}});
-}
-
-Figure damping_figure(const Results& r) {
-  Plot plot{.title = "Response with friction against glued flanks",
-            .description = "Amplitude of the aerofoil's tip; frequency over that of the unworn resonance.",
-            .x = {.label = "frequency / resonance"},
-            .y = {.label = "amplitude", .unit = "mm", .from_zero = true}};
-  plot.series.push_back({.name = "glued, without friction",
-                         .x = relative_frequency(r),
-                         .y = scaled(r.glued_amplitude_m, 1e-3),
-                         .role = Role::before,
-                         .stroke = Stroke::dashed});
+Plot damping_figure(const Results& r) {
+  std::vector<Series> series{{.name = "glued, without friction",
+                              .x = relative_frequency(r),
+                              .y = scaled(r.glued_amplitude_m, 1e-3),
+                              .role = Role::before,
+                              .stroke = Stroke::dashed}};
   if (!r.states.empty())
-    plot.series.push_back(
+    series.push_back(
         {.name = "with friction", .x = relative_frequency(r), .y = scaled(r.states[0].curve.amplitude_m, 1e-3)});
-  return plot;
+  return over_frequency({.title = "Response with friction against glued flanks",
+                         .description = "Amplitude of the aerofoil's tip; frequency over that of the unworn resonance.",
+                         .x = {.label = "frequency / resonance"},
+                         .y = {.label = "amplitude", .unit = "mm"}},
+                        std::move(series));
 }
 
-Figure power_figure(const Results& r) {
-  Plot plot{.title = "Power dissipated by friction",
-            .description = "Average over a period; of both flanks of one sector.",
-            .x = {.label = "frequency / resonance"},
-            .y = {.label = "power", .unit = "W", .from_zero = true}};
-  if (!r.states.empty())
-    plot.series.push_back({.name = {}, .x = relative_frequency(r), .y = r.states.front().curve.power_w});
-  return plot;
+Plot power_figure(const Results& r) {
+  std::vector<Series> series;
+  if (!r.states.empty()) series.push_back({.x = relative_frequency(r), .y = r.states.front().curve.power_w});
+  return over_frequency({.title = "Power dissipated by friction",
+                         .description = "Average over a period; of both flanks of one sector.",
+                         .x = {.label = "frequency / resonance"},
+                         .y = {.label = "power", .unit = "W"}},
+                        std::move(series));
 }
 
-Figure first_rate_figure(const Results& r) {
-  const Numbers& rate = r.design.contact.wear_rate_m_per_cycle;
-  const Unit relative{.symbol = "", .si = std::max(report::largest(rate), 1e-300)};
-  return of_contact(r, rate, relative,
-                    {.title = "Wear rates of the first cycle",
-                     .description = fmt::format("Over the largest of both flanks, {} nm per million cycles.",
-                                                significant(report::largest(rate) * 1e15, 3)),
-                     .y = {.label = "rate / largest rate"}});
+Plot depth_course_figure(const Results& r) {
+  const std::string place = r.in_space() ? " and their place along the slot, from its middle" : "";
+  return courses(r, r.history.depth_m, 1e-6,
+                 {.title = "Wear depths over cycles",
+                  .description = "Of some nodes of one flank, named by their distance from its neck side" + place + ".",
+                  .y = {.label = "worn depth", .unit = "\u00b5m"}});
 }
 
-Figure depth_course_figure(const Results& r) {
-  return courses(
-      r, r.history.depth_m, 1e-6,
-      {.title = "Wear depths over cycles",
-       .description = r.in_space()
-                          ? "Of some nodes of one flank, named by their distance from its neck side and their place "
-                            "along the slot, from its middle."
-                          : "Of some nodes of one flank, named by their distance from its neck side.",
-       .y = {.label = "worn depth", .unit = "\u00b5m"}});
-}
-
-Figure rate_course_figure(const Results& r) {
+Plot rate_course_figure(const Results& r) {
   const double first = r.history.rate_m_per_cycle.empty() ? 1 : report::largest(r.history.rate_m_per_cycle.front());
   return courses(r, r.history.rate_m_per_cycle, first,
                  {.title = "Wear rates over cycles",
@@ -210,71 +148,43 @@ Figure rate_course_figure(const Results& r) {
                   .y = {.label = "rate / largest first rate"}});
 }
 
-Figure profile_figure(const Results& r) {
-  const Numbers& depth = r.design.contact.depth_m;
-  if (r.in_space())
-    return of_contact(r, depth, {.symbol = "\u00b5m", .si = 1e-6},
-                      {.title = "Final worn profile",
-                       .description = "Depth off both surfaces together when wear has come to rest, found directly.",
-                       .y = {.label = "worn depth"}});
-  Plot plot =
-      along_flank(r, depth, {.symbol = "\u00b5m", .si = 1e-6},
-                  {.title = "Final worn profile",
-                   .description = "Depth off both surfaces together when wear has come to rest, found directly; "
-                                  "dashed: where the history ended.",
-                   .y = {.label = "worn depth"}});
-  if (!r.history.depth_m.empty()) {
-    std::vector<Series> ended = flank_lines(r.design.contact, r.history.depth_m.back(), 1e-6);
-    for (Series& line : ended) {
-      line.name = "history" + (ended.size() > 1 ? ", " + line.name : "");
-      line.role = Role::before;
-      line.stroke = Stroke::dashed;
-      line.mark = report::Mark::none;
-      plot.series.push_back(line);
-    }
-  }
-  return plot;
-}
-
-Figure volume_figure(const Results& r) {
+Plot volume_figure(const Results& r) {
   Plot plot{.title = "Worn volume over cycles",
             .description = "Of both flanks; dashed: the state at rest, found directly.",
-            .x = cycle_axis(),
+            .x = kCycles,
             .y = {.label = "worn volume", .unit = "mm\u00b3", .from_zero = true}};
   if (r.history.cycles.size() < 2) return plot;
-  plot.series.push_back({.name = "history", .x = r.history.cycles, .y = scaled(r.history.volume_m3, 1e-9)});
-  plot.series.push_back({.name = "at rest",
-                         .x = {r.history.cycles[1], r.history.cycles.back()},
-                         .y = Numbers(2, r.asymptote_volume_m3 / 1e-9),
-                         .role = Role::before,
-                         .stroke = Stroke::dashed});
+  plot.series = {{.name = "history", .x = r.history.cycles, .y = scaled(r.history.volume_m3, 1e-9)},
+                 {.name = "at rest",
+                  .x = {r.history.cycles[1], r.history.cycles.back()},
+                  .y = Numbers(2, r.asymptote_volume_m3 / 1e-9),
+                  .role = Role::before,
+                  .stroke = Stroke::dashed}};
   return plot;
 }
 
-Figure wearing_response_figure(const Results& r) {
-  Plot plot{.title = "Response as the joint wears",
-            .description = "From new to at rest, states by equal shares of the volume worn in the end.",
-            .x = {.label = "frequency / unworn resonance"},
-            .y = {.label = "amplitude", .unit = "mm", .from_zero = true}};
-  plot.series = state_lines(r, &Curve::amplitude_m, 1e-3);
-  return plot;
+Plot wearing_response_figure(const Results& r) {
+  return over_frequency({.title = "Response as the joint wears",
+                         .description = "From new to at rest, states by equal shares of the volume worn in the end.",
+                         .x = {.label = "frequency / unworn resonance"},
+                         .y = {.label = "amplitude", .unit = "mm"}},
+                        state_lines(r, &Curve::amplitude_m, 1e-3));
 }
 
-Figure wearing_power_figure(const Results& r) {
-  Plot plot{.title = "Power dissipated as the joint wears",
-            .description = "Of the same states.",
-            .x = {.label = "frequency / unworn resonance"},
-            .y = {.label = "power", .unit = "W", .from_zero = true}};
-  plot.series = state_lines(r, &Curve::power_w, 1);
-  return plot;
+Plot wearing_power_figure(const Results& r) {
+  return over_frequency({.title = "Power dissipated as the joint wears",
+                         .description = "Of the same states.",
+                         .x = {.label = "frequency / unworn resonance"},
+                         .y = {.label = "power", .unit = "W"}},
+                        state_lines(r, &Curve::power_w, 1));
 }
 
-Figure amplitude_course_figure(const Results& r) {
+Plot amplitude_course_figure(const Results& r) {
   Plot plot{.title = "Amplitude while the joint wears",
             .description =
                 "Excited at the unworn resonance, and at the resonance of the joint as worn then. First and "
                 "last points: new, and at rest.",
-            .x = cycle_axis(),
+            .x = kCycles,
             .y = {.label = "amplitude", .unit = "mm"}};
   Series held{.name = "at the unworn resonance", .x = r.history.cycles, .y = scaled(r.history.amplitude_m, 1e-3)};
   Series peak{.name = "at the resonance that moves",
@@ -292,11 +202,11 @@ Figure amplitude_course_figure(const Results& r) {
   return plot;
 }
 
-Figure drift_figure(const Results& r) {
+Plot drift_figure(const Results& r) {
   Plot plot{
       .title = "Resonance while the joint wears",
       .description = "Frequency of the peak over that of the unworn joint. First and last points: new, and at rest.",
-      .x = cycle_axis(),
+      .x = kCycles,
       .y = {.label = "change of frequency", .unit = "10\u207b\u2074"}};
   Series line{.x = state_cycles(r), .mark = report::Mark::dot};
   for (const WornState& state : r.states)
@@ -305,8 +215,10 @@ Figure drift_figure(const Results& r) {
   return plot;
 }
 
+}  // namespace
+
 std::vector<std::pair<std::string, Figure>> figures(const Results& r) {
-  return {{"nodal_diameters", nodal_diameter_figure(r)},
+  return {{"nodal_diameters", report::nodal_diameter_plot(r.design)},
           {"preload_pressure", pressure_figure(r)},
           {"response", damping_figure(r)},
           {"dissipated_power", power_figure(r)},

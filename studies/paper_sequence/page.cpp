@@ -80,25 +80,6 @@ void add_findings(const std::vector<Finding>& all, report::Blanks& blanks) {
   for (const Finding& finding : all) blanks[finding.key] = beside(finding);
 }
 
-void add_figures(const Results& r, report::Blanks& blanks) {
-  const bool computed = !r.design.contact.flank.empty();
-  blanks["computed"] = computed ? "yes" : "";
-  for (const char* name : {"preload", "preload_figures", "unworn_figures", "first_rates", "wear_figures",
-                           "profile_figure", "joint_figure", "worn_figures"})
-    blanks[name];
-  if (!computed) return;
-  blanks["preload"] = frequency_text(r) + " " + pressure_text(r);
-  blanks["preload_figures"] = report::figures_html({nodal_diameter_figure(r), pressure_figure(r)});
-  blanks["unworn_figures"] = report::figures_html({damping_figure(r), power_figure(r)});
-  blanks["first_rates"] = first_rate_text(r);
-  blanks["wear_figures"] =
-      report::figures_html({first_rate_figure(r), volume_figure(r), depth_course_figure(r), rate_course_figure(r)});
-  blanks["profile_figure"] = report::figure_html(profile_figure(r));
-  blanks["joint_figure"] = report::joint_figure(r.design, nullptr);
-  blanks["worn_figures"] = report::figures_html(
-      {wearing_response_figure(r), wearing_power_figure(r), amplitude_course_figure(r), drift_figure(r)});
-}
-
 }  // namespace
 
 std::string page_html(const Results& r) {
@@ -117,7 +98,14 @@ std::string page_html(const Results& r) {
                         {"provenance", provenance(r)},
                         {"study", r.study_text}};
   add_findings(all, blanks);
-  add_figures(r, blanks);
+  for (const char* name : {"computed", "preload", "first_rates", "joint_figure"}) blanks[name];
+  if (!r.design.contact.flank.empty()) {
+    blanks["computed"] = "yes";
+    blanks["preload"] = frequency_text(r) + " " + pressure_text(r);
+    blanks["first_rates"] = first_rate_text(r);
+    blanks["joint_figure"] = report::joint_figure(r.design, nullptr);
+    for (const auto& [key, figure] : figures(r)) blanks[key] = report::figure_html(figure);
+  }
   return report::page("The reference " + words.title + " \u2013 dovetail", texts::page_css,
                       report::fill(texts::page_html, blanks));
 }
