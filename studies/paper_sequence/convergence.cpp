@@ -51,7 +51,8 @@ class Convergence {
 
   std::vector<ConvergenceRow> run() {
     for (const double factor : options_.mesh_factors) over_mesh(factor);
-    for (const int modes : with_own(options_.modes, scene_.solver.modes)) over_modes(modes);
+    for (const int modes : with_own(options_.modes, scene_.solver.modes))
+      over_solver("modes", &optimizer::SolverSettings::modes, modes);
     for (const int harmonics : with_own(options_.harmonics, scene_.solver.harmonics))
       over_solver("harmonics", &optimizer::SolverSettings::harmonics, harmonics);
     for (const int samples : with_own(options_.samples, scene_.solver.samples))
@@ -78,25 +79,14 @@ class Convergence {
     if (own) own_ = model;
   }
 
-  void over_modes(int modes) {
-    optimizer::Scene scene = scene_;
-    scene.solver.modes = modes;
-    const bool own = modes == scene_.solver.modes;
-    say(fmt::format("{} modes", modes));
-    optimizer::Stopwatch watch;
-    const optimizer::CandidateModel model = optimizer::ModelBuilder(scene).build(scene);
-    add({.kind = "modes", .setting = std::to_string(modes), .reference = own}, model, scene, watch);
-    if (own) own_ = model;
-  }
-
-  /// The solver's setting on the study's own model.
+  /// A setting of the solver; the number of modes takes a model of its own, the others the study's.
   void over_solver(const std::string& kind, int optimizer::SolverSettings::*setting, int value) {
     optimizer::Scene scene = scene_;
     scene.solver.*setting = value;
     say(fmt::format("{} {}", value, kind));
     optimizer::Stopwatch watch;
-    add({.kind = kind, .setting = std::to_string(value), .reference = value == scene_.solver.*setting}, own_model(),
-        scene, watch);
+    add({.kind = kind, .setting = std::to_string(value), .reference = value == scene_.solver.*setting},
+        kind == "modes" ? optimizer::ModelBuilder(scene).build(scene) : own_model(), scene, watch);
   }
 
   const optimizer::CandidateModel& own_model() {

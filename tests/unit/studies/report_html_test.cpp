@@ -5,9 +5,12 @@
 
 #include <limits>
 #include <regex>
+#include <stdexcept>
 
 #include "studies/report/pages/html.hpp"
+#include "studies/report/pages/page.hpp"
 #include "studies/report/pages/report_words.hpp"
+#include "studies/report/pages/table.hpp"
 #include "studies/report/plots/report_plots.hpp"
 #include "tests/unit/studies/report_markup.hpp"
 #include "tests/unit/studies/report_sample.hpp"
@@ -43,6 +46,27 @@ TEST(MarkupCheck, SeesWhatIsBroken) {
   EXPECT_NE(markup_error("<a>x & y</a>"), "");
   EXPECT_NE(markup_error("<a>x < y</a>"), "");
   EXPECT_NE(markup_error("<a>"), "");
+}
+
+TEST(Template, FillsInTextsAndMarkup) {
+  const Blanks blanks{{"a", "1 < 2"}, {"none", ""}};
+  EXPECT_EQ(fill("x {{a}} {{{a}}} {y}", blanks), "x 1 &lt; 2 1 < 2 {y}");
+  EXPECT_EQ(fill("{{#a}}is {{a}}{{/a}}{{^a}}is not{{/a}}{{#none}}{{a}}{{/none}}{{^none}}, no{{/none}}", blanks),
+            "is 1 &lt; 2, no");
+  // What is filled in is not read again.
+  EXPECT_EQ(fill("{{a}}", {{"a", "{{b}}"}}), "{{b}}");
+  EXPECT_THROW(static_cast<void>(fill("{{b}}", blanks)), std::out_of_range);
+}
+
+TEST(Table, EscapesAllButMarkup) {
+  const std::string html = table_html({.columns = {{"a & b"}, {"c", true}},
+                                       .rows = {{.cells = {"x < y", Html{"<b>1</b>"}}, .style = "aim"}, {{"z", "w"}}},
+                                       .style = "pair"});
+  EXPECT_EQ(markup_error(html), "");
+  EXPECT_THAT(html, HasSubstr("<th scope=\"col\">a &amp; b</th><th scope=\"col\" class=\"text\">c</th>"));
+  EXPECT_THAT(html,
+              HasSubstr("<tr class=\"aim\"><th scope=\"row\">x &lt; y</th><td class=\"text\"><b>1</b></td></tr>"));
+  EXPECT_THAT(html, HasSubstr("<tr><th scope=\"row\">z</th>"));
 }
 
 TEST(Report, IsWellFormedAndNeedsNoOtherFile) {

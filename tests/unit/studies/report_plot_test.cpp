@@ -155,6 +155,13 @@ TEST(Plot, StaysWithinItsAxes) {
   EXPECT_EQ(svg.find("nan"), std::string::npos);
 }
 
+TEST(Plot, GivesItsNumbersAsATable) {
+  const std::string csv = figure_csv(sample_plot());
+  EXPECT_THAT(csv, testing::StartsWith("\"line\",\"position (mm)\",\"depth & width (\u00b5m)\"\n\"one <line>\",0,1\n"));
+  EXPECT_THAT(csv, HasSubstr("\"one <line>\",1,\n"));  // what is not known is empty
+  EXPECT_THAT(csv, HasSubstr("\"best\",1,2\n"));
+}
+
 TEST(Plot, WithoutNumbersIsASentence) {
   Plot plot = sample_plot();
   plot.series.resize(1);
