@@ -58,8 +58,7 @@ void add_designs(const Comparison& designs, Blanks& blanks) {
   if (!designs.after) return;
   const DesignRecord& design = *designs.after;
   blanks["shape"] = joint_figure(design, designs.before) + sector_figure(design, designs.before);
-  blanks["contact"] =
-      figures_html({wear_depth_plot(designs), pressure_plot(designs), gap_plot(designs), fillet_plot(designs)});
+  blanks["contact"] = figures_html(contact_plots(designs));
   if (in_space(design.contact)) blanks["maps"] = figures_html(contact_maps(design));
   blanks["in_space"] = blanks["maps"];
   blanks["vibration"] = figures_html({response_plot(designs), nodal_diameter_plot(design)});

@@ -48,13 +48,9 @@ Cell change(const EvaluationRecord& from, const EvaluationRecord& to, const std:
   if (std::abs(b - a) <= 1e-8 * std::max(std::abs(a), std::abs(b))) return "none";
   const double bars = error_bar(from, name) + error_bar(to, name);
   const bool small = bars > 0 && std::abs(b - a) <= bars;
-  std::string text;
-  if (a > 0 && b > 0) {
-    const double percent = 100 * (b / a - 1);
-    text = (percent > 0 ? "+" : "") + significant(percent, std::abs(percent) >= 10 ? 3 : 2) + "\u00a0%";
-  } else {
-    text = (b > a ? "+" : "") + significant((b - a) / unit.si, 3) + "\u00a0" + unit.symbol;
-  }
+  const std::string text = a > 0 && b > 0
+                               ? per_cent(b, a, 2, 3)
+                               : (b > a ? "+" : "") + significant((b - a) / unit.si, 3) + "\u00a0" + unit.symbol;
   return Html{small ? text + " <span class=\"soft\">within error</span>" : text};
 }
 

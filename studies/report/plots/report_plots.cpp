@@ -66,6 +66,33 @@ Plot flank_plot(const Comparison& designs, Numbers ContactRecord::*quantity, std
   return readable(std::move(plot), si_unit);
 }
 
+Plot fillet_plot(const Comparison& designs) {
+  Plot plot{.title = "Stress in the fillets",
+            .description =
+                "Largest von Mises stress over one period of the resonance, along the more loaded fillet of the "
+                "blade's neck (solid) and of the disk's slot (dashed).",
+            .x = {.label = "height above the fillet's lower end", .unit = "mm"},
+            .y = {.label = "von Mises stress", .unit = "MPa", .from_zero = true}};
+  for (const auto& [design, role] : in_order(designs)) {
+    for (const FilletRecord& fillet : design->fillets) {
+      const std::size_t count = fillet.von_mises_pa.size();
+      if (count == 0 || fillet.x_m.size() != count || fillet.y_m.size() != count) continue;
+      const auto peak = static_cast<std::size_t>(
+          std::max_element(fillet.von_mises_pa.begin(), fillet.von_mises_pa.end()) - fillet.von_mises_pa.begin());
+      std::vector<std::pair<double, double>> points;  // height, stress
+      for (std::size_t i = 0; i < count; ++i)
+        if ((fillet.x_m[i] > 0) == (fillet.x_m[peak] > 0)) points.emplace_back(fillet.y_m[i], fillet.von_mises_pa[i]);
+      std::sort(points.begin(), points.end());
+      Series series{.name = name_of(designs, role, fillet.name),
+                    .role = role,
+                    .stroke = fillet.name == "blade" ? Stroke::solid : Stroke::dashed};
+      for (const auto& [height, stress] : points) series.add((height - points.front().first) / 1e-3, stress / 1e6);
+      plot.series.push_back(std::move(series));
+    }
+  }
+  return plot;
+}
+
 FlankMap flank_map(const ContactRecord& contact, const Numbers& values, const std::string& si_unit, FlankMap map) {
   map.unit = readable_unit(si_unit, largest(values));
   map.panels = flank_panels(contact, values);
@@ -135,27 +162,22 @@ Series along_line(const Numbers& along_m, const Numbers& values, const std::vect
   return look;
 }
 
-Plot wear_depth_plot(const Comparison& designs) {
-  return flank_plot(designs, &ContactRecord::depth_m, "m",
-                    {.title = "Wear depth when wear has come to rest",
-                     .description = "Depth worn off both surfaces together. Where it is zero, the surfaces stick or "
-                                    "do not touch.",
-                     .y = {.label = "worn depth"}});
-}
-
-Plot pressure_plot(const Comparison& designs) {
-  return flank_plot(designs, &ContactRecord::preload_pressure_pa, "Pa",
-                    {.title = "Pressure after spin-up",
-                     .description = "Contact pressure under the centrifugal load alone, before any vibration.",
-                     .y = {.label = "pressure"}});
-}
-
-Plot gap_plot(const Comparison& designs) {
-  return flank_plot(designs, &ContactRecord::gap_m, "m",
-                    {.title = "Form of the flanks",
-                     .description = "Gap between blade and disk before loading: mismatch, crown, relief and rounded "
-                                    "ends together.",
-                     .y = {.label = "gap"}});
+std::vector<Figure> contact_plots(const Comparison& designs) {
+  return {flank_plot(designs, &ContactRecord::depth_m, "m",
+                     {.title = "Wear depth when wear has come to rest",
+                      .description = "Depth worn off both surfaces together. Where it is zero, the surfaces stick or "
+                                     "do not touch.",
+                      .y = {.label = "worn depth"}}),
+          flank_plot(designs, &ContactRecord::preload_pressure_pa, "Pa",
+                     {.title = "Pressure after spin-up",
+                      .description = "Contact pressure under the centrifugal load alone, before any vibration.",
+                      .y = {.label = "pressure"}}),
+          flank_plot(designs, &ContactRecord::gap_m, "m",
+                     {.title = "Form of the flanks",
+                      .description = "Gap between blade and disk before loading: mismatch, crown, relief and rounded "
+                                     "ends together.",
+                      .y = {.label = "gap"}}),
+          fillet_plot(designs)};
 }
 
 Plot response_plot(const Comparison& designs) {
@@ -193,33 +215,6 @@ Plot nodal_diameter_plot(const DesignRecord& design) {
                                                                     ? record.frequency_hz[d * modes + mode]
                                                                     : std::numeric_limits<double>::quiet_NaN());
     plot.series.push_back(std::move(series));
-  }
-  return plot;
-}
-
-Plot fillet_plot(const Comparison& designs) {
-  Plot plot{.title = "Stress in the fillets",
-            .description =
-                "Largest von Mises stress over one period of the resonance, along the more loaded fillet of the "
-                "blade's neck (solid) and of the disk's slot (dashed).",
-            .x = {.label = "height above the fillet's lower end", .unit = "mm"},
-            .y = {.label = "von Mises stress", .unit = "MPa", .from_zero = true}};
-  for (const auto& [design, role] : in_order(designs)) {
-    for (const FilletRecord& fillet : design->fillets) {
-      const std::size_t count = fillet.von_mises_pa.size();
-      if (count == 0 || fillet.x_m.size() != count || fillet.y_m.size() != count) continue;
-      const auto peak = static_cast<std::size_t>(
-          std::max_element(fillet.von_mises_pa.begin(), fillet.von_mises_pa.end()) - fillet.von_mises_pa.begin());
-      std::vector<std::pair<double, double>> points;  // height, stress
-      for (std::size_t i = 0; i < count; ++i)
-        if ((fillet.x_m[i] > 0) == (fillet.x_m[peak] > 0)) points.emplace_back(fillet.y_m[i], fillet.von_mises_pa[i]);
-      std::sort(points.begin(), points.end());
-      Series series{.name = name_of(designs, role, fillet.name),
-                    .role = role,
-                    .stroke = fillet.name == "blade" ? Stroke::solid : Stroke::dashed};
-      for (const auto& [height, stress] : points) series.add((height - points.front().first) / 1e-3, stress / 1e6);
-      plot.series.push_back(std::move(series));
-    }
   }
   return plot;
 }

@@ -33,13 +33,11 @@ struct Comparison {
 /// Wear depth and pressure over the flanks of a joint in space; none in the plane.
 [[nodiscard]] std::vector<Figure> contact_maps(const DesignRecord& design);
 
-// Each plot is empty (is_empty) when the designs do not hold what it shows. Colours tell before from after; line
-// styles tell the rest.
-[[nodiscard]] Plot wear_depth_plot(const Comparison& designs);
-[[nodiscard]] Plot pressure_plot(const Comparison& designs);
-[[nodiscard]] Plot gap_plot(const Comparison& designs);
-/// Largest stress over a period along the fillets, of the side where it is larger.
-[[nodiscard]] Plot fillet_plot(const Comparison& designs);
+// Each figure is empty when the designs do not hold what it shows. Colours tell before from after; line
+// strokes tell the rest.
+/// Wear depth, pressure and form of the flanks; largest stress over a period along the fillets, of the side where it is
+/// larger.
+[[nodiscard]] std::vector<Figure> contact_plots(const Comparison& designs);
 [[nodiscard]] Plot response_plot(const Comparison& designs);
 [[nodiscard]] Plot nodal_diameter_plot(const DesignRecord& design);
 /// What a wear history comes to over its cycles: worn volume, largest depth, amplitude, profiles.

@@ -218,8 +218,9 @@ TEST(Report, SaysWhenTheStartStaysTheBest) {
 TEST(ReportPlots, MergeFlanksOnlyWhenTheyAreAlike) {
   DesignRecord design = sample_design(2);
   // Depths are the same on both sides, pressures differ by 10 %.
-  EXPECT_EQ(wear_depth_plot({.before = nullptr, .after = &design}).series.size(), 1U);
-  EXPECT_EQ(pressure_plot({.before = nullptr, .after = &design}).series.size(), 2U);
+  const std::vector<Figure> plots = contact_plots({.before = nullptr, .after = &design});
+  EXPECT_EQ(std::get<Plot>(plots[0]).series.size(), 1U);
+  EXPECT_EQ(std::get<Plot>(plots[1]).series.size(), 2U);
 }
 
 TEST(ReportPlots, ShowTheObjectiveInItsUnit) {
