@@ -48,7 +48,8 @@ int main(int argc, char** argv) {
   bool converge = false;
   return ready_study::run(
       argc, argv,
-      {.about = "Vibration and fretting wear of a bladed disk, in a plane section or in space, figure by figure.",
+      {.page = "report.html",
+       .about = "Vibration and fretting wear of a bladed disk, in a plane section or in space, figure by figure.",
        .files = "report.html, the CSV files and the JSON files",
        .quick = "A coarse mesh and few steps, in seconds: a look at the page",
        .flags = {{"--convergence", "Also over mesh, modes, harmonics and samples: a table", &converge}},

@@ -29,7 +29,7 @@ int run(int argc, char** argv, const Program& program) try {
   for (const Flag& flag : program.flags) app.add_flag(flag.name, *flag.set, flag.help);
   CLI11_PARSE(app, argc, argv);
   const std::vector<std::string> failures = program.run(call);
-  call.say("done: " + call.folder);
+  call.say("done: " + call.folder + "/" + program.page);
   for (const std::string& failure : failures) std::fprintf(stderr, "%s\n", failure.c_str());
   return failures.empty() ? 0 : 3;
 } catch (const InputError& error) {

@@ -30,6 +30,7 @@ struct Flag {
 
 /// A program of a ready study: PROGRAM FOLDER --study FILE [--commit TEXT] [--quick].
 struct Program {
+  const char* page;   ///< the file of FOLDER to look at
   const char* about;  ///< for its help, as the following two
   const char* files;  ///< what FOLDER gets
   const char* quick;

@@ -41,7 +41,8 @@ std::vector<std::string> run(const ready_study::Call& call) {
 
 int main(int argc, char** argv) {
   return ready_study::run(argc, argv,
-                          {.about = "Pressure and slip in a straight and in a skewed dovetail slot.",
+                          {.page = "report.html",
+                           .about = "Pressure and slip in a straight and in a skewed dovetail slot.",
                            .files = "report.html, the CSV files and results.json",
                            .quick = "A coarse mesh, two angles, no wear: a look at the page",
                            .run = run});

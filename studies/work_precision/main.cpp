@@ -26,7 +26,8 @@ std::vector<std::string> run(const dovetail::ready_study::Call& call) {
 
 int main(int argc, char** argv) {
   return dovetail::ready_study::run(argc, argv,
-                                    {.about = "Seconds on one core against true error of the contact engine.",
+                                    {.page = "index.html",
+                                     .about = "Seconds on one core against true error of the contact engine.",
                                      .files = "table.csv, growth.csv, table.json and index.html",
                                      .quick = "Small models and few settings, in seconds: a look at the page",
                                      .run = run});

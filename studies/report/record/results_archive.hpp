@@ -16,9 +16,6 @@ using Wholes = std::vector<std::int64_t>;
 using Texts = std::vector<std::string>;
 using NamedValues = std::map<std::string, double>;
 
-template <class T, class... Others>
-concept OneOf = (std::same_as<T, Others> || ...);
-
 /// Records to a results file or from it, by their tables of fields: one function serves both ways, so that they cannot
 /// drift apart. A record is a group; its texts and numbers are attributes, its lists and tables data sets, its records
 /// groups. The root is the group "". What is inconsistent in a file read is an InputError naming file and data set.
