@@ -102,3 +102,19 @@ function(dovetail_test name)
     PROPERTIES LABELS ${ARG_LABEL} ${environment}
     DISCOVERY_TIMEOUT 60)
 endfunction()
+
+# Files of text as constants of the header FOLDER/texts.hpp, dovetail::NAMESPACE::texts::page_css for page.css:
+# dovetail_texts(TARGET FOLDER NAMESPACE file...).
+function(dovetail_texts target folder namespace)
+  set(header "#pragma once\n\n#include <string_view>\n\nnamespace dovetail::${namespace}::texts {\n")
+  foreach(file ${ARGN})
+    file(READ ${file} text)
+    get_filename_component(name ${file} NAME)
+    string(MAKE_C_IDENTIFIER ${name} name)
+    string(APPEND header "inline constexpr std::string_view ${name} = R\"text(${text})text\";\n")
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${file})
+  endforeach()
+  set(place ${CMAKE_CURRENT_BINARY_DIR}/texts)
+  file(CONFIGURE OUTPUT ${place}/${folder}/texts.hpp CONTENT "${header}}\n" @ONLY)
+  target_include_directories(${target} PRIVATE ${place})
+endfunction()

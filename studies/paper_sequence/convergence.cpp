@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
 #include "optimizer/candidate/stopwatch.hpp"
 #include "optimizer/evaluator.hpp"
-#include "studies/report/pages/html.hpp"
+#include "studies/report/pages/table.hpp"
 #include "studies/report/pages/units.hpp"
 #include "wear/asymptote/asymptote.hpp"
 
@@ -50,9 +51,12 @@ class Convergence {
 
   std::vector<ConvergenceRow> run() {
     for (const double factor : options_.mesh_factors) over_mesh(factor);
-    for (const int modes : with_own(options_.modes, scene_.solver.modes)) over_modes(modes);
-    for (const int harmonics : with_own(options_.harmonics, scene_.solver.harmonics)) over_harmonics(harmonics);
-    for (const int samples : with_own(options_.samples, scene_.solver.samples)) over_samples(samples);
+    for (const int modes : with_own(options_.modes, scene_.solver.modes))
+      over_solver("modes", &optimizer::SolverSettings::modes, modes);
+    for (const int harmonics : with_own(options_.harmonics, scene_.solver.harmonics))
+      over_solver("harmonics", &optimizer::SolverSettings::harmonics, harmonics);
+    for (const int samples : with_own(options_.samples, scene_.solver.samples))
+      over_solver("samples", &optimizer::SolverSettings::samples, samples);
     return std::move(rows_);
   }
 
@@ -75,33 +79,14 @@ class Convergence {
     if (own) own_ = model;
   }
 
-  void over_modes(int modes) {
+  /// A setting of the solver; the number of modes takes a model of its own, the others the study's.
+  void over_solver(const std::string& kind, int optimizer::SolverSettings::*setting, int value) {
     optimizer::Scene scene = scene_;
-    scene.solver.modes = modes;
-    const bool own = modes == scene_.solver.modes;
-    say(fmt::format("{} modes", modes));
+    scene.solver.*setting = value;
+    say(fmt::format("{} {}", value, kind));
     optimizer::Stopwatch watch;
-    const optimizer::CandidateModel model = optimizer::ModelBuilder(scene).build(scene);
-    add({.kind = "modes", .setting = std::to_string(modes), .reference = own}, model, scene, watch);
-    if (own) own_ = model;
-  }
-
-  void over_harmonics(int harmonics) {
-    optimizer::Scene scene = scene_;
-    scene.solver.harmonics = harmonics;
-    say(fmt::format("{} harmonics", harmonics));
-    optimizer::Stopwatch watch;
-    add({.kind = "harmonics", .setting = std::to_string(harmonics), .reference = harmonics == scene_.solver.harmonics},
-        own_model(), scene, watch);
-  }
-
-  void over_samples(int samples) {
-    optimizer::Scene scene = scene_;
-    scene.solver.samples = samples;
-    say(fmt::format("{} samples", samples));
-    optimizer::Stopwatch watch;
-    add({.kind = "samples", .setting = std::to_string(samples), .reference = samples == scene_.solver.samples},
-        own_model(), scene, watch);
+    add({.kind = kind, .setting = std::to_string(value), .reference = value == scene_.solver.*setting},
+        kind == "modes" ? optimizer::ModelBuilder(scene).build(scene) : own_model(), scene, watch);
   }
 
   const optimizer::CandidateModel& own_model() {
@@ -141,12 +126,22 @@ class Convergence {
   std::vector<ConvergenceRow> rows_;
 };
 
-/// "+0.12 %" against the reference's value.
+/// A quantity of the table: what it is, its unit and digits.
+struct Shown {
+  const char* heading;
+  double ConvergenceRow::*value;
+  report::Unit unit;
+  int digits = 4;
+};
+const std::array<Shown, 5> kShown{{{"resonance", &ConvergenceRow::frequency_hz, {"Hz", 1}, 7},
+                                   {"mean pressure", &ConvergenceRow::pressure_mean_pa, {"MPa", 1e6}},
+                                   {"largest pressure", &ConvergenceRow::pressure_max_pa, {"MPa", 1e6}},
+                                   {"dissipated energy", &ConvergenceRow::energy_j, {"mJ", 1e-3}},
+                                   {"worn volume", &ConvergenceRow::volume_m3, {"mm\u00b3", 1e-9}}}};
+
+/// Against the reference's value.
 std::string change(double value, double reference) {
-  if (!std::isfinite(value) || !(reference > 0)) return "\u2013";
-  const double per_cent = 100 * (value / reference - 1);
-  if (per_cent == 0) return "0";
-  return (per_cent > 0 ? "+" : "") + report::significant(per_cent, 2) + "\u00a0%";
+  return value == reference && reference > 0 ? "0" : report::per_cent(value, reference);
 }
 
 }  // namespace
@@ -156,33 +151,28 @@ std::vector<ConvergenceRow> convergence(const optimizer::Scene& scene, const Con
 }
 
 std::string convergence_table(const std::vector<ConvergenceRow>& rows) {
-  std::string text =
-      "<div class=\"scroll\"><table><thead><tr><th class=\"text\">what changes</th><th class=\"text\">setting</th>"
-      "<th>resonance</th><th>mean pressure</th><th>largest pressure</th><th>dissipated energy</th><th>worn volume</th>"
-      "<th>time (s)</th></tr></thead><tbody>\n";
+  if (rows.empty()) return {};
+  report::Table table{.columns = {{"what changes", true}, {"setting", true}}, .rows = {}, .named_rows = false};
+  for (const Shown& shown : kShown) table.columns.push_back({shown.heading});
+  table.columns.push_back({"time (s)"});
   for (const ConvergenceRow& row : rows) {
     const auto own = std::find_if(rows.begin(), rows.end(), [&](const ConvergenceRow& other) {
       return other.kind == row.kind && other.reference;
     });
-    text += fmt::format("<tr{}><td class=\"text\">{}</td><td class=\"text\">{}</td>",
-                        row.reference ? " class=\"aim\"" : "", row.kind, report::escape(row.setting));
-    if (row.status != "converged" && row.frequency_hz == 0) {
-      text += "<td colspan=\"5\">" + report::escape(row.status) + "</td>";
-    } else if (row.reference || own == rows.end()) {
-      text += fmt::format("<td>{} Hz</td><td>{} MPa</td><td>{} MPa</td><td>{} mJ</td><td>{} mm\u00b3</td>",
-                          report::significant(row.frequency_hz, 7), report::significant(row.pressure_mean_pa / 1e6, 4),
-                          report::significant(row.pressure_max_pa / 1e6, 4),
-                          report::significant(row.energy_j / 1e-3, 4), report::significant(row.volume_m3 / 1e-9, 4));
-    } else {
-      text +=
-          fmt::format("<td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>",
-                      change(row.frequency_hz, own->frequency_hz), change(row.pressure_mean_pa, own->pressure_mean_pa),
-                      change(row.pressure_max_pa, own->pressure_max_pa), change(row.energy_j, own->energy_j),
-                      row.status == "converged" ? change(row.volume_m3, own->volume_m3) : report::escape(row.status));
+    report::Row line{.cells = {row.kind, row.setting}, .style = row.reference ? "aim" : ""};
+    for (const Shown& shown : kShown) {
+      const double value = row.*shown.value;
+      // Where no resonance was found nothing is known, where no state at rest was all but the volume.
+      const bool known = row.status == "converged" || (row.frequency_hz != 0 && &shown != &kShown.back());
+      line.cells.emplace_back(!known ? row.status
+                              : row.reference || own == rows.end()
+                                  ? report::significant(value / shown.unit.si, shown.digits) + " " + shown.unit.symbol
+                                  : change(value, (*own).*shown.value));
     }
-    text += fmt::format("<td>{}</td></tr>\n", report::significant(row.seconds, 2));
+    line.cells.emplace_back(report::significant(row.seconds, 2));
+    table.rows.push_back(std::move(line));
   }
-  return text + "</tbody></table></div>\n";
+  return table_html(table);
 }
 
 }  // namespace dovetail::paper_sequence

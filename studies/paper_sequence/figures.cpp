@@ -1,12 +1,11 @@
 #include "studies/paper_sequence/figures.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
+#include "studies/paper_sequence/contact_figures.hpp"
 #include "studies/paper_sequence/findings.hpp"
 #include "studies/report/pages/units.hpp"
 #include "studies/report/plots/report_plots.hpp"
@@ -15,12 +14,11 @@ namespace dovetail::paper_sequence {
 namespace {
 
 using report::Plot;
-using report::PlotLine;
 using report::Role;
 using report::scaled;
+using report::Series;
 using report::significant;
 using report::Stroke;
-using report::Unit;
 
 /// Colours and strokes of lines that stand for a sequence or for nodes.
 constexpr std::array<std::pair<Role, Stroke>, 6> kLooks{{{Role::after, Stroke::solid},
@@ -30,54 +28,10 @@ constexpr std::array<std::pair<Role, Stroke>, 6> kLooks{{{Role::after, Stroke::s
                                                          {Role::bad, Stroke::dashed},
                                                          {Role::before, Stroke::dashed}}};
 
-report::PlotAxis cycle_axis() {
-  return {.label = "load cycles", .logarithmic = true, .tight = true};
-}
+const report::PlotAxis kCycles{.label = "load cycles", .logarithmic = true, .tight = true};
 
 Numbers relative_frequency(const Results& r) {
   return scaled(r.frequency_hz, r.resonance_hz);
-}
-
-/// Both flanks of the contact nodes; one line where the flanks are alike.
-std::vector<PlotLine> flank_lines(const report::ContactRecord& contact, const Numbers& values, double si) {
-  const Numbers left = of_flank(contact, values, 0), right = of_flank(contact, values, 1);
-  const double most = report::largest(values);
-  const bool alike = std::equal(left.begin(), left.end(), right.begin(), right.end(),
-                                [&](double a, double b) { return std::abs(a - b) < 0.01 * most; });
-  PlotLine first{.name = alike ? "both flanks" : "left flank",
-                 .x = scaled(of_flank(contact, contact.along_m, 0), 1e-3),
-                 .y = scaled(left, si)};
-  first.dots = true;
-  if (alike) return {first};
-  PlotLine second{.name = "right flank",
-                  .x = scaled(of_flank(contact, contact.along_m, 1), 1e-3),
-                  .y = scaled(right, si),
-                  .role = Role::bad,
-                  .stroke = Stroke::dashed};
-  return {first, second};
-}
-
-Plot along_flank(const Results& r, const Numbers& values, const Unit& unit, Plot plot) {
-  plot.x = {.label = "along the flank, from its neck side", .unit = "mm"};
-  plot.y.unit = unit.symbol;
-  plot.y.from_zero = true;
-  plot.lines = flank_lines(r.design.contact, values, unit.si);
-  return plot;
-}
-
-/// The same over both flanks in space.
-report::FlankMap over_flanks(const Results& r, const Numbers& values, const Unit& unit, const Plot& plot) {
-  return {.title = plot.title,
-          .description = plot.description,
-          .quantity = plot.y.label,
-          .unit = unit,
-          .panels = report::flank_panels(r.design.contact, values)};
-}
-
-/// Along the flank in the plane, over the flanks in space.
-Figure of_contact(const std::string& key, const Results& r, const Numbers& values, const Unit& unit, Plot plot) {
-  if (r.in_space()) return {.key = key, .map = over_flanks(r, values, unit, plot)};
-  return {.key = key, .plot = along_flank(r, values, unit, std::move(plot))};
 }
 
 /// Up to five nodes of the left flank, evenly over those that wear.
@@ -97,20 +51,20 @@ std::vector<std::size_t> shown_nodes(const Results& r) {
 
 /// Depths or rates of the shown nodes over cycles; the unworn state stands at half the cycles of the first step.
 Plot courses(const Results& r, const std::vector<Numbers>& values, double si, Plot plot) {
-  plot.x = cycle_axis();
+  plot.x = kCycles;
   plot.y.from_zero = true;
   Numbers cycles = r.history.cycles;
   if (cycles.size() > 1) cycles.front() = 0.5 * cycles[1];
   const std::vector<std::size_t> nodes = shown_nodes(r);
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     const report::ContactRecord& contact = r.design.contact;
-    PlotLine line{.name = significant(contact.along_m[nodes[k]] / 1e-3, 2) +
-                          (r.in_space() ? ", " + significant(contact.across_m[nodes[k]] / 1e-3, 2) : "") + " mm",
-                  .x = cycles,
-                  .role = kLooks[k].first,
-                  .stroke = kLooks[k].second};
+    Series line{.name = significant(contact.along_m[nodes[k]] / 1e-3, 2) +
+                        (r.in_space() ? ", " + significant(contact.across_m[nodes[k]] / 1e-3, 2) : "") + " mm",
+                .x = cycles,
+                .role = kLooks[k].first,
+                .stroke = kLooks[k].second};
     for (const Numbers& state : values) line.y.push_back(state[nodes[k]] / si);
-    plot.lines.push_back(std::move(line));
+    plot.series.push_back(std::move(line));
   }
   return plot;
 }
@@ -131,8 +85,8 @@ Numbers state_cycles(const Results& r) {
 }
 
 /// A line for each state over the frequencies; of those between new and at rest the middle one is named.
-std::vector<PlotLine> state_lines(const Results& r, Numbers Curve::*quantity, double si) {
-  std::vector<PlotLine> lines;
+std::vector<Series> state_lines(const Results& r, Numbers Curve::*quantity, double si) {
+  std::vector<Series> lines;
   for (std::size_t i = 0; i < r.states.size(); ++i) {
     const bool first = i == 0, last = i + 1 == r.states.size();
     lines.push_back({.name = first || last || i == r.states.size() / 2 ? cycles_words(r.states[i].cycles) : "",
@@ -145,178 +99,138 @@ std::vector<PlotLine> state_lines(const Results& r, Numbers Curve::*quantity, do
   return lines;
 }
 
-}  // namespace
-
-Figure nodal_diameter_figure(const Results& r) {
-  return {.key = "nodal_diameters", .plot = report::nodal_diameter_plot(r.design)};
+/// Over the frequencies of the study, from none.
+Plot over_frequency(Plot plot, std::vector<Series> series) {
+  plot.y.from_zero = true;
+  plot.series = std::move(series);
+  return plot;
 }
 
-Figure pressure_figure(const Results& r) {
-  const Numbers& pressure = r.design.contact.preload_pressure_pa;
-  return of_contact("preload_pressure", r, pressure, report::readable_unit("Pa", report::largest(pressure)),
-                    {.title = "Pressure after spin-up",
-                     .description = "Under the centrifugal load alone. The last nodes stand for a sharp edge, whose "
-                                    "pressure grows as the mesh gets finer.",
-                     .y = {.label = "pressure"}});
-}
-
-Figure damping_figure(const Results& r) {
-  Plot plot{.title = "Response with friction against glued flanks",
-            .description = "Amplitude of the aerofoil's tip; frequency over that of the unworn resonance.",
-            .x = {.label = "frequency / resonance"},
-            .y = {.label = "amplitude", .unit = "mm", .from_zero = true}};
-  plot.lines.push_back({.name = "glued, without friction",
-                        .x = relative_frequency(r),
-                        .y = scaled(r.glued_amplitude_m, 1e-3),
-                        .role = Role::before,
-                        .stroke = Stroke::dashed});
+Plot damping_figure(const Results& r) {
+  std::vector<Series> series{{.name = "glued, without friction",
+                              .x = relative_frequency(r),
+                              .y = scaled(r.glued_amplitude_m, 1e-3),
+                              .role = Role::before,
+                              .stroke = Stroke::dashed}};
   if (!r.states.empty())
-    plot.lines.push_back(
+    series.push_back(
         {.name = "with friction", .x = relative_frequency(r), .y = scaled(r.states[0].curve.amplitude_m, 1e-3)});
-  return {.key = "response", .plot = plot};
+  return over_frequency({.title = "Response with friction against glued flanks",
+                         .description = "Amplitude of the aerofoil's tip; frequency over that of the unworn resonance.",
+                         .x = {.label = "frequency / resonance"},
+                         .y = {.label = "amplitude", .unit = "mm"}},
+                        std::move(series));
 }
 
-Figure power_figure(const Results& r) {
-  Plot plot{.title = "Power dissipated by friction",
-            .description = "Average over a period; of both flanks of one sector.",
-            .x = {.label = "frequency / resonance"},
-            .y = {.label = "power", .unit = "W", .from_zero = true}};
-  if (!r.states.empty())
-    plot.lines.push_back({.name = {}, .x = relative_frequency(r), .y = r.states.front().curve.power_w});
-  return {.key = "dissipated_power", .plot = plot};
+Plot power_figure(const Results& r) {
+  std::vector<Series> series;
+  if (!r.states.empty()) series.push_back({.x = relative_frequency(r), .y = r.states.front().curve.power_w});
+  return over_frequency({.title = "Power dissipated by friction",
+                         .description = "Average over a period; of both flanks of one sector.",
+                         .x = {.label = "frequency / resonance"},
+                         .y = {.label = "power", .unit = "W"}},
+                        std::move(series));
 }
 
-Figure first_rate_figure(const Results& r) {
-  const Numbers& rate = r.design.contact.wear_rate_m_per_cycle;
-  const Unit relative{.symbol = "", .si = std::max(report::largest(rate), 1e-300)};
-  return of_contact("first_cycle_rates", r, rate, relative,
-                    {.title = "Wear rates of the first cycle",
-                     .description = fmt::format("Over the largest of both flanks, {} nm per million cycles.",
-                                                significant(report::largest(rate) * 1e15, 3)),
-                     .y = {.label = "rate / largest rate"}});
+Plot depth_course_figure(const Results& r) {
+  const std::string place = r.in_space() ? " and their place along the slot, from its middle" : "";
+  return courses(r, r.history.depth_m, 1e-6,
+                 {.title = "Wear depths over cycles",
+                  .description = "Of some nodes of one flank, named by their distance from its neck side" + place + ".",
+                  .y = {.label = "worn depth", .unit = "\u00b5m"}});
 }
 
-Figure depth_course_figure(const Results& r) {
-  return {
-      .key = "depths_over_cycles",
-      .plot = courses(
-          r, r.history.depth_m, 1e-6,
-          {.title = "Wear depths over cycles",
-           .description =
-               r.in_space() ? "Of some nodes of one flank, named by their distance from its neck side and their place "
-                              "along the slot, from its middle."
-                            : "Of some nodes of one flank, named by their distance from its neck side.",
-           .y = {.label = "worn depth", .unit = "\u00b5m"}})};
-}
-
-Figure rate_course_figure(const Results& r) {
+Plot rate_course_figure(const Results& r) {
   const double first = r.history.rate_m_per_cycle.empty() ? 1 : report::largest(r.history.rate_m_per_cycle.front());
-  return {.key = "rates_over_cycles",
-          .plot = courses(r, r.history.rate_m_per_cycle, first,
-                          {.title = "Wear rates over cycles",
-                           .description = "Of the same nodes, over the largest rate of the first cycle.",
-                           .y = {.label = "rate / largest first rate"}})};
+  return courses(r, r.history.rate_m_per_cycle, first,
+                 {.title = "Wear rates over cycles",
+                  .description = "Of the same nodes, over the largest rate of the first cycle.",
+                  .y = {.label = "rate / largest first rate"}});
 }
 
-Figure profile_figure(const Results& r) {
-  const Numbers& depth = r.design.contact.depth_m;
-  if (r.in_space())
-    return of_contact("final_profiles", r, depth, {.symbol = "\u00b5m", .si = 1e-6},
-                      {.title = "Final worn profile",
-                       .description = "Depth off both surfaces together when wear has come to rest, found directly.",
-                       .y = {.label = "worn depth"}});
-  Plot plot =
-      along_flank(r, depth, {.symbol = "\u00b5m", .si = 1e-6},
-                  {.title = "Final worn profile",
-                   .description = "Depth off both surfaces together when wear has come to rest, found directly; "
-                                  "dashed: where the history ended.",
-                   .y = {.label = "worn depth"}});
-  if (!r.history.depth_m.empty()) {
-    std::vector<PlotLine> ended = flank_lines(r.design.contact, r.history.depth_m.back(), 1e-6);
-    for (PlotLine& line : ended) {
-      line.name = "history" + (ended.size() > 1 ? ", " + line.name : "");
-      line.role = Role::before;
-      line.stroke = Stroke::dashed;
-      line.dots = false;
-      plot.lines.push_back(line);
-    }
-  }
-  return {.key = "final_profiles", .plot = plot};
-}
-
-Figure volume_figure(const Results& r) {
+Plot volume_figure(const Results& r) {
   Plot plot{.title = "Worn volume over cycles",
             .description = "Of both flanks; dashed: the state at rest, found directly.",
-            .x = cycle_axis(),
+            .x = kCycles,
             .y = {.label = "worn volume", .unit = "mm\u00b3", .from_zero = true}};
-  if (r.history.cycles.size() < 2) return {.key = "volume_over_cycles", .plot = plot};
-  plot.lines.push_back({.name = "history", .x = r.history.cycles, .y = scaled(r.history.volume_m3, 1e-9)});
-  plot.lines.push_back({.name = "at rest",
-                        .x = {r.history.cycles[1], r.history.cycles.back()},
-                        .y = Numbers(2, r.asymptote_volume_m3 / 1e-9),
-                        .role = Role::before,
-                        .stroke = Stroke::dashed});
-  return {.key = "volume_over_cycles", .plot = plot};
+  if (r.history.cycles.size() < 2) return plot;
+  plot.series = {{.name = "history", .x = r.history.cycles, .y = scaled(r.history.volume_m3, 1e-9)},
+                 {.name = "at rest",
+                  .x = {r.history.cycles[1], r.history.cycles.back()},
+                  .y = Numbers(2, r.asymptote_volume_m3 / 1e-9),
+                  .role = Role::before,
+                  .stroke = Stroke::dashed}};
+  return plot;
 }
 
-Figure wearing_response_figure(const Results& r) {
-  Plot plot{.title = "Response as the joint wears",
-            .description = "From new to at rest, states by equal shares of the volume worn in the end.",
-            .x = {.label = "frequency / unworn resonance"},
-            .y = {.label = "amplitude", .unit = "mm", .from_zero = true}};
-  plot.lines = state_lines(r, &Curve::amplitude_m, 1e-3);
-  return {.key = "responses_while_wearing", .plot = plot};
+Plot wearing_response_figure(const Results& r) {
+  return over_frequency({.title = "Response as the joint wears",
+                         .description = "From new to at rest, states by equal shares of the volume worn in the end.",
+                         .x = {.label = "frequency / unworn resonance"},
+                         .y = {.label = "amplitude", .unit = "mm"}},
+                        state_lines(r, &Curve::amplitude_m, 1e-3));
 }
 
-Figure wearing_power_figure(const Results& r) {
-  Plot plot{.title = "Power dissipated as the joint wears",
-            .description = "Of the same states.",
-            .x = {.label = "frequency / unworn resonance"},
-            .y = {.label = "power", .unit = "W", .from_zero = true}};
-  plot.lines = state_lines(r, &Curve::power_w, 1);
-  return {.key = "power_while_wearing", .plot = plot};
+Plot wearing_power_figure(const Results& r) {
+  return over_frequency({.title = "Power dissipated as the joint wears",
+                         .description = "Of the same states.",
+                         .x = {.label = "frequency / unworn resonance"},
+                         .y = {.label = "power", .unit = "W"}},
+                        state_lines(r, &Curve::power_w, 1));
 }
 
-Figure amplitude_course_figure(const Results& r) {
+Plot amplitude_course_figure(const Results& r) {
   Plot plot{.title = "Amplitude while the joint wears",
             .description =
                 "Excited at the unworn resonance, and at the resonance of the joint as worn then. First and "
                 "last points: new, and at rest.",
-            .x = cycle_axis(),
+            .x = kCycles,
             .y = {.label = "amplitude", .unit = "mm"}};
-  PlotLine held{.name = "at the unworn resonance", .x = r.history.cycles, .y = scaled(r.history.amplitude_m, 1e-3)};
-  PlotLine peak{
-      .name = "at the resonance that moves", .x = state_cycles(r), .role = Role::bad, .stroke = Stroke::dashed};
-  peak.dots = true;
+  Series held{.name = "at the unworn resonance", .x = r.history.cycles, .y = scaled(r.history.amplitude_m, 1e-3)};
+  Series peak{.name = "at the resonance that moves",
+              .x = state_cycles(r),
+              .role = Role::bad,
+              .stroke = Stroke::dashed,
+              .mark = report::Mark::dot};
   for (const WornState& state : r.states) peak.y.push_back(state.peak_found ? state.peak_m / 1e-3 : std::nan(""));
   if (!r.states.empty() && !held.x.empty()) {
     held.x.front() = peak.x.front();
     held.x.push_back(peak.x.back());
     held.y.push_back(r.states.back().amplitude_m / 1e-3);
   }
-  plot.lines = {held, peak};
-  return {.key = "amplitude_while_wearing", .plot = plot};
+  plot.series = {held, peak};
+  return plot;
 }
 
-Figure drift_figure(const Results& r) {
+Plot drift_figure(const Results& r) {
   Plot plot{
       .title = "Resonance while the joint wears",
       .description = "Frequency of the peak over that of the unworn joint. First and last points: new, and at rest.",
-      .x = cycle_axis(),
+      .x = kCycles,
       .y = {.label = "change of frequency", .unit = "10\u207b\u2074"}};
-  PlotLine line{.name = {}, .x = state_cycles(r)};
-  line.dots = true;
+  Series line{.x = state_cycles(r), .mark = report::Mark::dot};
   for (const WornState& state : r.states)
     line.y.push_back(state.peak_found ? 1e4 * (state.peak_hz / r.resonance_hz - 1) : std::nan(""));
-  plot.lines.push_back(line);
-  return {.key = "resonance_while_wearing", .plot = plot};
+  plot.series.push_back(line);
+  return plot;
 }
 
-std::vector<Figure> figures(const Results& r) {
-  return {nodal_diameter_figure(r), pressure_figure(r),         damping_figure(r),       power_figure(r),
-          first_rate_figure(r),     depth_course_figure(r),     rate_course_figure(r),   volume_figure(r),
-          profile_figure(r),        wearing_response_figure(r), wearing_power_figure(r), amplitude_course_figure(r),
-          drift_figure(r)};
+}  // namespace
+
+std::vector<std::pair<std::string, Figure>> figures(const Results& r) {
+  return {{"nodal_diameters", report::nodal_diameter_plot(r.design)},
+          {"preload_pressure", pressure_figure(r)},
+          {"response", damping_figure(r)},
+          {"dissipated_power", power_figure(r)},
+          {"first_cycle_rates", first_rate_figure(r)},
+          {"depths_over_cycles", depth_course_figure(r)},
+          {"rates_over_cycles", rate_course_figure(r)},
+          {"volume_over_cycles", volume_figure(r)},
+          {"final_profiles", profile_figure(r)},
+          {"responses_while_wearing", wearing_response_figure(r)},
+          {"power_while_wearing", wearing_power_figure(r)},
+          {"amplitude_while_wearing", amplitude_course_figure(r)},
+          {"resonance_while_wearing", drift_figure(r)}};
 }
 
 }  // namespace dovetail::paper_sequence

@@ -1,37 +1,19 @@
 #pragma once
 
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "studies/paper_sequence/results.hpp"
-#include "studies/report/plots/flank_map.hpp"
-#include "studies/report/plots/svg_plot.hpp"
+#include "studies/report/plots/figure.hpp"
 
 namespace dovetail::paper_sequence {
 
-/// A figure and the name of the file with its numbers: a plot, or in space a map over the flanks.
-struct Figure {
-  std::string key = {};
-  report::Plot plot = {};
-  std::optional<report::FlankMap> map = {};
-};
+/// A plot, or in space a map over the flanks.
+using report::Figure;
 
-[[nodiscard]] Figure nodal_diameter_figure(const Results& results);
-[[nodiscard]] Figure pressure_figure(const Results& results);
-[[nodiscard]] Figure damping_figure(const Results& results);
-[[nodiscard]] Figure power_figure(const Results& results);
-[[nodiscard]] Figure first_rate_figure(const Results& results);
-[[nodiscard]] Figure depth_course_figure(const Results& results);
-[[nodiscard]] Figure rate_course_figure(const Results& results);
-[[nodiscard]] Figure profile_figure(const Results& results);
-[[nodiscard]] Figure volume_figure(const Results& results);
-[[nodiscard]] Figure wearing_response_figure(const Results& results);
-[[nodiscard]] Figure wearing_power_figure(const Results& results);
-[[nodiscard]] Figure amplitude_course_figure(const Results& results);
-[[nodiscard]] Figure drift_figure(const Results& results);
-
-/// All of them in the reference's order.
-[[nodiscard]] std::vector<Figure> figures(const Results& results);
+/// All figures in the reference's order, each with its name: that of the file of its numbers, and of its place on the
+/// page.
+[[nodiscard]] std::vector<std::pair<std::string, Figure>> figures(const Results& results);
 
 }  // namespace dovetail::paper_sequence

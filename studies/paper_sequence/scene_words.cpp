@@ -20,7 +20,7 @@ const SceneWords& scene_words(const optimizer::Scene& scene) {
       .column = "The plane section",
       .where = "a plane section of its joint",
       .such = "a plane section of such a joint",
-      .differences = "<li>The reference is a model in space; this is a plane section, uniform along the slot.</li>\n",
+      .difference = "The reference is a model in space; this is a plane section, uniform along the slot.",
       .families =
           " The section carries bending in its own plane only: families of torsion and edgewise bending are missing.",
       .options = {},
@@ -32,9 +32,8 @@ const SceneWords& scene_words(const optimizer::Scene& scene) {
       .column = "The sector in space",
       .where = "one sector of such a disk in space",
       .such = "one sector of such a disk in space",
-      .differences =
-          "<li>The dimensions, the twist of the blade and the speed are not the reference\u2019s, which "
-          "gives none.</li>\n",
+      .difference =
+          "The dimensions, the twist of the blade and the speed are not the reference\u2019s, which gives none.",
       .families = "",
       .options = {.curve_points = 61, .history_steps = 50, .curve_states = 5, .nodal_diameter_modes = 4},
       .quick_flank_elements = 6,

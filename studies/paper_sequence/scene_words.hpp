@@ -8,12 +8,12 @@ namespace dovetail::paper_sequence {
 
 /// What differs between a plane section and a sector in space: words of the page, and how much is computed.
 struct SceneWords {
-  std::string title;        ///< of the page, after "Dynamics and fretting wear of a bladed disk"
-  std::string column;       ///< heading over what is found here
-  std::string where;        ///< the findings hold ...
-  std::string such;         ///< the sequence is repeated in ...
-  std::string differences;  ///< <li> entries of this scene alone
-  std::string families;     ///< of modes, which ones the scene has not
+  std::string title;       ///< of the page, after "Dynamics and fretting wear of a bladed disk"
+  std::string column;      ///< heading over what is found here
+  std::string where;       ///< the findings hold ...
+  std::string such;        ///< the sequence is repeated in ...
+  std::string difference;  ///< from the reference, of this scene alone
+  std::string families;    ///< of modes, which ones the scene has not
   ComputeOptions options;
   int quick_flank_elements, quick_aerofoil_elements;
 };

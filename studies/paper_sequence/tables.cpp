@@ -1,46 +1,44 @@
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
-#include "core/replace_file.hpp"
+#include "optimizer/journal/record_json.hpp"
 #include "studies/paper_sequence/figures.hpp"
 #include "studies/paper_sequence/findings.hpp"
 #include "studies/paper_sequence/page.hpp"
+#include "studies/ready_study/program.hpp"
+
+namespace dovetail::optimizer {
+
+using paper_sequence::ConvergenceRow, paper_sequence::History;
+
+template <>
+inline constexpr auto kFields<ConvergenceRow> =
+    std::tuple{RecordField{"kind", &ConvergenceRow::kind},
+               RecordField{"setting", &ConvergenceRow::setting},
+               RecordField{"reference", &ConvergenceRow::reference},
+               RecordField{"status", &ConvergenceRow::status},
+               RecordField{"frequency_hz", &ConvergenceRow::frequency_hz},
+               RecordField{"pressure_mean_pa", &ConvergenceRow::pressure_mean_pa},
+               RecordField{"pressure_max_pa", &ConvergenceRow::pressure_max_pa},
+               RecordField{"dissipated_energy_j", &ConvergenceRow::energy_j},
+               RecordField{"asymptotic_wear_volume_m3", &ConvergenceRow::volume_m3},
+               RecordField{"seconds", &ConvergenceRow::seconds}};
+
+template <>
+inline constexpr auto kFields<History> = std::tuple{RecordField{"end", &History::end},
+                                                    RecordField{"cycles", &History::cycles},
+                                                    RecordField{"volume_m3", &History::volume_m3},
+                                                    RecordField{"amplitude_m", &History::amplitude_m},
+                                                    RecordField{"depth_m", &History::depth_m},
+                                                    RecordField{"rate_m_per_cycle", &History::rate_m_per_cycle},
+                                                    RecordField{"solves", &History::solves},
+                                                    RecordField{"jacobians", &History::jacobians}};
+
+}  // namespace dovetail::optimizer
 
 namespace dovetail::paper_sequence {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string column(const report::PlotAxis& axis) {
-  return axis.unit.empty() ? axis.label : axis.label + " (" + axis.unit + ")";
-}
-
-/// One row per point: line, x, y.
-std::string csv(const report::Plot& plot) {
-  std::string text = fmt::format("\"line\",\"{}\",\"{}\"\n", column(plot.x), column(plot.y));
-  for (std::size_t l = 0; l < plot.lines.size(); ++l) {
-    const report::PlotLine& line = plot.lines[l];
-    const std::string name = line.name.empty() ? std::to_string(l + 1) : line.name;
-    for (std::size_t i = 0; i < std::min(line.x.size(), line.y.size()); ++i)
-      text += fmt::format("\"{}\",{:.12g},{}\n", name, line.x[i],
-                          std::isfinite(line.y[i]) ? fmt::format("{:.12g}", line.y[i]) : "");
-  }
-  return text;
-}
-
-/// One row per contact node: flank, place along the slot and from the neck side, value.
-std::string csv(const report::FlankMap& map) {
-  std::string text = fmt::format("\"flank\",\"along the slot (mm)\",\"from the neck side (mm)\",\"{} ({})\"\n",
-                                 map.quantity, map.unit.symbol);
-  for (const report::FlankPanel& panel : map.panels)
-    for (std::size_t i = 0; i < panel.values.size(); ++i)
-      text += fmt::format("\"{}\",{:.12g},{:.12g},{:.12g}\n", panel.name, panel.across[i] / 1e-3, panel.along[i] / 1e-3,
-                          panel.values[i] / map.unit.si);
-  return text;
-}
 
 Json findings_json(const std::vector<Finding>& all) {
   Json list = Json::array();
@@ -83,41 +81,21 @@ Json results_json(const Results& r) {
                               {"peak_hz", state.peak_found ? Json(state.peak_hz) : Json()},
                               {"peak_amplitude_m", state.peak_found ? Json(state.peak_m) : Json()},
                               {"amplitude_at_unworn_resonance_m", state.amplitude_m}});
-  const History& h = r.history;
-  json["history"] = {{"end", h.end},
-                     {"cycles", h.cycles},
-                     {"volume_m3", h.volume_m3},
-                     {"amplitude_m", h.amplitude_m},
-                     {"depth_m", h.depth_m},
-                     {"rate_m_per_cycle", h.rate_m_per_cycle},
-                     {"solves", h.solves},
-                     {"jacobians", h.jacobians}};
+  json["history"] = optimizer::json_value<Json>(r.history);
   json["unequal_flanks"] = {{"degrees", r.unequal_flanks_degrees}, {"volume_m3", r.unequal_flanks_volume_m3}};
-  json["convergence"] = Json::array();
-  for (const ConvergenceRow& row : r.convergence)
-    json["convergence"].push_back({{"kind", row.kind},
-                                   {"setting", row.setting},
-                                   {"reference", row.reference},
-                                   {"status", row.status},
-                                   {"frequency_hz", row.frequency_hz},
-                                   {"pressure_mean_pa", row.pressure_mean_pa},
-                                   {"pressure_max_pa", row.pressure_max_pa},
-                                   {"dissipated_energy_j", row.energy_j},
-                                   {"asymptotic_wear_volume_m3", row.volume_m3},
-                                   {"seconds", row.seconds}});
+  json["convergence"] = optimizer::json_value<Json>(r.convergence);
   return json;
 }
 
 }  // namespace
 
 void write(const std::filesystem::path& folder, const Results& results) {
-  std::error_code ignored;  // what is missing is named when a file cannot be written
-  std::filesystem::create_directories(folder, ignored);
-  for (const Figure& figure : figures(results))
-    replace_file(folder / (figure.key + ".csv"), figure.map ? csv(*figure.map) : csv(figure.plot));
-  replace_file(folder / "findings.json", findings_json(findings(results)).dump(1) + "\n");
-  replace_file(folder / "results.json", results_json(results).dump() + "\n");
-  replace_file(folder / "report.html", page_html(results));
+  std::vector<std::pair<std::string, std::string>> files;
+  for (const auto& [key, figure] : figures(results)) files.emplace_back(key + ".csv", figure_csv(figure));
+  files.emplace_back("findings.json", findings_json(findings(results)).dump(1) + "\n");
+  files.emplace_back("results.json", results_json(results).dump() + "\n");
+  files.emplace_back("report.html", page_html(results));
+  ready_study::write(folder, files);
 }
 
 }  // namespace dovetail::paper_sequence

@@ -7,26 +7,19 @@
 #include <limits>
 #include <utility>
 
+#include "studies/report/plots/scale.hpp"
+
 namespace dovetail::work_precision {
 namespace {
 
+using report::Mark;
 using report::Plot;
-using report::PlotLine;
-using report::PlotPoints;
 using report::Role;
+using report::Series;
 using report::Stroke;
 
 constexpr int kWidth = 372, kHeight = 300;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-struct Extent {
-  double lower = std::numeric_limits<double>::infinity(), upper = 0;
-  void add(double value) {
-    if (!(value > 0) || !std::isfinite(value)) return;
-    lower = std::min(lower, value);
-    upper = std::max(upper, value);
-  }
-};
 
 std::string described(const Line& line, const Point& point, const Sweep& sweep, std::size_t quantity) {
   return fmt::format("{}{}{}: {:.3g} s, {}", line.name, line.name.empty() ? "" : ", ", point.label,
@@ -58,13 +51,13 @@ double mesh_error(const Diagram& diagram, std::size_t quantity) {
 }
 
 /// Lines across the plot: errors that the setting cannot take away.
-void add_levels(const Diagram& diagram, const Sweep& sweep, std::size_t quantity, const Extent& x, Extent& y,
-                Plot& plot) {
+void add_levels(const Diagram& diagram, const Sweep& sweep, std::size_t quantity, const report::Bounds& x,
+                report::Bounds& y, Plot& plot) {
   const auto level = [&](const std::string& name, double value, Role role, Stroke stroke) {
     if (!(value > 0)) return;
     const double shown = std::max(value, kLowest);
     y.add(shown);
-    plot.lines.push_back({.name = name, .x = {x.lower, x.upper}, .y = {shown, shown}, .role = role, .stroke = stroke});
+    plot.series.push_back({.name = name, .x = {x.lower, x.upper}, .y = {shown, shown}, .role = role, .stroke = stroke});
   };
   if (sweep.key != "mesh") level("part by the default mesh", mesh_error(diagram, quantity), Role::bad, Stroke::dashed);
   level("the references agree to this", diagram.reference_of(sweep).agreement[quantity], Role::muted, Stroke::dashed);
@@ -84,15 +77,15 @@ Plot error_plot(const Diagram& diagram, const Sweep& sweep, std::size_t quantity
   plot.title[0] = static_cast<char>(std::toupper(plot.title[0]));
   constexpr std::array<std::pair<Role, Stroke>, 3> kLook{
       {{Role::after, Stroke::solid}, {Role::before, Stroke::solid}, {Role::before, Stroke::dashed}}};
-  Extent x, y;
-  PlotPoints star{.name = "default", .role = Role::after, .shape = report::Shape::star};
-  PlotPoints failed{.name = "failed", .role = Role::bad, .shape = report::Shape::cross};
-  std::vector<PlotLine> own;
+  report::Bounds x, y;
+  Series star{.name = "default", .stroke = Stroke::none, .mark = Mark::star};
+  Series failed{.name = "failed", .role = Role::bad, .stroke = Stroke::none, .mark = Mark::cross};
+  std::vector<Series> own;
   for (std::size_t l = 0; l < sweep.lines.size(); ++l) {
     const Line& line = sweep.lines[l];
     const auto& [role, stroke] = kLook[std::min(l, kLook.size() - 1)];
-    PlotLine total{.name = line.name.empty() ? "error" : line.name, .role = role, .stroke = stroke, .dots = true};
-    PlotLine part{.name = "part of it by this setting alone", .role = Role::muted, .stroke = Stroke::dotted};
+    Series total{.name = line.name.empty() ? "error" : line.name, .role = role, .stroke = stroke, .mark = Mark::dot};
+    Series part{.name = "part of it by this setting alone", .role = Role::muted, .stroke = Stroke::dotted};
     for (const Point& point : line.points) {
       const double seconds = sweep.seconds(point), error = drawn(point.error[quantity]);
       x.add(seconds);
@@ -102,26 +95,23 @@ Plot error_plot(const Diagram& diagram, const Sweep& sweep, std::size_t quantity
         continue;
       }
       y.add(error);
-      total.x.push_back(seconds);
-      total.y.push_back(error);
+      total.add(seconds, error);
       total.labels.push_back(l == 0 || sweep.key == "solver" ? value_of(point.label) : "");
-      part.x.push_back(seconds);
-      part.y.push_back(drawn(point.own_error[quantity]));
+      part.add(seconds, drawn(point.own_error[quantity]));
       y.add(part.y.back());
       if (!point.is_default || !star.x.empty()) continue;
-      star.x.push_back(seconds);
-      star.y.push_back(error);
+      star.add(seconds, error);
       star.titles.push_back(described(line, point, sweep, quantity));
     }
-    plot.lines.push_back(std::move(total));
+    plot.series.push_back(std::move(total));
     if (sweep.refines && l == 0) own.push_back(std::move(part));
   }
-  for (PlotLine& part : own) plot.lines.push_back(std::move(part));
+  for (Series& part : own) plot.series.push_back(std::move(part));
   add_levels(diagram, sweep, quantity, x, y, plot);
   // Failed runs stand above all errors.
   failed.y.assign(failed.x.size(), y.upper > 0 ? 2 * y.upper : 1);
-  plot.points.push_back(std::move(star));
-  plot.points.push_back(std::move(failed));
+  plot.series.push_back(std::move(star));
+  plot.series.push_back(std::move(failed));
   return plot;
 }
 
@@ -147,12 +137,10 @@ Plot growth_plot(const Growth& growth) {
        {"dense Jacobian, all unknowns", &StepTimes::jacobian, Role::bad, Stroke::dashed},
        {"dense LU, all unknowns", &StepTimes::lu, Role::bad, Stroke::solid}}};
   for (const Part& part : kParts) {
-    PlotLine line{.name = part.name, .role = part.role, .stroke = part.stroke, .dots = true};
-    for (std::size_t i = 0; i < growth.size.size(); ++i) {
-      line.x.push_back(growth.size[i]);
-      line.y.push_back(growth.times[i].status == Status::converged ? growth.times[i].*part.seconds : kNan);
-    }
-    plot.lines.push_back(std::move(line));
+    Series line{.name = part.name, .role = part.role, .stroke = part.stroke, .mark = Mark::dot};
+    for (std::size_t i = 0; i < growth.size.size(); ++i)
+      line.add(growth.size[i], growth.times[i].status == Status::converged ? growth.times[i].*part.seconds : kNan);
+    plot.series.push_back(std::move(line));
   }
   return plot;
 }

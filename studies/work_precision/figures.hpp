@@ -1,6 +1,6 @@
 #pragma once
 
-#include "studies/report/plots/svg_plot.hpp"
+#include "studies/report/plots/plot.hpp"
 #include "studies/work_precision/growth.hpp"
 #include "studies/work_precision/sweep.hpp"
 

@@ -1,44 +1,34 @@
 // Seconds against error over every setting of the program, as tables and a page: studies/speed_vs_error runs it.
-#include <CLI/CLI.hpp>
-#include <chrono>
-#include <cstdio>
-#include <string>
-
-#include "core/errors.hpp"
-#include "numerics/blas.hpp"
+#include "studies/ready_study/program.hpp"
 #include "studies/work_precision/diagrams.hpp"
 #include "studies/work_precision/results.hpp"
 
-int main(int argc, char** argv) try {
-  dovetail::numerics::prepare_blas(argv);
-  using namespace dovetail;
-  using namespace dovetail::work_precision;
-  CLI::App app{"Seconds on one core against true error of the contact engine."};
-  std::string folder, commit = "unknown";
-  DiagramOptions options;
-  app.add_option("folder", folder, "Folder of table.csv, growth.csv, table.json and index.html")->required();
-  app.add_option("--study", options.study_file, "Study file of the scene")->required();
-  app.add_option("--commit", commit, "Commit of the sources, to be recorded");
-  app.add_flag("--quick", options.quick, "Small models and few settings, in seconds: a look at the page");
-  CLI11_PARSE(app, argc, argv);
-  const auto begin = std::chrono::steady_clock::now();
-  options.progress = [&](const std::string& what) {
-    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
-    std::printf("%6.1f s  %s\n", passed.count(), what.c_str());
-    std::fflush(stdout);
-  };
+namespace {
+
+using namespace dovetail::work_precision;
+
+std::vector<std::string> run(const dovetail::ready_study::Call& call) {
+  const DiagramOptions options{
+      .study_file = call.study_file, .quick = call.quick, .progress = [&](const std::string& what) { call.say(what); }};
   Results results;
   results.made = circumstances();
-  results.made.commit = commit;
-  results.made.quick = options.quick;
+  results.made.commit = call.commit;
+  results.made.quick = call.quick;
   results.diagrams.push_back(patch_diagram(options));
   results.diagrams.push_back(scene_diagram(options));
   results.growth = measure_growth(options.quick, options.progress);
-  results.made.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  write(folder, results);
-  options.progress("done: " + folder + "/index.html");
-  return 0;
-} catch (const std::exception& error) {
-  std::fprintf(stderr, "%s\n", error.what());
-  return 1;
+  results.made.seconds = call.passed();
+  write(call.folder, results);
+  return {};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return dovetail::ready_study::run(argc, argv,
+                                    {.page = "index.html",
+                                     .about = "Seconds on one core against true error of the contact engine.",
+                                     .files = "table.csv, growth.csv, table.json and index.html",
+                                     .quick = "Small models and few settings, in seconds: a look at the page",
+                                     .run = run});
 }

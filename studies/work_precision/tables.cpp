@@ -1,45 +1,62 @@
 #include <fmt/format.h>
 
-#include <cmath>
-#include <nlohmann/json.hpp>
-
+#include "optimizer/journal/record_json.hpp"
+#include "studies/ready_study/csv.hpp"
 #include "studies/work_precision/results.hpp"
+
+namespace dovetail::optimizer {
+
+using work_precision::Run, work_precision::Setting, work_precision::StepTimes;
+
+template <>
+inline constexpr auto kFields<Setting> = std::tuple{RecordField{"harmonics", &Setting::harmonics},
+                                                    RecordField{"samples", &Setting::samples},
+                                                    RecordField{"penalty_ratio", &Setting::penalty},
+                                                    RecordField{"solver", &Setting::solver},
+                                                    RecordField{"penalty_cascade", &Setting::cascade},
+                                                    RecordField{"slip_return", &Setting::slip_return},
+                                                    RecordField{"modes", &Setting::modes},
+                                                    RecordField{"flank_elements", &Setting::flank_elements}};
+
+/// Besides its setting and values.
+template <>
+inline constexpr auto kFields<Run> = std::tuple{RecordField{"status", &Run::status},
+                                                RecordField{"seconds", &Run::seconds},
+                                                RecordField{"model_seconds", &Run::model_seconds},
+                                                RecordField{"solves", &Run::solves},
+                                                RecordField{"jacobians", &Run::jacobians},
+                                                RecordField{"nodes_stuck", &Run::stuck},
+                                                RecordField{"nodes_slipping", &Run::slipping},
+                                                RecordField{"nodes_separating", &Run::separating}};
+
+template <>
+inline constexpr auto kFields<StepTimes> = std::tuple{RecordField{"status", &StepTimes::status},
+                                                      RecordField{"nodes", &StepTimes::nodes},
+                                                      RecordField{"harmonics", &StepTimes::harmonics},
+                                                      RecordField{"samples", &StepTimes::samples},
+                                                      RecordField{"unknowns", &StepTimes::unknowns},
+                                                      RecordField{"factorised", &StepTimes::factorised},
+                                                      RecordField{"nodes_stuck", &StepTimes::stuck},
+                                                      RecordField{"residual_s", &StepTimes::residual},
+                                                      RecordField{"residual_and_derivative_s", &StepTimes::derivative},
+                                                      RecordField{"dense_jacobian_s", &StepTimes::jacobian},
+                                                      RecordField{"full_lu_s", &StepTimes::lu},
+                                                      RecordField{"linearise_s", &StepTimes::linearise},
+                                                      RecordField{"solve_s", &StepTimes::solve},
+                                                      RecordField{"newton_step_s", &StepTimes::step}};
+
+}  // namespace dovetail::optimizer
 
 namespace dovetail::work_precision {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string number(double value) {
-  return std::isfinite(value) ? fmt::format("{:.17g}", value) : "";
-}
-
-// In quotes when it holds what separates.
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
-}
+using ready_study::csv_text;
+using ready_study::csv_value;
 
 Json json_of(const Run& run) {
-  const Setting& s = run.setting;
-  Json json{{"harmonics", s.harmonics},
-            {"samples", s.samples},
-            {"penalty_ratio", s.penalty},
-            {"solver", s.solver},
-            {"penalty_cascade", s.cascade},
-            {"slip_return", s.slip_return},
-            {"modes", s.modes},
-            {"flank_elements", s.flank_elements},
-            {"status", run.status},
-            {"seconds", run.seconds},
-            {"model_seconds", run.model_seconds},
-            {"solves", run.solves},
-            {"jacobians", run.jacobians},
-            {"nodes_stuck", run.stuck},
-            {"nodes_slipping", run.slipping},
-            {"nodes_separating", run.separating}};
+  Json json = optimizer::json_value<Json>(run.setting);
+  json.update(optimizer::json_value<Json>(run));
   for (std::size_t q = 0; q < kQuantityKeys.size(); ++q)
     json[kQuantityKeys[q]] = run.converged() ? Json(run.value[q]) : Json();
   return json;
@@ -75,29 +92,11 @@ Json json_of(const Sweep& sweep) {
   return {{"key", sweep.key}, {"title", sweep.title}, {"verdict", verdict(sweep, kGoal)}, {"lines", lines}};
 }
 
-Json json_of(const StepTimes& t) {
-  return {{"status", std::string(to_string(t.status))},
-          {"nodes", t.nodes},
-          {"harmonics", t.harmonics},
-          {"samples", t.samples},
-          {"unknowns", t.unknowns},
-          {"factorised", t.factorised},
-          {"nodes_stuck", t.stuck},
-          {"residual_s", t.residual},
-          {"residual_and_derivative_s", t.derivative},
-          {"dense_jacobian_s", t.jacobian},
-          {"full_lu_s", t.lu},
-          {"linearise_s", t.linearise},
-          {"solve_s", t.solve},
-          {"newton_step_s", t.step}};
-}
-
 }  // namespace
 
 std::string table_csv(const Results& results) {
   std::string text =
-      "model,sweep,line,label,default,harmonics,samples,penalty_ratio,solver,penalty_cascade,slip_return,modes,"
-      "flank_elements,status,seconds,model_seconds,solves,jacobians";
+      "model,sweep,line,label,default" + ready_study::csv_names<Setting>() + ready_study::csv_names<Run>();
   for (const char* prefix : {"", "error_", "own_error_"})
     for (const char* quantity : kQuantityKeys) text += std::string(",") + prefix + quantity;
   text += "\n";
@@ -105,30 +104,21 @@ std::string table_csv(const Results& results) {
     for (const Sweep& sweep : diagram.sweeps)
       for (const Line& line : sweep.lines)
         for (const Point& point : line.points) {
-          const Setting& s = point.run.setting;
-          text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", diagram.key, sweep.key,
-                              field(line.name), field(point.label), point.is_default ? 1 : 0, s.harmonics, s.samples,
-                              number(s.penalty), s.solver, s.cascade ? 1 : 0, s.slip_return, s.modes, s.flank_elements,
-                              field(point.run.status), number(point.run.seconds), number(point.run.model_seconds),
-                              point.run.solves, point.run.jacobians);
-          for (const double value : point.run.value) text += "," + (point.run.converged() ? number(value) : "");
-          for (const double error : point.error) text += "," + number(error);
-          for (const double error : point.own_error) text += "," + number(error);
+          text += fmt::format("{},{},{},{},{}", diagram.key, sweep.key, csv_text(line.name), csv_text(point.label),
+                              point.is_default ? 1 : 0) +
+                  ready_study::csv_values(point.run.setting) + ready_study::csv_values(point.run);
+          for (const double value : point.run.value) text += "," + (point.run.converged() ? csv_value(value) : "");
+          for (const auto* errors : {&point.error, &point.own_error})
+            for (const double error : *errors) text += "," + csv_value(error);
           text += "\n";
         }
   return text;
 }
 
 std::string growth_csv(const Results& results) {
-  std::string text =
-      "over,status,nodes,harmonics,samples,unknowns,factorised,nodes_stuck,residual_s,residual_and_derivative_s,"
-      "dense_jacobian_s,full_lu_s,linearise_s,solve_s,newton_step_s\n";
+  std::string text = "over" + ready_study::csv_names<StepTimes>() + "\n";
   for (const Growth& growth : results.growth)
-    for (const StepTimes& t : growth.times)
-      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", growth.key, to_string(t.status), t.nodes,
-                          t.harmonics, t.samples, t.unknowns, t.factorised, t.stuck, number(t.residual),
-                          number(t.derivative), number(t.jacobian), number(t.lu), number(t.linearise), number(t.solve),
-                          number(t.step));
+    for (const StepTimes& times : growth.times) text += growth.key + ready_study::csv_values(times) + "\n";
   return text;
 }
 
@@ -146,9 +136,8 @@ std::string table_json(const Results& results) {
     diagrams.push_back(std::move(json));
   }
   for (const Growth& growth : results.growth) {
-    Json times = Json::array();
-    for (const StepTimes& t : growth.times) times.push_back(json_of(t));
-    growths.push_back({{"over", growth.key}, {"fixed", growth.fixed}, {"steps", times}});
+    growths.push_back(
+        {{"over", growth.key}, {"fixed", growth.fixed}, {"steps", optimizer::json_value<Json>(growth.times)}});
   }
   const Circumstances& made = results.made;
   return Json{{"commit", made.commit},   {"machine", made.machine},   {"system", made.system},

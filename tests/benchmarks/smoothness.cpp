@@ -15,7 +15,8 @@
 #include "studies/program/engine/engine.hpp"
 #include "studies/program/study_file/study.hpp"
 #include "studies/report/pages/html.hpp"
-#include "studies/report/plots/svg_plot.hpp"
+#include "studies/report/pages/page.hpp"
+#include "studies/report/plots/figure.hpp"
 #include "tests/benchmarks/largest_jump.hpp"
 
 namespace dovetail {
@@ -34,10 +35,7 @@ const std::vector<std::string> kResponses{"resonance_hz",
 int run(const std::string& file, int points, const std::string& page) {
   const studies::Study study = studies::load_study(file);
   const auto evaluator = studies::scene_evaluator(study);
-  std::ofstream out(page);
-  out << "<!doctype html><meta charset=utf-8><title>Smoothness</title><style>body{font:15px sans-serif;max-width:70em;"
-         "margin:2em auto}figure{display:inline-block;width:33em;vertical-align:top}"
-      << report::plot_style() << "</style><h1>Responses along lines through the start design</h1>";
+  std::string body = "<h1>Responses along lines through the start design</h1>";
   for (const optimizer::DesignVariable& variable : study.problem.space.variables()) {
     std::vector<double> x;
     std::vector<std::vector<double>> y(kResponses.size());
@@ -55,18 +53,20 @@ int run(const std::string& file, int points, const std::string& page) {
       x.push_back(value);
       for (std::size_t r = 0; r < kResponses.size(); ++r) y[r].push_back(evaluation.responses.at(kResponses[r]));
     }
-    out << "<h2>" << report::escape(variable.key) << "</h2>";
+    body += "<h2>" + report::escape(variable.key) + "</h2>";
+    std::vector<report::Figure> figures;
     for (std::size_t r = 0; r < kResponses.size(); ++r) {
       std::printf("%-34s %-32s largest jump %.2e%s\n", variable.key.c_str(), kResponses[r].c_str(), largest_jump(y[r]),
                   failed > 0 ? "  (points missing)" : "");
-      report::Plot plot;
-      plot.title = kResponses[r];
-      plot.x.label = variable.key;
-      plot.lines.push_back({.x = x, .y = y[r], .dots = true});
-      out << report::plot_figure(plot);
+      figures.emplace_back(report::Plot{.title = kResponses[r],
+                                        .x = {.label = variable.key},
+                                        .series = {{.x = x, .y = y[r], .mark = report::Mark::dot}}});
     }
+    body += report::figures_html(figures);
     std::fflush(stdout);
   }
+  std::ofstream out(page);
+  out << report::page("Smoothness", "", body);
   return out ? 0 : 1;
 }
 

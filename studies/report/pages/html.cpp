@@ -1,5 +1,7 @@
 #include "studies/report/pages/html.hpp"
 
+#include <fmt/format.h>
+
 namespace dovetail::report {
 
 namespace {
@@ -54,6 +56,18 @@ std::string escape(std::string_view text) {
     i += size;
   }
   return result;
+}
+
+std::string folded(const std::string& style, const std::string& summary, const std::string& html) {
+  return "<details" + (style.empty() ? "" : " class=\"" + style + "\"") + "><summary>" + escape(summary) +
+         "</summary>" + html + "</details>\n";
+}
+
+std::string svg_begin(const std::string& style, const std::string& title, double width, double height) {
+  return fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"{}\" viewBox=\"0 0 {} {}\" role=\"img\" "
+      "aria-label=\"{}\">\n",
+      style, width, height, escape(title));
 }
 
 }  // namespace dovetail::report

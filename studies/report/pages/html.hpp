@@ -9,4 +9,10 @@ namespace dovetail::report {
 /// forbids and bytes that are no UTF-8 replaced by U+FFFD.
 [[nodiscard]] std::string escape(std::string_view text);
 
+/// HTML under a line that opens it; a class of the style sheet or none.
+[[nodiscard]] std::string folded(const std::string& style, const std::string& summary, const std::string& html);
+
+/// An inline drawing up to its first element, of role img with its title.
+[[nodiscard]] std::string svg_begin(const std::string& style, const std::string& title, double width, double height);
+
 }  // namespace dovetail::report

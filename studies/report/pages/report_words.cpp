@@ -17,11 +17,6 @@ double value_of(const std::map<std::string, double>& values, const std::string& 
   return found == values.end() ? std::numeric_limits<double>::quiet_NaN() : found->second;
 }
 
-std::string percent(double ratio) {
-  const double change = 100 * (ratio - 1);
-  return (change > 0 ? "+" : "") + significant(change, std::abs(change) >= 10 ? 2 : 1) + "\u00a0%";
-}
-
 /// Is the difference more than both error bars together?
 std::string against_errors(double from, double to, double error) {
   if (std::isnan(error)) return "No error bar is known for it.";
@@ -48,7 +43,7 @@ std::string single_term(const RunRecord& record, const EvaluationRecord& base, c
   const std::string symbol = unit.symbol.empty() ? "" : "\u00a0" + unit.symbol;
   std::string text = fmt::format("The {} {} from {} to {}{}", words(term.response), verb(from, to),
                                  significant(from / unit.si, 3), significant(to / unit.si, 3), symbol);
-  if (from > 0 && to > 0) text += " (" + percent(to / from) + ")";
+  if (from > 0 && to > 0) text += " (" + per_cent(to, from, 1, 2) + ")";
   const std::string errors = against_errors(from, to, error_bar(base, term.response) + error_bar(best, term.response));
   return text + "." + (errors.empty() ? "" : " " + errors);
 }

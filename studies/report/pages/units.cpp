@@ -185,4 +185,10 @@ std::string with_error(double value, double error, const Unit& unit) {
          " \u00b1 " + significant(bar, 2) + symbol;
 }
 
+std::string per_cent(double value, double reference, int digits, int from_ten) {
+  if (!(reference > 0) || !std::isfinite(value)) return value == reference ? "0\u00a0%" : "\u2013";
+  const double change = 100 * (value / reference - 1);
+  return (change > 0 ? "+" : "") + significant(change, std::abs(change) >= 10 ? from_ten : digits) + "\u00a0%";
+}
+
 }  // namespace dovetail::report

@@ -39,4 +39,7 @@ struct Unit {
 /// Value with its error bar in a unit, rounded to the bar's first two digits: "0.7812 ± 0.0013".
 [[nodiscard]] std::string with_error(double value, double error, const Unit& unit);
 
+/// How far a value lies from a reference: "+0.50 %", with `from_ten` digits from 10 % on; "–" where that says nothing.
+[[nodiscard]] std::string per_cent(double value, double reference, int digits = 2, int from_ten = 2);
+
 }  // namespace dovetail::report

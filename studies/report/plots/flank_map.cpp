@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "studies/report/pages/html.hpp"
-#include "studies/report/plots/ticks.hpp"
+#include "studies/report/plots/scale.hpp"
 
 namespace dovetail::report {
 
@@ -97,21 +98,16 @@ double largest_value(const FlankMap& map) {
   return most;
 }
 
-/// A linear map from millimetres to pixels.
-struct Axis {
-  double lower, upper, from, to;
-  [[nodiscard]] double operator()(double mm) const { return from + (to - from) * (mm - lower) / (upper - lower); }
-};
-
-Axis axis_of(double lower, double upper, double from, double to) {
-  lower /= kMillimetre;
-  upper /= kMillimetre;
-  const double widen = upper > lower ? 0 : 0.5;
-  return {lower - widen, upper + widen, from, to};
+/// An axis in millimetres without ticks beyond its ends.
+Scale axis_of(double lower, double upper, int ticks, double from, double to) {
+  const double widen = upper > lower ? 0 : 0.5 * kMillimetre;
+  Scale scale({}, {.lower = (lower - widen) / kMillimetre, .upper = (upper + widen) / kMillimetre}, ticks, true);
+  scale.place(from, to);
+  return scale;
 }
 
 std::string cells(const FlankPanel& panel, const Rectangles& rectangles, const FlankMap& map, double most,
-                  const Axis& x, const Axis& y) {
+                  const Scale& x, const Scale& y) {
   std::string text = "<g shape-rendering=\"crispEdges\">";
   for (std::size_t i = 0; i < panel.values.size(); ++i) {
     const auto [strip, cell] = rectangles.place[i];
@@ -129,20 +125,20 @@ std::string cells(const FlankPanel& panel, const Rectangles& rectangles, const F
   return text + "</g>\n";
 }
 
-std::string frame(const Axis& x, const Axis& y, const std::string& name, bool first) {
+/// A frame of pixels with the name of the flank and the ticks; along the flank only on the first.
+std::string frame(const Eigen::AlignedBox2d& box, const Scale& x, const Scale& y, const std::string& name, bool first) {
+  const double left = box.min().x(), top = box.min().y();
   std::string text = fmt::format(
-      "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"none\" stroke=\"var(--base)\"/>"
-      "<text class=\"title\" x=\"{:.2f}\" y=\"{:.2f}\">{}</text>",
-      x.from, y.from, x.to - x.from, y.to - y.from, x.from, y.from - 8, escape(name));
-  text += "<g class=\"grid\">";
-  const Ticks across = linear_ticks(x.lower, x.upper, 3, true), along = linear_ticks(y.lower, y.upper, 4, true);
-  for (std::size_t k = 0; k < across.at.size(); ++k)
-    text += fmt::format("<text class=\"x\" x=\"{:.2f}\" y=\"{:.2f}\">{}</text>", x(across.at[k]), y.to + 16,
-                        across.labels[k]);
+      "<rect x=\"{0:.2f}\" y=\"{1:.2f}\" width=\"{2:.2f}\" height=\"{3:.2f}\" fill=\"none\" stroke=\"var(--base)\"/>"
+      "<text class=\"title\" x=\"{0:.2f}\" y=\"{4:.2f}\">{5}</text><g class=\"grid\">",
+      left, top, box.sizes().x(), box.sizes().y(), top - 8, escape(name));
+  for (std::size_t k = 0; k < x.ticks().at.size(); ++k)
+    text += fmt::format("<text class=\"x\" x=\"{:.2f}\" y=\"{:.2f}\">{}</text>", x(x.ticks().at[k]), box.max().y() + 16,
+                        x.ticks().labels[k]);
   if (first)
-    for (std::size_t k = 0; k < along.at.size(); ++k)
-      text += fmt::format("<text class=\"y\" x=\"{:.2f}\" y=\"{:.2f}\">{}</text>", x.from - 6, y(along.at[k]) + 4,
-                          along.labels[k]);
+    for (std::size_t k = 0; k < y.ticks().at.size(); ++k)
+      text += fmt::format("<text class=\"y\" x=\"{:.2f}\" y=\"{:.2f}\">{}</text>", left - 6, y(y.ticks().at[k]) + 4,
+                          y.ticks().labels[k]);
   return text + "</g>\n";
 }
 
@@ -163,20 +159,6 @@ std::string colour_bar(const FlankMap& map, double most, double left, double top
                             top - 8, escape(map.unit.symbol));
 }
 
-std::string numbers(const FlankMap& map) {
-  const std::string unit = map.unit.symbol.empty() ? "" : " (" + map.unit.symbol + ")";
-  std::string text =
-      "<table><thead><tr><th>flank</th><th>along the slot (mm)</th><th>from the neck side (mm)</th><th>" +
-      escape(map.quantity + unit) + "</th></tr></thead><tbody>\n";
-  for (const FlankPanel& panel : map.panels)
-    for (std::size_t i = 0; i < panel.values.size(); ++i)
-      text += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", escape(panel.name),
-                          plain(panel.across[i] / kMillimetre, 5), plain(panel.along[i] / kMillimetre, 5),
-                          significant(panel.values[i] / map.unit.si, 5));
-  return "<details class=\"numbers\"><summary>Numbers</summary><div class=\"scroll\">" + text +
-         "</tbody></table>\n</div></details>\n";
-}
-
 }  // namespace
 
 bool is_empty(const FlankMap& map) {
@@ -190,10 +172,7 @@ std::string flank_map_svg(const FlankMap& map) {
   const auto count = static_cast<double>(std::max<std::size_t>(map.panels.size(), 1));
   const double width = (kWidth - kLeft - kRight - kBarGap - kBarWidth - (count - 1) * kGap) / count;
   constexpr double kHeight = 190;
-  std::string text = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot\" viewBox=\"0 0 {} {}\" role=\"img\" "
-      "aria-label=\"{}\">\n",
-      kWidth, kTop + kHeight + kBottom, escape(map.title));
+  std::string text = svg_begin("plot", map.title, kWidth, kTop + kHeight + kBottom);
   for (std::size_t p = 0; p < map.panels.size(); ++p) {
     const FlankPanel& panel = map.panels[p];
     if (panel.values.empty()) continue;
@@ -204,9 +183,11 @@ std::string flank_map_svg(const FlankMap& map) {
       first = std::min(first, ends.front());
       last = std::max(last, ends.back());
     }
-    const Axis x = axis_of(rectangles.across.front(), rectangles.across.back(), left, left + width);
-    const Axis y = axis_of(first, last, kTop, kTop + kHeight);
-    text += cells(panel, rectangles, map, most, x, y) + frame(x, y, panel.name, p == 0);
+    const Scale x = axis_of(rectangles.across.front(), rectangles.across.back(), 3, left, left + width);
+    const Scale y = axis_of(first, last, 4, kTop, kTop + kHeight);
+    text +=
+        cells(panel, rectangles, map, most, x, y) +
+        frame({Eigen::Vector2d(left, kTop), Eigen::Vector2d(left + width, kTop + kHeight)}, x, y, panel.name, p == 0);
   }
   text += fmt::format(
       "<text class=\"title\" x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"middle\">along the slot, mm</text>"
@@ -214,15 +195,6 @@ std::string flank_map_svg(const FlankMap& map) {
       "mm</text>\n",
       kLeft + (count * width + (count - 1) * kGap) / 2, kTop + kHeight + 34, kTop + kHeight / 2);
   return text + colour_bar(map, most, kWidth - kRight - kBarWidth, kTop, kTop + kHeight) + "</svg>\n";
-}
-
-std::string flank_map_figure(const FlankMap& map) {
-  const std::string title = "<h3>" + escape(map.title) + "</h3>\n";
-  if (is_empty(map))
-    return "<figure class=\"nothing\">" + title + "<p>Nothing to show: no value above zero.</p></figure>\n";
-  std::string text = "<figure>" + title + flank_map_svg(map);
-  if (!map.description.empty()) text += "<figcaption>" + escape(map.description) + "</figcaption>\n";
-  return text + numbers(map) + "</figure>\n";
 }
 
 }  // namespace dovetail::report

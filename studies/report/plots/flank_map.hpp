@@ -24,6 +24,11 @@ struct FlankMap {
   Unit unit = {};
   std::vector<FlankPanel> panels = {};
   double full_scale = 0;  ///< SI, of the darkest colour when it is above the largest value: for maps to be compared
+
+  /// "pressure (MPa)"
+  [[nodiscard]] std::string value_title() const {
+    return unit.symbol.empty() ? quantity : quantity + " (" + unit.symbol + ")";
+  }
 };
 
 /// No finite value, or none above zero.
@@ -31,8 +36,5 @@ struct FlankMap {
 
 /// The map as one inline <svg>: a cell around each contact node with its numbers as tooltip, axes in mm, colour bar.
 [[nodiscard]] std::string flank_map_svg(const FlankMap& map);
-
-/// <figure>: title, drawing, description, and the numbers as a table under <details>. An empty map becomes a sentence.
-[[nodiscard]] std::string flank_map_figure(const FlankMap& map);
 
 }  // namespace dovetail::report

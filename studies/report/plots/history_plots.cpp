@@ -1,4 +1,6 @@
-// Plots of the wear history.
+// Plots of the wear history, and of histories beside the direct method.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -12,102 +14,114 @@ namespace {
 
 /// Cycles of a history on a logarithmic axis, without the unworn state at zero; steps grow by orders of magnitude as
 /// wear comes to rest.
-PlotAxis cycle_axis() {
-  return {.label = "load cycles", .logarithmic = true};
-}
+const PlotAxis kCycles{.label = "load cycles", .logarithmic = true};
 
-Plot history_line(const DesignRecord& design, Numbers HistoryRecord::*quantity, const std::string& si_unit, Plot plot) {
-  plot.x = cycle_axis();
-  if (!design.history) return plot;
-  const Numbers& values = (*design.history).*quantity;
-  const Unit unit = readable_unit(si_unit, largest(values));
-  plot.y.unit = unit.symbol;
-  plot.y.from_zero = true;
-  PlotLine line{.x = design.history->cycles, .y = scaled(values, unit.si)};
-  line.dots = true;
-  plot.lines.push_back(std::move(line));
+/// The values over the cycles, SI.
+Plot history_line(const DesignRecord& design, Numbers HistoryRecord::*quantity, Plot plot) {
+  plot.x = kCycles;
+  if (design.history)
+    plot.series.push_back({.x = design.history->cycles, .y = (*design.history).*quantity, .mark = Mark::dot});
   return plot;
 }
 
-}  // namespace
-
-Plot history_plot(const DesignRecord& design) {
+Plot volume_plot(const DesignRecord& design) {
   Plot plot =
-      history_line(design, &HistoryRecord::worn_volume_m3, "m^3",
+      history_line(design, &HistoryRecord::worn_volume_m3,
                    {.title = "Wear over load cycles",
                     .description = "Worn volume by jumps over many cycles; dashed: the limit computed directly, "
                                    "dotted: its error bar.",
                     .y = {.label = "worn volume"}});
   const auto limit = design.responses.find("asymptotic_wear_volume_m3");
-  if (!design.history || limit == design.responses.end() || design.history->cycles.size() < 2) return plot;
-  plot.lines.front().name = "history";
-  const double si = readable_unit("m^3", largest(design.history->worn_volume_m3)).si;
+  if (!design.history || limit == design.responses.end() || design.history->cycles.size() < 2)
+    return readable(std::move(plot), "m^3");
+  plot.series.front().name = "history";
   const Numbers ends{design.history->cycles[1], design.history->cycles.back()};
   const auto level = [&](const std::string& name, double value, Stroke stroke) {
-    plot.lines.push_back({.name = name, .x = ends, .y = Numbers(2, value / si), .role = Role::muted, .stroke = stroke});
+    plot.series.push_back({.name = name, .x = ends, .y = Numbers(2, value), .role = Role::muted, .stroke = stroke});
   };
   level("asymptote", limit->second, Stroke::dashed);
   const auto error = design.error_estimates.find("asymptotic_wear_volume_m3");
-  if (error == design.error_estimates.end() || !std::isfinite(error->second) || !(error->second > 0)) return plot;
-  level("its error bar", limit->second + error->second, Stroke::dotted);
-  level("", std::max(limit->second - error->second, 0.0), Stroke::dotted);
-  return plot;
+  if (error != design.error_estimates.end() && std::isfinite(error->second) && error->second > 0) {
+    level("its error bar", limit->second + error->second, Stroke::dotted);
+    level("", std::max(limit->second - error->second, 0.0), Stroke::dotted);
+  }
+  return readable(std::move(plot), "m^3");
 }
 
-Plot history_depth_plot(const DesignRecord& design) {
-  return history_line(design, &HistoryRecord::depth_max_m, "m",
-                      {.title = "Largest depth over load cycles",
-                       .description = "Of the contact nodes, both surfaces together.",
-                       .y = {.label = "largest worn depth"}});
+/// The nodes along the flank that wears most, in space where it is deepest.
+std::vector<std::size_t> most_worn_line(const std::vector<std::int64_t>& flanks, const Numbers& across,
+                                        const Numbers& depth, std::size_t flank_count) {
+  Numbers worn(flank_count + 1, 0.0);
+  for (std::size_t i = 0; i < flanks.size(); ++i) worn[static_cast<std::size_t>(flanks[i])] += depth[i];
+  return worst_line(flanks, across, depth, std::max_element(worn.begin(), worn.end()) - worn.begin());
 }
 
-Plot history_amplitude_plot(const DesignRecord& design) {
-  return history_line(design, &HistoryRecord::amplitude_m, "m",
-                      {.title = "Amplitude while the joint wears",
-                       .description = "Of the aerofoil's tip, at the exciting frequency of the history.",
-                       .y = {.label = "amplitude"}});
-}
-
-Plot history_profile_plot(const DesignRecord& design) {
-  Plot plot{
-      .title = "Worn profile while the joint wears",
-      .description = "Depth along the more worn flank at some of the states of the history, from new to last.",
-      .x = {.label = "along the flank, from its neck side", .unit = "mm"},
-  };
+Plot profile_plot(const DesignRecord& design) {
+  Plot plot{.title = "Worn profile while the joint wears",
+            .description = "Depth along the more worn flank at some of the states of the history, from new to last.",
+            .x = kAlongFlank,
+            .y = {.label = "worn depth"}};
   const ContactRecord& contact = design.contact;
   const std::size_t count = contact.flank.size();
   if (!design.history || count == 0) return plot;
   const HistoryRecord& history = *design.history;
   const std::size_t profiles = history.profile_states.size();
   if (profiles == 0 || history.profile_depth_m.size() != profiles * count) return plot;
-  std::vector<double> worn(contact.flank_names.size() + 1, 0.0);
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto flank = static_cast<std::size_t>(
-        std::clamp<std::int64_t>(contact.flank[i], 0, static_cast<std::int64_t>(contact.flank_names.size())));
-    worn[flank] += history.profile_depth_m[(profiles - 1) * count + i];
-  }
-  const auto shown = std::max_element(worn.begin(), worn.end()) - worn.begin();
-  const Numbers last_profile(history.profile_depth_m.end() - static_cast<std::ptrdiff_t>(count),
-                             history.profile_depth_m.end());
-  const Unit unit = readable_unit("m", largest(history.profile_depth_m));
-  plot.y = {
-      .label = "worn depth",
-      .unit = unit.symbol,
-      .from_zero = true,
+  const auto profile = [&](std::size_t p) {
+    const auto begin = history.profile_depth_m.begin() + static_cast<std::ptrdiff_t>(p * count);
+    return Numbers(begin, begin + static_cast<std::ptrdiff_t>(count));
   };
+  const std::vector<std::size_t> line =
+      most_worn_line(contact.flank, contact.across_m, profile(profiles - 1), contact.flank_names.size());
   for (std::size_t p = 0; p < profiles; ++p) {
     const auto state = static_cast<std::size_t>(std::max<std::int64_t>(history.profile_states[p], 0));
     const double cycles = state < history.cycles.size() ? history.cycles[state] : 0;
     const bool last = p + 1 == profiles;
-    PlotLine line{.name = significant(cycles, 2) + " cycles", .role = last ? Role::after : Role::before};
-    line.stroke = last || p % 2 == 0 ? Stroke::solid : Stroke::dashed;
-    for (const std::size_t i : worst_line(contact.flank, contact.across_m, last_profile, shown)) {
-      line.x.push_back(contact.along_m[i] / 1e-3);
-      line.y.push_back(history.profile_depth_m[p * count + i] / unit.si);
-    }
-    if (largest(line.y) > 0) plot.lines.push_back(std::move(line));
+    Series series = along_line(contact.along_m, profile(p), line,
+                               {.name = significant(cycles, 2) + " cycles",
+                                .role = last ? Role::after : Role::before,
+                                .stroke = last || p % 2 == 0 ? Stroke::solid : Stroke::dashed});
+    if (largest(series.y) > 0) plot.series.push_back(std::move(series));
   }
-  return plot;
+  return readable(std::move(plot), "m");
+}
+
+}  // namespace
+
+std::vector<Figure> history_plots(const DesignRecord& design) {
+  return {volume_plot(design),
+          readable(history_line(design, &HistoryRecord::depth_max_m,
+                                {.title = "Largest depth over load cycles",
+                                 .description = "Of the contact nodes, both surfaces together.",
+                                 .y = {.label = "largest worn depth"}}),
+                   "m"),
+          readable(history_line(design, &HistoryRecord::amplitude_m,
+                                {.title = "Amplitude while the joint wears",
+                                 .description = "Of the aerofoil's tip, at the exciting frequency of the history.",
+                                 .y = {.label = "amplitude"}}),
+                   "m"),
+          profile_plot(design)};
+}
+
+Plot verification_plot(const VerificationRecord& record) {
+  Plot plot{.title = fmt::format("Worn profile of evaluation {}", record.evaluation + 1),
+            .description =
+                "Depth along the more worn flank. Solid: the end of the history; dashed: the direct method "
+                "at the same settings; dotted: at the settings of the search.",
+            .x = kAlongFlank,
+            .y = {.label = "worn depth", .from_zero = true}};
+  const std::size_t count = record.flank.size();
+  if (count == 0 || record.direct_profile_m.size() != count) return plot;
+  const std::vector<std::size_t> line =
+      most_worn_line(record.flank, record.across_m, record.direct_profile_m, record.flank_names.size());
+  const auto add = [&](const char* name, const Numbers& profile, Role role, Stroke stroke) {
+    if (profile.size() == count)
+      plot.series.push_back(along_line(record.along_m, profile, line, {.name = name, .role = role, .stroke = stroke}));
+  };
+  add("history", record.history_profile_m, Role::after, Stroke::solid);
+  add("direct", record.direct_profile_m, Role::before, Stroke::dashed);
+  add("search", record.search_profile_m, Role::muted, Stroke::dotted);
+  return readable(std::move(plot), "m");
 }
 
 }  // namespace dovetail::report

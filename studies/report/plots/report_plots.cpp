@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "studies/report/pages/report_words.hpp"
@@ -47,27 +48,46 @@ bool flanks_alike(const ContactRecord& contact, const Numbers& values) {
 
 /// A quantity of the contact nodes along both flanks, in space where along the slot it is largest: left solid, right
 /// dashed.
-Plot flank_plot(const Comparison& designs, Numbers ContactRecord::*quantity, const std::string& si_unit, Plot plot) {
-  double most = 0;
-  for (const auto& [design, role] : in_order(designs)) most = std::max(most, largest(design->contact.*quantity));
-  const Unit unit = readable_unit(si_unit, most);
-  plot.x = {.label = "along the flank, from its neck side", .unit = "mm"};
-  plot.y.unit = unit.symbol;
-  plot.y.from_zero = true;
+Plot flank_plot(const Comparison& designs, Numbers ContactRecord::*quantity, std::string_view si_unit, Plot plot) {
+  plot.x = kAlongFlank;
   for (const auto& [design, role] : in_order(designs)) {
     const ContactRecord& contact = design->contact;
     const Numbers& values = contact.*quantity;
     if (values.size() != contact.flank.size()) continue;
     const bool alike = flanks_alike(contact, values);
-    for (std::size_t flank = 0; flank < (alike ? 1 : contact.flank_names.size()); ++flank) {
-      PlotLine line{.name = name_of(designs, role, alike ? "both flanks" : contact.flank_names[flank]), .role = role};
-      line.stroke = flank == 0 ? Stroke::solid : Stroke::dashed;
-      for (const std::size_t i :
-           worst_line(contact.flank, contact.across_m, values, static_cast<std::int64_t>(flank))) {
-        line.x.push_back(contact.along_m[i] / 1e-3);
-        line.y.push_back(values[i] / unit.si);
-      }
-      plot.lines.push_back(std::move(line));
+    for (std::size_t flank = 0; flank < (alike ? 1 : contact.flank_names.size()); ++flank)
+      plot.series.push_back(
+          along_line(contact.along_m, values,
+                     worst_line(contact.flank, contact.across_m, values, static_cast<std::int64_t>(flank)),
+                     {.name = name_of(designs, role, alike ? "both flanks" : contact.flank_names[flank]),
+                      .role = role,
+                      .stroke = flank == 0 ? Stroke::solid : Stroke::dashed}));
+  }
+  return readable(std::move(plot), si_unit);
+}
+
+Plot fillet_plot(const Comparison& designs) {
+  Plot plot{.title = "Stress in the fillets",
+            .description =
+                "Largest von Mises stress over one period of the resonance, along the more loaded fillet of the "
+                "blade's neck (solid) and of the disk's slot (dashed).",
+            .x = {.label = "height above the fillet's lower end", .unit = "mm"},
+            .y = {.label = "von Mises stress", .unit = "MPa", .from_zero = true}};
+  for (const auto& [design, role] : in_order(designs)) {
+    for (const FilletRecord& fillet : design->fillets) {
+      const std::size_t count = fillet.von_mises_pa.size();
+      if (count == 0 || fillet.x_m.size() != count || fillet.y_m.size() != count) continue;
+      const auto peak = static_cast<std::size_t>(
+          std::max_element(fillet.von_mises_pa.begin(), fillet.von_mises_pa.end()) - fillet.von_mises_pa.begin());
+      std::vector<std::pair<double, double>> points;  // height, stress
+      for (std::size_t i = 0; i < count; ++i)
+        if ((fillet.x_m[i] > 0) == (fillet.x_m[peak] > 0)) points.emplace_back(fillet.y_m[i], fillet.von_mises_pa[i]);
+      std::sort(points.begin(), points.end());
+      Series series{.name = name_of(designs, role, fillet.name),
+                    .role = role,
+                    .stroke = fillet.name == "blade" ? Stroke::solid : Stroke::dashed};
+      for (const auto& [height, stress] : points) series.add((height - points.front().first) / 1e-3, stress / 1e6);
+      plot.series.push_back(std::move(series));
     }
   }
   return plot;
@@ -101,7 +121,7 @@ bool in_space(const ContactRecord& contact) {
   return least != contact.across_m.end() && *most > *least;
 }
 
-std::vector<FlankMap> contact_maps(const DesignRecord& design) {
+std::vector<Figure> contact_maps(const DesignRecord& design) {
   const ContactRecord& contact = design.contact;
   if (!in_space(contact)) return {};
   return {flank_map(contact, contact.depth_m, "m",
@@ -127,124 +147,74 @@ Numbers scaled(const Numbers& values, double si) {
   return result;
 }
 
-Plot wear_depth_plot(const Comparison& designs) {
-  return flank_plot(
-      designs, &ContactRecord::depth_m, "m",
-      {
-          .title = "Wear depth when wear has come to rest",
-          .description = "Depth worn off both surfaces together. Where it is zero, the surfaces stick or do not touch.",
-          .y = {.label = "worn depth"},
-      });
+Plot readable(Plot plot, std::string_view si_unit) {
+  double most = 0;
+  for (const Series& series : plot.series) most = std::max(most, largest(series.y));
+  const Unit unit = readable_unit(si_unit, most);
+  for (Series& series : plot.series) series.y = scaled(series.y, unit.si);
+  plot.y.unit = unit.symbol;
+  plot.y.from_zero = true;
+  return plot;
 }
 
-Plot pressure_plot(const Comparison& designs) {
-  return flank_plot(designs, &ContactRecord::preload_pressure_pa, "Pa",
-                    {
-                        .title = "Pressure after spin-up",
-                        .description = "Contact pressure under the centrifugal load alone, before any vibration.",
-                        .y = {.label = "pressure"},
-                    });
+Series along_line(const Numbers& along_m, const Numbers& values, const std::vector<std::size_t>& nodes, Series look) {
+  for (const std::size_t i : nodes) look.add(along_m[i] / 1e-3, values[i]);
+  return look;
 }
 
-Plot gap_plot(const Comparison& designs) {
-  return flank_plot(
-      designs, &ContactRecord::gap_m, "m",
-      {
-          .title = "Form of the flanks",
-          .description =
-              "Gap between blade and disk before loading: mismatch, crown, relief and rounded ends together.",
-          .y = {.label = "gap"},
-      });
+std::vector<Figure> contact_plots(const Comparison& designs) {
+  return {flank_plot(designs, &ContactRecord::depth_m, "m",
+                     {.title = "Wear depth when wear has come to rest",
+                      .description = "Depth worn off both surfaces together. Where it is zero, the surfaces stick or "
+                                     "do not touch.",
+                      .y = {.label = "worn depth"}}),
+          flank_plot(designs, &ContactRecord::preload_pressure_pa, "Pa",
+                     {.title = "Pressure after spin-up",
+                      .description = "Contact pressure under the centrifugal load alone, before any vibration.",
+                      .y = {.label = "pressure"}}),
+          flank_plot(designs, &ContactRecord::gap_m, "m",
+                     {.title = "Form of the flanks",
+                      .description = "Gap between blade and disk before loading: mismatch, crown, relief and rounded "
+                                     "ends together.",
+                      .y = {.label = "gap"}}),
+          fillet_plot(designs)};
 }
 
 Plot response_plot(const Comparison& designs) {
-  Plot plot{
-      .title = "Response around the resonance",
-      .description =
-          "Amplitude of the aerofoil's tip. Solid: new joint; dashed: worn joint; dotted: the same blade "
-          "glued to the disk, without friction.",
-      .x = {.label = "frequency", .unit = "Hz"},
-  };
-  double most = 0;
+  Plot plot{.title = "Response around the resonance",
+            .description =
+                "Amplitude of the aerofoil's tip. Solid: new joint; dashed: worn joint; dotted: the same "
+                "blade glued to the disk, without friction.",
+            .x = {.label = "frequency", .unit = "Hz"},
+            .y = {.label = "amplitude"}};
   for (const auto& [design, role] : in_order(designs))
-    for (const ResponseCurve* curve : {&design->unworn, &design->worn, &design->glued})
-      most = std::max(most, largest(curve->amplitude_m));
-  const Unit unit = readable_unit("m", most);
-  plot.y = {
-      .label = "amplitude",
-      .unit = unit.symbol,
-      .from_zero = true,
-  };
-  for (const auto& [design, role] : in_order(designs)) {
-    constexpr std::array kCurves{std::pair{&DesignRecord::glued, "glued"}, std::pair{&DesignRecord::unworn, "new"},
-                                 std::pair{&DesignRecord::worn, "worn"}};
-    for (std::size_t i = 0; i < kCurves.size(); ++i) {
-      const ResponseCurve& curve = design->*kCurves[i].first;
-      if (curve.frequency_hz.empty()) continue;
-      PlotLine line{.name = name_of(designs, role, kCurves[i].second),
-                    .x = curve.frequency_hz,
-                    .y = scaled(curve.amplitude_m, unit.si),
-                    .role = role};
-      line.stroke = i == 0 ? Stroke::dotted : i == 1 ? Stroke::solid : Stroke::dashed;
-      plot.lines.push_back(std::move(line));
-    }
-  }
-  return plot;
+    for (const auto& [curve, name, stroke] : {std::tuple{&design->glued, "glued", Stroke::dotted},
+                                              {&design->unworn, "new", Stroke::solid},
+                                              {&design->worn, "worn", Stroke::dashed}})
+      if (!curve->frequency_hz.empty())
+        plot.series.push_back({.name = name_of(designs, role, name),
+                               .x = curve->frequency_hz,
+                               .y = curve->amplitude_m,
+                               .role = role,
+                               .stroke = stroke});
+  return readable(std::move(plot), "m");
 }
 
 Plot nodal_diameter_plot(const DesignRecord& design) {
   const NodalDiameterRecord& record = design.nodal_diameters;
-  Plot plot{
-      .title = "Natural frequencies of the glued bladed disk",
-      .description = "At speed, over the number of nodal diameters; flat stretches are blade modes.",
-      .x = {.label = "nodal diameters", .whole = true},
-      .y =
-          {
-              .label = "frequency",
-              .unit = "Hz",
-              .from_zero = true,
-          },
-  };
+  Plot plot{.title = "Natural frequencies of the glued bladed disk",
+            .description = "At speed, over the number of nodal diameters; flat stretches are blade modes.",
+            .x = {.label = "nodal diameters", .whole = true},
+            .y = {.label = "frequency", .unit = "Hz", .from_zero = true}};
   const auto modes = static_cast<std::size_t>(std::max<std::int64_t>(record.modes, 0));
   if (record.frequency_hz.size() != modes * record.nodal_diameter.size()) return plot;
   for (std::size_t mode = 0; mode < modes; ++mode) {
-    PlotLine line{.name = {}, .role = Role::after};
-    line.dots = true;
-    for (std::size_t d = 0; d < record.nodal_diameter.size(); ++d) {
-      const bool known = record.status[d] == "converged";
-      line.x.push_back(static_cast<double>(record.nodal_diameter[d]));
-      line.y.push_back(known ? record.frequency_hz[d * modes + mode] : std::numeric_limits<double>::quiet_NaN());
-    }
-    plot.lines.push_back(std::move(line));
-  }
-  return plot;
-}
-
-Plot fillet_plot(const Comparison& designs) {
-  Plot plot{.title = "Stress in the fillets",
-            .description =
-                "Largest von Mises stress over one period of the resonance, along the more loaded fillet of the "
-                "blade's neck (solid) and of the disk's slot (dashed).",
-            .x = {.label = "height above the fillet's lower end", .unit = "mm"},
-            .y = {.label = "von Mises stress", .unit = "MPa", .from_zero = true}};
-  for (const auto& [design, role] : in_order(designs)) {
-    for (const FilletRecord& fillet : design->fillets) {
-      const std::size_t count = fillet.von_mises_pa.size();
-      if (count == 0 || fillet.x_m.size() != count || fillet.y_m.size() != count) continue;
-      const auto peak = static_cast<std::size_t>(
-          std::max_element(fillet.von_mises_pa.begin(), fillet.von_mises_pa.end()) - fillet.von_mises_pa.begin());
-      std::vector<std::pair<double, double>> points;  // height, stress
-      for (std::size_t i = 0; i < count; ++i)
-        if ((fillet.x_m[i] > 0) == (fillet.x_m[peak] > 0)) points.emplace_back(fillet.y_m[i], fillet.von_mises_pa[i]);
-      std::sort(points.begin(), points.end());
-      PlotLine line{.name = name_of(designs, role, fillet.name), .role = role};
-      line.stroke = fillet.name == "blade" ? Stroke::solid : Stroke::dashed;
-      for (const auto& [height, stress] : points) {
-        line.x.push_back((height - points.front().first) / 1e-3);
-        line.y.push_back(stress / 1e6);
-      }
-      plot.lines.push_back(std::move(line));
-    }
+    Series series{.mark = Mark::dot};
+    for (std::size_t d = 0; d < record.nodal_diameter.size(); ++d)
+      series.add(static_cast<double>(record.nodal_diameter[d]), record.status[d] == "converged"
+                                                                    ? record.frequency_hz[d * modes + mode]
+                                                                    : std::numeric_limits<double>::quiet_NaN());
+    plot.series.push_back(std::move(series));
   }
   return plot;
 }

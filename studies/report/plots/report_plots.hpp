@@ -2,8 +2,7 @@
 
 #include <vector>
 
-#include "studies/report/plots/flank_map.hpp"
-#include "studies/report/plots/svg_plot.hpp"
+#include "studies/report/plots/figure.hpp"
 #include "studies/report/record/run_record.hpp"
 
 namespace dovetail::report {
@@ -12,6 +11,13 @@ namespace dovetail::report {
 [[nodiscard]] double largest(const Numbers& values);
 /// Values in a unit of `si`.
 [[nodiscard]] Numbers scaled(const Numbers& values, double si);
+/// A plot whose y are SI values in a unit fit for reading, with zero in its range.
+[[nodiscard]] Plot readable(Plot plot, std::string_view si_unit);
+
+/// Values of contact nodes on one line along a flank, in mm from its neck side.
+[[nodiscard]] Series along_line(const Numbers& along_m, const Numbers& values, const std::vector<std::size_t>& nodes,
+                                Series look);
+inline const PlotAxis kAlongFlank{.label = "along the flank, from its neck side", .unit = "mm"};
 
 /// The two designs a figure compares; `before` null: only one design is shown. `after` is never null.
 struct Comparison {
@@ -25,21 +31,17 @@ struct Comparison {
 /// The contact nodes spread along the slot too.
 [[nodiscard]] bool in_space(const ContactRecord& contact);
 /// Wear depth and pressure over the flanks of a joint in space; none in the plane.
-[[nodiscard]] std::vector<FlankMap> contact_maps(const DesignRecord& design);
+[[nodiscard]] std::vector<Figure> contact_maps(const DesignRecord& design);
 
-// Each plot is empty (is_empty) when the designs do not hold what it shows. Colours tell before from after; line
-// styles tell the rest.
-[[nodiscard]] Plot wear_depth_plot(const Comparison& designs);
-[[nodiscard]] Plot pressure_plot(const Comparison& designs);
-[[nodiscard]] Plot gap_plot(const Comparison& designs);
-/// Largest stress over a period along the fillets, of the side where it is larger.
-[[nodiscard]] Plot fillet_plot(const Comparison& designs);
+// Each figure is empty when the designs do not hold what it shows. Colours tell before from after; line
+// strokes tell the rest.
+/// Wear depth, pressure and form of the flanks; largest stress over a period along the fillets, of the side where it is
+/// larger.
+[[nodiscard]] std::vector<Figure> contact_plots(const Comparison& designs);
 [[nodiscard]] Plot response_plot(const Comparison& designs);
 [[nodiscard]] Plot nodal_diameter_plot(const DesignRecord& design);
-[[nodiscard]] Plot history_plot(const DesignRecord& design);
-[[nodiscard]] Plot history_depth_plot(const DesignRecord& design);
-[[nodiscard]] Plot history_amplitude_plot(const DesignRecord& design);
-[[nodiscard]] Plot history_profile_plot(const DesignRecord& design);
+/// What a wear history comes to over its cycles: worn volume, largest depth, amplitude, profiles.
+[[nodiscard]] std::vector<Figure> history_plots(const DesignRecord& design);
 
 /// Worn profiles of a verified design over each other: history, direct method, search.
 [[nodiscard]] Plot verification_plot(const VerificationRecord& record);
@@ -47,6 +49,6 @@ struct Comparison {
 /// Objective over evaluations: feasible, infeasible and best so far.
 [[nodiscard]] Plot objective_plot(const RunRecord& record);
 /// One plot for each response that has limits: its value over evaluations with the limits as lines.
-[[nodiscard]] std::vector<Plot> limit_plots(const RunRecord& record);
+[[nodiscard]] std::vector<Figure> limit_plots(const RunRecord& record);
 
 }  // namespace dovetail::report

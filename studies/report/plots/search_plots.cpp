@@ -15,20 +15,19 @@ namespace {
 
 /// The candidates that have a value, with the best on top.
 struct CandidateMarks {
-  PlotPoints broken{.name = "breaks a limit", .role = Role::bad, .shape = Shape::cross};
-  PlotPoints feasible{.name = "feasible"};
-  PlotPoints best{.name = "best", .shape = Shape::star};
+  Series broken{.name = "breaks a limit", .role = Role::bad, .stroke = Stroke::none, .mark = Mark::cross};
+  Series feasible{.name = "feasible", .stroke = Stroke::none, .mark = Mark::circle};
+  Series best{.name = "best", .stroke = Stroke::none, .mark = Mark::star};
 
   void add(const RunRecord& record, std::size_t i, double shown, const std::string& unit) {
     const EvaluationRecord& e = record.evaluations[i];
-    PlotPoints& group = record.best == i ? best : e.feasible ? feasible : broken;
-    group.x.push_back(static_cast<double>(i + 1));
-    group.y.push_back(shown);
+    Series& group = record.best == i ? best : e.feasible ? feasible : broken;
+    group.add(static_cast<double>(i + 1), shown);
     group.titles.push_back(fmt::format("candidate {} ({}): {}{}{}", i + 1, e.phase, significant(shown),
                                        unit.empty() ? "" : " " + unit, e.feasible ? "" : ", not feasible"));
   }
   void add_to(Plot& plot) {
-    for (PlotPoints* points : {&broken, &feasible, &best}) plot.points.push_back(std::move(*points));
+    for (Series* marks : {&broken, &feasible, &best}) plot.series.push_back(std::move(*marks));
   }
 };
 
@@ -45,9 +44,8 @@ Plot objective_plot(const RunRecord& record) {
       .y = {.label = scale.label, .unit = scale.unit},
   };
   CandidateMarks marks;
-  PlotPoints failed{.name = "not computed", .role = Role::muted, .shape = Shape::triangle};
-  PlotLine so_far{.name = "best so far", .role = Role::before};
-  so_far.steps = true;
+  Series failed{.name = "not computed", .role = Role::muted, .stroke = Stroke::none, .mark = Mark::triangle};
+  Series so_far{.name = "best so far", .role = Role::before, .steps = true};
   double least = std::numeric_limits<double>::infinity(), lowest = least, highest = -least;
   bool positive = true;
   for (std::size_t i = 0; i < record.evaluations.size(); ++i) {
@@ -60,8 +58,7 @@ Plot objective_plot(const RunRecord& record) {
       marks.add(record, i, shown, scale.unit);
       if (e.feasible) least = std::min(least, e.objective);
     }
-    so_far.x.push_back(at);
-    so_far.y.push_back(std::isfinite(least) ? scale.factor * least : std::numeric_limits<double>::quiet_NaN());
+    so_far.add(at, std::isfinite(least) ? scale.factor * least : std::numeric_limits<double>::quiet_NaN());
   }
   if (!(lowest <= highest)) return plot;
   plot.y.logarithmic = positive && highest > 30 * lowest;
@@ -71,28 +68,25 @@ Plot objective_plot(const RunRecord& record) {
   for (std::size_t i = 0; i < record.evaluations.size(); ++i) {
     const EvaluationRecord& e = record.evaluations[i];
     if (std::isfinite(e.objective)) continue;
-    failed.x.push_back(static_cast<double>(i + 1));
-    failed.y.push_back(edge);
+    failed.add(static_cast<double>(i + 1), edge);
     failed.titles.push_back(fmt::format("candidate {} ({}): {}", i + 1, e.phase, e.status));
   }
   if (failed.x.empty()) plot.description = "Every candidate in the order it was evaluated.";
-  if (std::isfinite(least)) plot.lines.push_back(std::move(so_far));
-  plot.points.push_back(std::move(failed));
+  if (std::isfinite(least)) plot.series.push_back(std::move(so_far));
+  plot.series.push_back(std::move(failed));
   marks.add_to(plot);
   return plot;
 }
 
-std::vector<Plot> limit_plots(const RunRecord& record) {
-  std::vector<Plot> plots;
+std::vector<Figure> limit_plots(const RunRecord& record) {
+  std::vector<Figure> plots;
   std::vector<std::string> done;
   for (const optimizer::ResponseConstraint& limited : record.problem.constraints) {
     if (std::find(done.begin(), done.end(), limited.response) != done.end()) continue;
     done.push_back(limited.response);
-    double largest = 0;
-    for (const EvaluationRecord& e : record.evaluations)
-      if (const double value = response(e, limited.response); std::isfinite(value))
-        largest = std::max(largest, std::abs(value));
-    const Unit unit = response_unit(limited.response, largest);
+    Numbers values;
+    for (const EvaluationRecord& e : record.evaluations) values.push_back(response(e, limited.response));
+    const Unit unit = response_unit(limited.response, largest(values));
     Plot plot{.title = words(limited.response) + " over the search",
               .x = {.label = "candidate", .whole = true},
               .y = {.label = words(limited.response), .unit = unit.symbol}};
@@ -105,10 +99,8 @@ std::vector<Plot> limit_plots(const RunRecord& record) {
       if (c.absolute && c.upper) plot.levels.push_back({.name = {}, .y = -*c.upper / unit.si});
     }
     CandidateMarks marks;
-    for (std::size_t i = 0; i < record.evaluations.size(); ++i) {
-      const double shown = response(record.evaluations[i], limited.response) / unit.si;
-      if (std::isfinite(shown)) marks.add(record, i, shown, unit.symbol);
-    }
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (std::isfinite(values[i])) marks.add(record, i, values[i] / unit.si, unit.symbol);
     marks.add_to(plot);
     plots.push_back(std::move(plot));
   }

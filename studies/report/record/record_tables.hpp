@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <concepts>
 
 #include "optimizer/journal/record_fields.hpp"
 #include "studies/report/record/run_record.hpp"
@@ -8,6 +9,9 @@
 /// The fields of all that a results file holds; see results_file.hpp. A name with a slash lies in a group further down,
 /// an empty one in the group of its owner.
 namespace dovetail::report {
+
+template <class T, class... Others>
+concept OneOf = (std::same_as<T, Others> || ...);
 
 /// A field that is a table [rows, columns], row by row.
 template <class R>
@@ -19,19 +23,8 @@ struct TableField {
 
 /// Lists of these are kept column by column, in one data set for each field; of others each has a group 0, 1, ...
 template <class R>
-inline constexpr bool kInColumns = false;
-template <>
-inline constexpr bool kInColumns<optimizer::DesignVariable> = true;
-template <>
-inline constexpr bool kInColumns<optimizer::ObjectiveTerm> = true;
-template <>
-inline constexpr bool kInColumns<optimizer::ResponseConstraint> = true;
-template <>
-inline constexpr bool kInColumns<EvaluationRecord> = true;
-template <>
-inline constexpr bool kInColumns<geometry::Edge> = true;
-template <>
-inline constexpr bool kInColumns<fem::Region> = true;
+inline constexpr bool kInColumns = OneOf<R, optimizer::DesignVariable, optimizer::ObjectiveTerm,
+                                         optimizer::ResponseConstraint, EvaluationRecord, geometry::Edge, fem::Region>;
 
 }  // namespace dovetail::report
 

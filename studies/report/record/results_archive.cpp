@@ -16,26 +16,13 @@ void Archive::require_size(const std::string& path, std::size_t found, std::size
 }
 
 void Archive::read(const std::string& path, Numbers& values) const {
-  hdf5::Array<double> array = file_.read_reals(path);
-  if (array.rank() != 1) refuse(path, "rank " + std::to_string(array.rank()), "must be a list");
-  values = std::move(array.values);
+  values = list(path, file_.read_reals(path));
 }
 void Archive::read(const std::string& path, Wholes& values) const {
-  hdf5::Array<std::int64_t> array = file_.read_integers(path);
-  if (array.rank() != 1) refuse(path, "rank " + std::to_string(array.rank()), "must be a list");
-  values = std::move(array.values);
+  values = list(path, file_.read_integers(path));
 }
 void Archive::read(const std::string& path, Texts& values) const {
   values = file_.read_strings(path).values;
-}
-void Archive::read(const std::string& object, const std::string& name, std::string& value) const {
-  value = file_.string_attribute(object, name);
-}
-void Archive::read(const std::string& object, const std::string& name, double& value) const {
-  value = file_.real_attribute(object, name);
-}
-void Archive::read(const std::string& object, const std::string& name, std::int64_t& value) const {
-  value = file_.integer_attribute(object, name);
 }
 
 std::size_t Archive::table(const std::string& path, Numbers& values, std::size_t columns) {
@@ -57,29 +44,26 @@ void Archive::exchange(const std::string& group, const std::string& name, std::o
   if (value >= 0) index = static_cast<std::size_t>(value);
 }
 
-void Archive::exchange(const std::string& group, const std::string& name, NamedValues& values) {
+template <class List, class Map>
+void Archive::exchange_pairs(const std::string& group, const std::array<std::string, 2>& written, Map& map) {
   Texts names;
-  Numbers list;
-  for (const auto& [key, value] : values) {
-    names.push_back(key);
-    list.push_back(value);
+  List values;
+  for (const auto& [name, value] : map) {
+    names.push_back(name);
+    values.push_back(value);
   }
-  exchange(in(group, name), "names", names);
-  exchange(in(group, name), "values", list);
-  require_size(in(group, name), list.size(), names.size());
-  for (std::size_t i = 0; i < names.size(); ++i) values[names[i]] = list[i];
+  exchange(group, written[0], names);
+  exchange(group, written[1], values);
+  require_size(in(group, written[1]), values.size(), names.size());
+  for (std::size_t i = 0; i < names.size(); ++i) map[names[i]] = values[i];
+}
+
+void Archive::exchange(const std::string& group, const std::string& name, NamedValues& values) {
+  exchange_pairs<Numbers>(in(group, name), {"names", "values"}, values);
 }
 
 void Archive::exchange(const std::string& group, const std::string& name, std::map<std::string, std::string>& values) {
-  Texts names, list;
-  for (const auto& [key, value] : values) {
-    names.push_back(key);
-    list.push_back(value);
-  }
-  exchange(group, name + "_names", names);
-  exchange(group, name + "_values", list);
-  require_size(in(group, name), list.size(), names.size());
-  for (std::size_t i = 0; i < names.size(); ++i) values[names[i]] = list[i];
+  exchange_pairs<Texts>(group, {name + "_names", name + "_values"}, values);
 }
 
 void Archive::exchange(const std::string& group, const std::string& name, fem::Mesh& mesh) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <concepts>
 #include <map>
 #include <optional>
@@ -14,9 +15,6 @@ namespace dovetail::report {
 using Wholes = std::vector<std::int64_t>;
 using Texts = std::vector<std::string>;
 using NamedValues = std::map<std::string, double>;
-
-template <class T, class... Others>
-concept OneOf = (std::same_as<T, Others> || ...);
 
 /// Records to a results file or from it, by their tables of fields: one function serves both ways, so that they cannot
 /// drift apart. A record is a group; its texts and numbers are attributes, its lists and tables data sets, its records
@@ -128,9 +126,23 @@ class Archive {
   void read(const std::string& path, Numbers& values) const;
   void read(const std::string& path, Wholes& values) const;
   void read(const std::string& path, Texts& values) const;
-  void read(const std::string& object, const std::string& name, std::string& value) const;
-  void read(const std::string& object, const std::string& name, double& value) const;
-  void read(const std::string& object, const std::string& name, std::int64_t& value) const;
+  template <class T>
+  [[nodiscard]] std::vector<T> list(const std::string& path, hdf5::Array<T> array) const {
+    if (array.rank() != 1) refuse(path, "rank " + std::to_string(array.rank()), "must be a list");
+    return std::move(array.values);
+  }
+  template <class T>
+  void read(const std::string& object, const std::string& name, T& value) const {
+    if constexpr (std::same_as<T, std::string>)
+      value = file_.string_attribute(object, name);
+    else if constexpr (std::same_as<T, double>)
+      value = file_.real_attribute(object, name);
+    else
+      value = file_.integer_attribute(object, name);
+  }
+  /// A map as a list of its names and a list of its values, under these two names.
+  template <class List, class Map>
+  void exchange_pairs(const std::string& group, const std::array<std::string, 2>& written, Map& map);
 
   /// Throws InputError unless `found` entries are the `expected` ones.
   void require_size(const std::string& path, std::size_t found, std::size_t expected) const;

@@ -5,9 +5,12 @@
 
 #include <limits>
 #include <regex>
+#include <stdexcept>
 
 #include "studies/report/pages/html.hpp"
+#include "studies/report/pages/page.hpp"
 #include "studies/report/pages/report_words.hpp"
+#include "studies/report/pages/table.hpp"
 #include "studies/report/plots/report_plots.hpp"
 #include "tests/unit/studies/report_markup.hpp"
 #include "tests/unit/studies/report_sample.hpp"
@@ -43,6 +46,27 @@ TEST(MarkupCheck, SeesWhatIsBroken) {
   EXPECT_NE(markup_error("<a>x & y</a>"), "");
   EXPECT_NE(markup_error("<a>x < y</a>"), "");
   EXPECT_NE(markup_error("<a>"), "");
+}
+
+TEST(Template, FillsInTextsAndMarkup) {
+  const Blanks blanks{{"a", "1 < 2"}, {"none", ""}};
+  EXPECT_EQ(fill("x {{a}} {{{a}}} {y}", blanks), "x 1 &lt; 2 1 < 2 {y}");
+  EXPECT_EQ(fill("{{#a}}is {{a}}{{/a}}{{^a}}is not{{/a}}{{#none}}{{a}}{{/none}}{{^none}}, no{{/none}}", blanks),
+            "is 1 &lt; 2, no");
+  // What is filled in is not read again.
+  EXPECT_EQ(fill("{{a}}", {{"a", "{{b}}"}}), "{{b}}");
+  EXPECT_THROW(static_cast<void>(fill("{{b}}", blanks)), std::out_of_range);
+}
+
+TEST(Table, EscapesAllButMarkup) {
+  const std::string html = table_html({.columns = {{"a & b"}, {"c", true}},
+                                       .rows = {{.cells = {"x < y", Html{"<b>1</b>"}}, .style = "aim"}, {{"z", "w"}}},
+                                       .style = "pair"});
+  EXPECT_EQ(markup_error(html), "");
+  EXPECT_THAT(html, HasSubstr("<th scope=\"col\">a &amp; b</th><th scope=\"col\" class=\"text\">c</th>"));
+  EXPECT_THAT(html,
+              HasSubstr("<tr class=\"aim\"><th scope=\"row\">x &lt; y</th><td class=\"text\"><b>1</b></td></tr>"));
+  EXPECT_THAT(html, HasSubstr("<tr><th scope=\"row\">z</th>"));
 }
 
 TEST(Report, IsWellFormedAndNeedsNoOtherFile) {
@@ -194,17 +218,17 @@ TEST(Report, SaysWhenTheStartStaysTheBest) {
 TEST(ReportPlots, MergeFlanksOnlyWhenTheyAreAlike) {
   DesignRecord design = sample_design(2);
   // Depths are the same on both sides, pressures differ by 10 %.
-  EXPECT_EQ(wear_depth_plot({.before = nullptr, .after = &design}).lines.size(), 1U);
-  EXPECT_EQ(pressure_plot({.before = nullptr, .after = &design}).lines.size(), 2U);
+  const std::vector<Figure> plots = contact_plots({.before = nullptr, .after = &design});
+  EXPECT_EQ(std::get<Plot>(plots[0]).series.size(), 1U);
+  EXPECT_EQ(std::get<Plot>(plots[1]).series.size(), 2U);
 }
 
 TEST(ReportPlots, ShowTheObjectiveInItsUnit) {
   const Plot plot = objective_plot(sample_record());
   EXPECT_EQ(plot.y.unit, "mm\u00b3");
-  ASSERT_EQ(plot.lines.size(), 1U);
+  ASSERT_EQ(plot.series.size(), 5U);
   // Best so far: the second candidate breaks the limit, the third has no value.
-  EXPECT_THAT(plot.lines[0].y, testing::Pointwise(testing::DoubleEq(), {0.8, 0.8, 0.8, 0.1}));
-  EXPECT_EQ(plot.points.size(), 4U);
+  EXPECT_THAT(plot.series[0].y, testing::Pointwise(testing::DoubleEq(), {0.8, 0.8, 0.8, 0.1}));
 }
 
 }  // namespace

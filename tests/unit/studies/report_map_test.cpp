@@ -1,4 +1,4 @@
-#include "studies/report/plots/flank_map.hpp"
+#include "studies/report/plots/report_plots.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,6 @@
 #include <limits>
 #include <regex>
 
-#include "studies/report/plots/report_plots.hpp"
 #include "tests/unit/studies/report_markup.hpp"
 
 namespace dovetail::report {
@@ -82,7 +81,7 @@ TEST(FlankMap, CellsOfStripsThatAreDividedDifferentlyTileEachFlank) {
 }
 
 TEST(FlankMap, ShowsNumbersInTheUnit) {
-  const std::string figure = flank_map_figure(sample());
+  const std::string figure = figure_html(sample());
   EXPECT_EQ(markup_error(figure), "");
   EXPECT_THAT(figure, HasSubstr("<title>20.0 mm, 5.50 mm: 23.00 MPa</title>"));
   EXPECT_THAT(figure, HasSubstr("<td>right flank</td><td>20</td><td>5.5</td><td>23.000</td>"));
@@ -101,7 +100,7 @@ TEST(FlankMap, WithoutValuesIsASentence) {
   FlankMap map = sample();
   for (FlankPanel& panel : map.panels) panel.values.assign(panel.values.size(), 0.0);
   EXPECT_TRUE(is_empty(map));
-  EXPECT_THAT(flank_map_figure(map), HasSubstr("Nothing to show"));
+  EXPECT_THAT(figure_html(map), HasSubstr("Nothing to show"));
 }
 
 /// A joint in space: two flanks of 3 nodes along and 2 lines, deepest on the second line of the right flank.
@@ -123,11 +122,12 @@ DesignRecord design_in_space() {
 
 TEST(FlankMap, ShowsTheContactOfADesignInSpaceOnly) {
   DesignRecord design = design_in_space();
-  const std::vector<FlankMap> maps = contact_maps(design);
+  const std::vector<Figure> maps = contact_maps(design);
   ASSERT_EQ(maps.size(), 2U);
-  EXPECT_EQ(maps[0].unit.symbol, "\u00b5m");
-  ASSERT_EQ(maps[0].panels.size(), 2U);
-  EXPECT_EQ(maps[0].panels[1].values[3], 3e-6);
+  const FlankMap& depth = std::get<FlankMap>(maps[0]);
+  EXPECT_EQ(depth.unit.symbol, "\u00b5m");
+  ASSERT_EQ(depth.panels.size(), 2U);
+  EXPECT_EQ(depth.panels[1].values[3], 3e-6);
   design.contact.across_m.assign(design.contact.flank.size(), 0.0);
   EXPECT_TRUE(contact_maps(design).empty());
   design.contact.across_m.clear();

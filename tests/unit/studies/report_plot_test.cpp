@@ -1,4 +1,4 @@
-#include "studies/report/plots/svg_plot.hpp"
+#include "studies/report/plots/figure.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -116,12 +116,11 @@ Plot sample_plot() {
             .description = "x < y",
             .x = {.label = "position", .unit = "mm"},
             .y = {.label = "depth & width", .unit = "\u00b5m"}};
-  plot.lines = {{.name = "one <line>", .x = {0, 1, 2, 3}, .y = {1, kNaN, 2, 3}, .dots = true},
-                {.name = "two", .x = {0, 1, 2, 3}, .y = {0, 1, 2, 5}, .stroke = Stroke::dashed, .steps = true}};
-  plot.lines[1].filled = true;
-  plot.points = {{.name = "best", .x = {1}, .y = {2}, .titles = {"<b>"}, .shape = Shape::star},
-                 {.name = "cross", .x = {2}, .y = {2}, .shape = Shape::cross},
-                 {.name = "triangle", .x = {3}, .y = {kNaN}, .shape = Shape::triangle}};
+  plot.series = {{.name = "one <line>", .x = {0, 1, 2, 3}, .y = {1, kNaN, 2, 3}, .mark = Mark::dot},
+                 {.name = "two", .x = {0, 1, 2, 3}, .y = {0, 1, 2, 5}, .stroke = Stroke::dashed, .steps = true},
+                 {.name = "best", .x = {1}, .y = {2}, .stroke = Stroke::none, .mark = Mark::star, .titles = {"<b>"}},
+                 {.name = "cross", .x = {2}, .y = {2}, .stroke = Stroke::none, .mark = Mark::cross},
+                 {.name = "triangle", .x = {3}, .y = {kNaN}, .stroke = Stroke::none, .mark = Mark::triangle}};
   plot.levels = {{.name = "at most 4 & so", .y = 4}};
   return plot;
 }
@@ -132,7 +131,7 @@ TEST(Plot, IsWellFormedAndNamed) {
   EXPECT_THAT(svg, HasSubstr("role=\"img\""));
   EXPECT_THAT(svg, HasSubstr("aria-label=\"A &quot;title&quot; with &lt;marks&gt; &amp; more\""));
   EXPECT_THAT(svg, HasSubstr("<title>&lt;b&gt;</title>"));
-  const std::string figure = plot_figure(sample_plot());
+  const std::string figure = figure_html(sample_plot());
   EXPECT_EQ(markup_error(figure), "");
   EXPECT_THAT(figure, HasSubstr("<table>"));
   EXPECT_THAT(figure, HasSubstr("one &lt;line&gt; (\u00b5m)"));
@@ -156,14 +155,20 @@ TEST(Plot, StaysWithinItsAxes) {
   EXPECT_EQ(svg.find("nan"), std::string::npos);
 }
 
+TEST(Plot, GivesItsNumbersAsATable) {
+  const std::string csv = figure_csv(sample_plot());
+  EXPECT_THAT(csv, testing::StartsWith("\"line\",\"position (mm)\",\"depth & width (\u00b5m)\"\n\"one <line>\",0,1\n"));
+  EXPECT_THAT(csv, HasSubstr("\"one <line>\",1,\n"));  // what is not known is empty
+  EXPECT_THAT(csv, HasSubstr("\"best\",1,2\n"));
+}
+
 TEST(Plot, WithoutNumbersIsASentence) {
   Plot plot = sample_plot();
-  plot.lines.resize(1);
-  plot.lines[0].y.assign(4, kNaN);
-  plot.points.clear();
+  plot.series.resize(1);
+  plot.series[0].y.assign(4, kNaN);
   EXPECT_TRUE(is_empty(plot));
   EXPECT_EQ(plot_svg(plot), "");
-  EXPECT_THAT(plot_figure(plot), HasSubstr("Nothing to show"));
+  EXPECT_THAT(figure_html(plot), HasSubstr("Nothing to show"));
   EXPECT_FALSE(is_empty(sample_plot()));
 }
 
