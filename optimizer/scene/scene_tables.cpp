@@ -117,7 +117,9 @@ std::span<const Field<optimizer::SolverSettings>> option_table<optimizer::Solver
                .help = "relative residual at which a steady state counts as converged"},
       Field<S>{.key = "solver",
                .member = &S::solver,
-               .help = "algorithm for the nonlinear equations; powell_fd: with finite differences, for comparison",
+               .help = "algorithm for the nonlinear equations; auto: Newton, then other pseudo-penalties and Powell "
+                       "where it fails; powell: hybrid Powell with the exact Jacobian; powell_fd: with finite "
+                       "differences, for comparison",
                .choices = {"auto", "newton", "powell", "powell_fd"}},
       Field<S>{.key = "pseudo_penalty_n_per_m",
                .member = &S::pseudo_penalty,
@@ -126,7 +128,7 @@ std::span<const Field<optimizer::SolverSettings>> option_table<optimizer::Solver
       Field<S>{.key = "pseudo_penalty_normal_n_per_m",
                .member = &S::pseudo_penalty_normal,
                .range = kNonNegative,
-               .help = "pseudo-penalty in the normal direction; 0: as pseudo_penalty_n_per_m"},
+               .help = "pseudo-penalty in the normal direction alone; 0: that of all contact nodes"},
       Field<S>{.key = "max_jacobians",
                .member = &S::max_jacobians,
                .range = kNonNegative,

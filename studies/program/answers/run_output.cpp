@@ -85,9 +85,9 @@ report::RunRecord record_of(const Study& study, OptimizationResult result, const
 
 }  // namespace
 
-report::RunRecord write_run(const Study& study, const OptimizationResult& result, const RunEngine& engine,
-                            double seconds, const std::vector<report::VerificationRecord>& verifications,
-                            const std::filesystem::path& directory, std::ostream& err) {
+report::RunRecord write_run(const RunSite& site, const OptimizationResult& result, double seconds,
+                            const std::vector<report::VerificationRecord>& verifications) {
+  const auto& [study, engine, directory, err] = site;
   // The design first: it costs nothing and must not be lost when describing it is cut short.
   if (result.best) {
     const optimizer::Candidate& best = result.evaluations[*result.best];

@@ -10,12 +10,19 @@
 
 namespace dovetail::studies {
 
+/// A run: what is computed, with what, and where it is kept and told.
+struct RunSite {
+  const Study& study;
+  const RunEngine& engine;
+  std::filesystem::path directory;
+  std::ostream& err;
+};
+
 /// Writes what a run came to into its directory, finished or interrupted: best.toml and the exports the study asks for
 /// (when there is a feasible design), results.h5 and report.html. Each file whole or not at all. The start and the best
 /// design are recorded as evaluations with bars and the wear history have them; returns the record.
-report::RunRecord write_run(const Study& study, const optimizer::OptimizationResult& result, const RunEngine& engine,
-                            double seconds, const std::vector<report::VerificationRecord>& verifications,
-                            const std::filesystem::path& directory, std::ostream& err);
+report::RunRecord write_run(const RunSite& site, const optimizer::OptimizationResult& result, double seconds,
+                            const std::vector<report::VerificationRecord>& verifications);
 
 /// The study's scene with the candidate's variables.
 [[nodiscard]] optimizer::Scene scene_of(const Study& study, const optimizer::Candidate& candidate);

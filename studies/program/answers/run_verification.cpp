@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <ostream>
 #include <system_error>
@@ -93,10 +94,9 @@ std::vector<std::size_t> best_designs(const optimizer::Problem& problem, const o
   return chosen;
 }
 
-std::vector<VerificationRecord> verify_best(const Study& study, const optimizer::OptimizationResult& result,
-                                            const RunEngine& engine, const std::string& fingerprint,
-                                            const fs::path& directory, const OrderlyInterrupt& interrupt,
-                                            std::ostream& err) {
+std::vector<VerificationRecord> verify_best(const RunSite& site, const optimizer::OptimizationResult& result,
+                                            const std::string& fingerprint, const OrderlyInterrupt& interrupt) {
+  const auto& [study, engine, directory, err] = site;
   std::vector<VerificationRecord> records;
   if (!engine.verify) return records;
   const fs::path file = directory / "verification.jsonl";

@@ -1,14 +1,12 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
-#include <iosfwd>
 #include <string>
 #include <vector>
 
 #include "optimizer/search/run.hpp"
+#include "studies/program/answers/run_output.hpp"
 #include "studies/program/commands/interrupt.hpp"
-#include "studies/program/engine/run_engine.hpp"
 
 namespace dovetail::studies {
 
@@ -17,14 +15,12 @@ namespace dovetail::studies {
 [[nodiscard]] std::vector<std::size_t> best_designs(const optimizer::Problem& problem,
                                                     const optimizer::OptimizationResult& result, int count);
 
-/// The best designs verified, best first. Each is kept in `directory`/verification.jsonl as soon as it is done, one
+/// The best designs verified, best first. Each is kept in the directory's verification.jsonl as soon as it is done, one
 /// JSON object per line, and taken from there when it was done before for the same study (`fingerprint`). A line that
 /// is cut short counts for nothing. Stops between designs, and inside one, when interrupted.
-[[nodiscard]] std::vector<report::VerificationRecord> verify_best(const Study& study,
+[[nodiscard]] std::vector<report::VerificationRecord> verify_best(const RunSite& site,
                                                                   const optimizer::OptimizationResult& result,
-                                                                  const RunEngine& engine,
                                                                   const std::string& fingerprint,
-                                                                  const std::filesystem::path& directory,
-                                                                  const OrderlyInterrupt& interrupt, std::ostream& err);
+                                                                  const OrderlyInterrupt& interrupt);
 
 }  // namespace dovetail::studies

@@ -17,16 +17,6 @@ namespace dovetail::studies {
 namespace {
 
 std::vector<double> parameters(const BackboneOptions& options) {
-  const bool wear = options.over == "wear";
-  const Range& range = wear ? kNonNegative : kPositive;
-  Complaints wrong;
-  wrong.require("--from", options.from, range);
-  wrong.require("--to", options.to, range);
-  wrong.require("--points", options.points, {.lower = 1, .upper = 100000});
-  if (options.frequency_hz) wrong.require("--frequency", *options.frequency_hz, kFrequencies);
-  if (options.logarithmic && (options.from <= 0 || options.to <= 0))
-    wrong.add("--logarithmic", "needs --from > 0 and --to > 0");
-  wrong.raise();
   std::vector<double> values = evenly_spaced(options.from, options.to, options.points);
   for (std::size_t i = 1; options.logarithmic && i + 1 < values.size(); ++i)
     values[i] = options.from * std::pow(options.to / options.from, static_cast<double>(i) / (options.points - 1));
@@ -36,12 +26,12 @@ std::vector<double> parameters(const BackboneOptions& options) {
 int output_index(const BackboneOptions& options, const LoadedModel& loaded) {
   const std::vector<std::string>& names = loaded.model.output_names;
   if (names.empty()) refuse(options.input, "has no output whose resonance could be followed");
-  if (!options.output) return 0;
-  const auto found = std::find(names.begin(), names.end(), *options.output);
+  if (options.output.empty()) return 0;
+  const auto found = std::find(names.begin(), names.end(), options.output);
   if (found == names.end()) {
-    const std::string near = nearest(*options.output, names);
+    const std::string near = nearest(options.output, names);
     refuse("--output", "is no output of the model" + (near.empty() ? "" : "; did you mean " + near + "?"),
-           *options.output);
+           options.output);
   }
   return static_cast<int>(found - names.begin());
 }
@@ -98,7 +88,7 @@ std::string table(const BackboneOptions& options, const paths::Backbone& found) 
 int run_backbone(const BackboneOptions& options, const Streams& streams) {
   const std::vector<double> values = parameters(options);
   if (options.solver.automatic()) refuse("--harmonics, --samples", "must be whole numbers for a backbone", "auto");
-  LoadedModel loaded = load_model(options.input, options.overrides, options.solver);
+  LoadedModel loaded = load_model(options.input, options.set, options.solver);
   if (!loaded.failure.empty()) return not_converged(options.input, "not converged: " + loaded.failure, streams);
   paths::BackboneOptions settings;
   const int output = output_index(options, loaded);

@@ -36,7 +36,7 @@ report::FieldRecord fields_of(const ExportOptions& options, bool of_run) {
     if (record.best_design && record.best_design->fields.mesh.element_count() > 0) return record.best_design->fields;
     refuse(options.input, "holds no fields of a best design");
   }
-  const Study study = load_study(options.input, options.overrides);
+  const Study study = load_study(options.input, overrides(options.set));
   const report::DesignRecord design = describe_fields(study);
   if (design.fields.mesh.element_count() > 0) return design.fields;
   refuse(options.input, "the design has no fields: " + design.status);
@@ -59,7 +59,7 @@ int run_import(const ImportOptions& options, const Streams& streams) {
 namespace {
 
 int export_model(const ExportOptions& options, const std::string& input, const Streams& streams) {
-  const LoadedModel loaded = load_model(input, options.overrides, {});
+  const LoadedModel loaded = load_model(input, options.set, {});
   if (!loaded.failure.empty()) return not_converged(input, "not converged: " + loaded.failure, streams);
   write_model_document(options.file, loaded.model, options.input);
   streams.out << options.file << ": written, with three matrices beside it\n";
@@ -88,7 +88,7 @@ int run_export(const ExportOptions& options, const Streams& streams) {
   if (is_field_format(options.format))
     export_fields(fields_of(options, of_run), options.file);
   else
-    export_geometry(load_study(design(), options.overrides).scene, options.format, options.deck, options.file);
+    export_geometry(load_study(design(), overrides(options.set)).scene, options.format, options.deck, options.file);
   streams.out << options.file << ": written\n";
   return kDone;
 }

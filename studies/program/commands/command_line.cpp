@@ -3,32 +3,78 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <exception>
+#include <functional>
+#include <memory>
 #include <new>
 #include <ostream>
 #include <sstream>
 #include <system_error>
 
 #include "core/options.hpp"
-#include "studies/program/commands/arguments.hpp"
+#include "studies/program/commands/commands.hpp"
+#include "studies/program/commands/help.hpp"
 #include "studies/program/commands/version.hpp"
 
 namespace dovetail::studies {
 namespace {
 
-constexpr const char* kDescription =
-    "dovetail optimises blade attachments (dovetails) of bladed disks for little fretting wear: from a section's\n"
-    "dimensions over finite elements and a reduced model to the vibration with friction, the shape at which wear\n"
-    "comes to rest, and the best design.\n\n"
-    "A session:\n"
-    "  dovetail new mine.toml         write a commented study to start from\n"
-    "  dovetail check mine.toml       is everything in it valid?\n"
-    "  dovetail evaluate mine.toml    compute the one design it describes\n"
-    "  dovetail run mine.toml         optimise it; results go to results/mine";
+template <class S>
+void add_option(CLI::App& command, S& options, const Option<S>& row) {
+  CLI::Option* option = std::visit(
+      [&](auto member) {
+        using T = std::decay_t<decltype(options.*member)>;
+        if constexpr (std::is_same_v<T, bool>) {
+          return command.add_flag(row.name, options.*member, row.help);
+        } else {
+          CLI::Option* added =
+              command.add_option(row.name, options.*member, row.help)->type_name(std::string(row.type));
+          if constexpr (std::is_same_v<T, std::vector<std::string>>)
+            added->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->allow_extra_args(false);
+          if constexpr (std::is_same_v<T, std::vector<int>>) added->delimiter(',');
+          return added;
+        }
+      },
+      row.member);
+  option->required(row.required);
+  if (!row.choices.empty())
+    option->check(CLI::IsMember(std::vector<std::string>(row.choices.begin(), row.choices.end())));
+}
 
-constexpr const char* kFooter =
-    "Exit status: 0 done; 2 the input is wrong (each error is a sentence on standard error); 3 a computation did not\n"
-    "converge (what did converge is still written); 130 interrupted, with everything finished so far kept.\n"
-    "`dovetail COMMAND --help` explains a command.";
+/// The command chosen, ready to run.
+using Chosen = std::function<int(const Streams&)>;
+
+/// A command with the options of its table; chosen, it checks them and runs.
+template <class Options, class Run>
+void add_command(CLI::App& app, Chosen& chosen, const CommandHelp& help, Run run) {
+  CLI::App* command = app.add_subcommand(help.name, help.what);
+  command->footer(help.footer);
+  const auto options = std::make_shared<Options>();
+  visit_options(*options, [&]<class S>(S& part, std::span<const Option<S>> table) {
+    for (const Option<S>& row : table) add_option(*command, part, row);
+  });
+  command->callback([options, run, &chosen] {
+    chosen = [options, run](const Streams& streams) {
+      complaints(*options).raise();
+      return run(*options, streams);
+    };
+  });
+}
+
+void add_commands(CLI::App& app, Chosen& chosen) {
+  add_command<RunOptions>(app, chosen, help::run(), [](const RunOptions& options, const Streams& streams) {
+    return run_study(options, streams, study_engine);
+  });
+  add_command<EvaluateOptions>(app, chosen, help::evaluate(), run_evaluate);
+  add_command<ReduceOptions>(app, chosen, help::reduce(), run_reduce);
+  add_command<CheckOptions>(app, chosen, help::check(), run_check);
+  add_command<NewOptions>(app, chosen, help::create(), run_new);
+  add_command<ResponseOptions>(app, chosen, help::response(), run_response);
+  add_command<BackboneOptions>(app, chosen, help::backbone(), run_backbone);
+  add_command<WearOptions>(app, chosen, help::wear(), run_wear);
+  add_command<ImportOptions>(app, chosen, help::import_model(), run_import);
+  add_command<ExportOptions>(app, chosen, help::export_files(), run_export);
+  add_command<ReportOptions>(app, chosen, help::report(), run_report);
+}
 
 /// What to say of a first word that is no command; empty when it is one.
 std::string unknown_command(const CLI::App& app, const std::string& word) {
@@ -59,19 +105,19 @@ int parse_failure(const CLI::App& app, const CLI::ParseError& error, const std::
 }  // namespace
 
 int run_program(int argc, const char* const* argv, const Streams& streams) {
-  CLI::App app(kDescription, "dovetail");
-  Arguments arguments;
+  CLI::App app(help::kDescription, "dovetail");
+  Chosen chosen;
   app.set_version_flag("--version", std::string("dovetail ") + version());
   app.require_subcommand(1);
-  app.footer(kFooter);
-  define_commands(app, arguments);
+  app.footer(help::kFooter);
+  add_commands(app, chosen);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return parse_failure(app, error, argc > 1 ? argv[1] : "", streams);
   }
   try {
-    return arguments.command(streams);
+    return chosen(streams);
   } catch (const InputError& error) {
     streams.err << error.what() << "\n";
     return kWrongInput;

@@ -18,14 +18,8 @@ namespace dovetail::studies {
 namespace {
 
 std::vector<double> frequencies(const ResponseOptions& options) {
-  Complaints wrong;
-  wrong.require("--from", options.from_hz, kFrequencies);
-  wrong.require("--to", options.to_hz, kFrequencies);
-  if (options.points < 1 || options.points > 1000000)
-    wrong.add("--points", "must be >= 1 and <= 1000000", std::to_string(options.points));
   if (options.arclength && options.from_hz == options.to_hz)
-    wrong.add("--arclength", "needs an interval to follow the response through: --to must differ from --from");
-  wrong.raise();
+    refuse("--arclength", "needs an interval to follow the response through: --to must differ from --from");
   return evenly_spaced(options.from_hz, options.to_hz, options.points);
 }
 
@@ -142,8 +136,7 @@ bool contact_changes(const ResponseCurve& curve) {
 
 int run_response(const ResponseOptions& options, const Streams& streams) {
   const std::vector<double> hz = frequencies(options);
-  check_accuracy(options.solver);
-  LoadedModel loaded = load_model(options.input, options.overrides, options.solver);
+  LoadedModel loaded = load_model(options.input, options.set, options.solver);
   const auto complain = [&](const std::string& what) { return not_converged(options.input, what, streams); };
   if (!loaded.failure.empty()) return complain("not converged: " + loaded.failure);
 

@@ -116,6 +116,33 @@ std::string shortcoming(const Study& study, const OptimizationResult& result, co
   return {};
 }
 
+/// The search, with its journals in the directory.
+OptimizationResult searched(const RunSite& site, bool resume, const std::string& fingerprint,
+                            const OrderlyInterrupt& interrupt) {
+  const auto opened = [&](const char* name) {
+    const fs::path file = site.directory / name;
+    optimizer::Journal journal =
+        resume ? optimizer::Journal::resume(file, fingerprint) : optimizer::Journal::create(file, fingerprint);
+    if (!journal.note().empty()) site.err << "dovetail: " << journal.note() << "\n";
+    return journal;
+  };
+  optimizer::Journal journal = opened("journal.jsonl"), finer_journal = opened("finer.jsonl");
+  replace_file(site.directory / "study.toml", site.study.text);
+  RunProgress progress(site.err, error_is_terminal(), site.study.optimizer.max_evaluations);
+  optimizer::RunHooks hooks{.journal = &journal,
+                            .progress = [&](const optimizer::Progress& at) { progress(at); },
+                            .stop = &interrupt.flag(),
+                            .finer = {},
+                            .finer_journal = &finer_journal};
+  if (site.engine.finer)
+    hooks.finer = [&](std::span<const double> x, int level) {
+      progress.note(fmt::format("looking at the limits on a mesh with {} edges per flank",
+                                site.study.scene.mesh.flank_elements << level));
+      return site.engine.finer(x, level);
+    };
+  return optimizer::run_optimization(site.study.problem, site.engine.evaluate, site.study.optimizer, hooks);
+}
+
 }  // namespace
 
 int run_study(const RunOptions& options, const Streams& streams, const RunEngineFactory& make_engine) {
@@ -126,44 +153,19 @@ int run_study(const RunOptions& options, const Streams& streams, const RunEngine
   const RunEngine engine = make_engine(study);
   const std::string fingerprint = optimizer::fingerprint(
       study.problem, study.optimizer, std::string("dovetail ") + version() + "\n" + physics_text(study.scene));
-  const fs::path directory = prepare_directory(options, study);
-  const auto opened = [&](const char* name) {
-    const fs::path file = directory / name;
-    optimizer::Journal journal =
-        options.resume ? optimizer::Journal::resume(file, fingerprint) : optimizer::Journal::create(file, fingerprint);
-    if (!journal.note().empty()) streams.err << "dovetail: " << journal.note() << "\n";
-    return journal;
-  };
-  optimizer::Journal journal = opened("journal.jsonl"), finer_journal = opened("finer.jsonl");
-  replace_file(directory / "study.toml", study.text);
-
+  const RunSite site{
+      .study = study, .engine = engine, .directory = prepare_directory(options, study), .err = streams.err};
   const OrderlyInterrupt interrupt;
-  OptimizationResult result;
-  {
-    RunProgress progress(streams.err, error_is_terminal(), study.optimizer.max_evaluations);
-    optimizer::RunHooks hooks{.journal = &journal,
-                              .progress = [&](const optimizer::Progress& at) { progress(at); },
-                              .stop = &interrupt.flag(),
-                              .finer = {},
-                              .finer_journal = &finer_journal};
-    if (engine.finer)
-      hooks.finer = [&](std::span<const double> x, int level) {
-        progress.note(fmt::format("looking at the limits on a mesh with {} edges per flank",
-                                  study.scene.mesh.flank_elements << level));
-        return engine.finer(x, level);
-      };
-    result = optimizer::run_optimization(study.problem, engine.evaluate, study.optimizer, hooks);
-  }
+  const OptimizationResult result = searched(site, options.resume, fingerprint, interrupt);
 
   std::vector<report::VerificationRecord> verifications;
-  if (!interrupt.requested())
-    verifications = verify_best(study, result, engine, fingerprint, directory, interrupt, streams.err);
+  if (!interrupt.requested()) verifications = verify_best(site, result, fingerprint, interrupt);
 
   if (interrupt.requested())
     streams.err << "dovetail: interrupted; writing what is finished (Ctrl-C again ends at once)" << std::endl;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  const report::RunRecord record = write_run(study, result, engine, seconds, verifications, directory, streams.err);
-  streams.out << conclusion(study, result, record, directory) << verified(verifications);
+  const report::RunRecord record = write_run(site, result, seconds, verifications);
+  streams.out << conclusion(study, result, record, site.directory) << verified(verifications);
   if (interrupt.requested()) {
     streams.err << "dovetail: everything finished is kept; go on with --resume\n";
     return kInterrupted;

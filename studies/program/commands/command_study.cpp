@@ -36,7 +36,7 @@ int not_converged(const std::string& input, const std::string& what, const Strea
 }
 
 int run_check(const CheckOptions& options, const Streams& streams) {
-  const Study study = load_study(options.study, options.overrides);
+  const Study study = load_study(options.study, overrides(options.set));
   const optimizer::Problem& problem = study.problem;
   for (const std::string& warning : warnings(study)) streams.err << options.study << ": warning: " << warning << "\n";
   const auto counted = [](std::size_t count, const char* what) {
@@ -117,8 +117,7 @@ std::vector<std::string> keep_unworn(optimizer::Problem& problem, optimizer::Eva
 }  // namespace
 
 int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
-  check_accuracy(options.solver);
-  Study study = load_study(options.study, with_solver(options.overrides, options.solver));
+  Study study = load_study(options.study, overrides(options.set, options.solver));
   for (const std::string& warning : warnings(study)) streams.err << options.study << ": warning: " << warning << "\n";
   const std::shared_ptr<const optimizer::SceneEvaluator> evaluator = scene_evaluator(study);
   const std::optional<Status> automatic = choose_truncation(study.scene, *evaluator, options.solver);
@@ -145,7 +144,7 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
 }
 
 int run_reduce(const ReduceOptions& options, const Streams& streams) {
-  const LoadedModel loaded = load_model(options.study, options.overrides, {});
+  const LoadedModel loaded = load_model(options.study, options.set, {});
   if (!loaded.failure.empty()) return not_converged(options.study, "not converged: " + loaded.failure, streams);
   reduction::write_model(options.model, loaded.model);
   streams.out << fmt::format("{}: {} coordinates, {} contact nodes\n", options.model, loaded.model.size(),

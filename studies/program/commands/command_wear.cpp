@@ -16,54 +16,6 @@
 namespace dovetail::studies {
 namespace {
 
-void check_band(const WearOptions& options, Complaints& wrong) {
-  const bool band = options.follow == "band";
-  for (const auto& [option, hz] :
-       {std::pair{"--band-from", options.band_from_hz}, std::pair{"--band-to", options.band_to_hz}}) {
-    if (hz) wrong.require(option, *hz, kFrequencies);
-    if (!band && hz) wrong.add(option, "only has a meaning with --follow band");
-    if (band && !hz) wrong.add(option, "is needed with --follow band");
-  }
-  wrong.require("--band-points", options.band_points, {.lower = 1});
-  if (band && options.frequency_hz) wrong.add("--frequency", "has no meaning with --follow band");
-}
-
-void check_history(const WearOptions& options, Complaints& wrong) {
-  if (options.history_tolerance) wrong.require("--history-tolerance", *options.history_tolerance, {0, 0.5});
-  if (options.method != "history") {
-    if (options.cycles || options.steps || options.increment_m || options.history_tolerance)
-      wrong.add("--cycles, --steps, --increment, --history-tolerance", "only have a meaning with --method history");
-    if (options.integrator == "implicit" || !options.resume.empty() || options.curves > 0)
-      wrong.add("--integrator, --resume, --curves", "only have a meaning with --method history");
-  }
-  if (options.integrator == "implicit") {
-    if (options.history_tolerance == 0.0)
-      wrong.add("--history-tolerance", "must be > 0 with --integrator implicit", "0");
-    if (options.follow == "resonance") wrong.add("--follow", "needs --integrator explicit", options.follow);
-    if (options.increment_m)
-      wrong.add("--increment", "has no meaning with --integrator implicit: see --history-tolerance");
-  }
-  if (!options.resume.empty() && (options.follow == "band" || options.error_bars || options.spread))
-    wrong.add("--resume", "goes on with one history: no --follow band, --error-bars or --spread", options.resume);
-}
-
-void validate(const WearOptions& options) {
-  Complaints wrong;
-  if (options.frequency_hz) wrong.require("--frequency", *options.frequency_hz, kFrequencies);
-  if (options.cycles) wrong.require("--cycles", *options.cycles, kPositive);
-  if (options.increment_m) wrong.require("--increment", *options.increment_m, kPositive);
-  if (options.steps) wrong.require("--steps", *options.steps, {.lower = 1});
-  check_band(options, wrong);
-  check_history(options, wrong);
-  if (options.curves < 0 || options.curve_points < 1) wrong.add("--curves, --curve-points", "must be >= 0 and >= 1");
-  if (options.curve_from_hz.has_value() != options.curve_to_hz.has_value())
-    wrong.add("--curve-from, --curve-to", "need each other");
-  for (const auto& [option, hz] :
-       {std::pair{"--curve-from", options.curve_from_hz}, std::pair{"--curve-to", options.curve_to_hz}})
-    if (hz) wrong.require(option, *hz, kFrequencies);
-  wrong.raise();
-}
-
 std::string follow_words(const std::string& follow) {
   if (follow == "band") return "the worst of the band";
   return follow == "resonance" ? "at first; following the resonance" : "held";
@@ -176,7 +128,8 @@ WearResult computed(const WearOptions& options, const LoadedModel& loaded, WearS
   } else {
     answer = wear_answer(options, loaded, at, watcher);
   }
-  if (answer.history && options.curves > 0) answer.curves = worn_curves(options, loaded, *answer.history, watcher);
+  if (answer.history && options.curves.value_or(0) > 0)
+    answer.curves = worn_curves(options, loaded, *answer.history, watcher);
   if (options.error_bars) question.bars = worn_bars(options, loaded, at, answer, watcher);
   if (options.spread) question.spread = worn_spread(options, loaded, at, answer, watcher);
   return result;
@@ -202,9 +155,7 @@ void present(const WearOptions& options, WearResult& result, const Streams& stre
 }  // namespace
 
 int run_wear(const WearOptions& given, const Streams& streams) {
-  validate(given);
-  check_accuracy(given.solver);
-  LoadedModel loaded = load_model(given.input, given.overrides, given.solver);
+  LoadedModel loaded = load_model(given.input, given.set, given.solver);
   const WearOptions options = with_choices(given, loaded);
   const auto failed = [&](const std::string& why) { return not_converged(options.input, why, streams); };
   const auto stateless = [&](Status status, const std::string& why, int solves) {

@@ -8,6 +8,7 @@
 
 #include "core/options.hpp"
 #include "studies/program/answers/geometry_export.hpp"
+#include "studies/program/commands/option.hpp"
 #include "studies/program/engine/run_engine.hpp"
 #include "studies/program/study_file/study.hpp"
 
@@ -30,7 +31,7 @@ inline constexpr Range kFrequencies{.lower = 0, .upper = 1e9, .lower_open = true
 
 struct CheckOptions {
   std::string study;
-  std::vector<Override> overrides;
+  std::vector<std::string> set;  ///< KEY=VALUE, as given with --set
 };
 int run_check(const CheckOptions& options, const Streams& streams);
 
@@ -39,23 +40,30 @@ struct NewOptions {
 };
 int run_new(const NewOptions& options, const Streams& streams);
 
-/// Settings shared by the commands that take a model or a study; absent ones keep the file's or the default.
-struct SolverOverrides {
-  std::optional<int> harmonics, samples;
-  bool automatic_harmonics = false, automatic_samples = false;  ///< "auto": chosen by refinement
-  std::optional<double> tolerance;
-  std::optional<double> pseudo_penalty, pseudo_penalty_normal;  ///< N/m
-  std::optional<std::string> solver;
-
+/// Settings of the contact computation as typed; empty ones keep the file's or the default.
+struct SolverChoice {
+  std::string harmonics, samples;  ///< "auto": chosen by refinement
+  std::string tolerance, pseudo_penalty, pseudo_penalty_normal, solver;
   std::optional<double> accuracy;  ///< of what is chosen automatically
 
-  [[nodiscard]] bool automatic() const { return automatic_harmonics || automatic_samples; }
+  [[nodiscard]] bool automatic() const { return harmonics == "auto" || samples == "auto"; }
 };
+
+/// A key of [solver] that is an option, too: name and help follow from the table of SolverSettings.
+struct SolverKey {
+  std::string_view key;
+  std::string SolverChoice::*member;
+  std::string_view type;
+  bool automatic = false;  ///< may be "auto"
+
+  [[nodiscard]] std::string option() const;  ///< "--pseudo-penalty"
+};
+[[nodiscard]] std::span<const SolverKey> solver_keys();
 
 struct EvaluateOptions {
   std::string study;
-  std::vector<Override> overrides;
-  SolverOverrides solver;
+  std::vector<std::string> set;  ///< KEY=VALUE, as given with --set
+  SolverChoice solver;
   std::string json;  ///< file, "-" for standard output, empty for a table on standard output
   bool no_bars = false, no_history = false, unworn = false;
 };
@@ -64,7 +72,7 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams);
 struct ReduceOptions {
   std::string study;
   std::string model;
-  std::vector<Override> overrides;
+  std::vector<std::string> set;  ///< KEY=VALUE, as given with --set
 };
 int run_reduce(const ReduceOptions& options, const Streams& streams);
 
@@ -76,9 +84,9 @@ struct AnalysisChoice {
 };
 
 struct ResponseOptions {
-  std::string input;  ///< MODEL.h5 or STUDY.toml
-  std::vector<Override> overrides;
-  SolverOverrides solver;
+  std::string input;             ///< MODEL.h5 or STUDY.toml
+  std::vector<std::string> set;  ///< KEY=VALUE, as given with --set
+  SolverChoice solver;
   double from_hz = 0, to_hz = 0;
   int points = 1;
   bool arclength = false;
@@ -88,23 +96,23 @@ struct ResponseOptions {
 int run_response(const ResponseOptions& options, const Streams& streams);
 
 struct BackboneOptions {
-  std::string input;  ///< MODEL or STUDY.toml
-  std::vector<Override> overrides;
-  SolverOverrides solver;
+  std::string input;             ///< MODEL or STUDY.toml
+  std::vector<std::string> set;  ///< KEY=VALUE, as given with --set
+  SolverChoice solver;
   std::string over = "force";  ///< force: factor of its harmonics; wear: largest depth, m
   double from = 0, to = 0;
   int points = 1;
   bool logarithmic = false;
-  std::optional<std::string> output;   ///< absent: the first
+  std::string output;                  ///< empty: the first
   std::optional<double> frequency_hz;  ///< where the first resonance is searched
   std::string json;
 };
 int run_backbone(const BackboneOptions& options, const Streams& streams);
 
 struct WearOptions {
-  std::string input;  ///< MODEL.h5 or STUDY.toml
-  std::vector<Override> overrides;
-  SolverOverrides solver;
+  std::string input;             ///< MODEL.h5 or STUDY.toml
+  std::vector<std::string> set;  ///< KEY=VALUE, as given with --set
+  SolverChoice solver;
   std::string method = "asymptote";
   std::string follow;                  ///< fixed | resonance | band; empty: as the study says, or fixed
   std::optional<double> frequency_hz;  ///< absent: the unworn resonance
@@ -114,9 +122,10 @@ struct WearOptions {
   std::optional<int> steps;           ///< history
   std::optional<double> increment_m;  ///< history; absent: a hundredth of the depth that release comes to
   std::optional<double> history_tolerance;
-  std::string integrator;             ///< of a history: explicit | implicit; empty: as the wear law asks for
-  std::string resume;                 ///< JSON of the history to go on with, or empty
-  int curves = 0, curve_points = 60;  ///< response curves along a history
+  std::string integrator;     ///< of a history: explicit | implicit; empty: as the wear law asks for
+  std::string resume;         ///< JSON of the history to go on with, or empty
+  std::optional<int> curves;  ///< response curves along a history
+  int curve_points = 60;
   std::optional<double> curve_from_hz, curve_to_hz;
   bool error_bars = false;
   bool spread = false;
@@ -141,8 +150,8 @@ struct ImportOptions {
 int run_import(const ImportOptions& options, const Streams& streams);
 
 struct ExportOptions {
-  std::string input;  ///< results directory, STUDY.toml, MODEL.h5 or MODEL.toml
-  std::vector<Override> overrides;
+  std::string input;             ///< results directory, STUDY.toml, MODEL.h5 or MODEL.toml
+  std::vector<std::string> set;  ///< KEY=VALUE, as given with --set
   std::string format;
   std::string file;
   DeckOptions deck;  ///< of the format inp
@@ -154,6 +163,60 @@ struct ReportOptions {
   std::string file;
 };
 int run_report(const ReportOptions& options, const Streams& streams);
+
+template <class S>
+[[nodiscard]] Option<S> input_option() {
+  return {.name = "INPUT",
+          .member = &S::input,
+          .help = "A reduced model (HDF5, or TOML with Matrix Market files) or a study file (TOML)",
+          .required = true};
+}
+template <class S>
+[[nodiscard]] Option<S> set_option() {
+  return {.name = "--set",
+          .member = &S::set,
+          .type = "KEY=VALUE",
+          .help =
+              "Replace a value of the study file before it is checked, e.g. --set geometry.neck_width_mm=9; may be "
+              "repeated"};
+}
+template <class S>
+[[nodiscard]] Option<S> json_option() {
+  return {.name = "--json",
+          .member = &S::json,
+          .type = "FILE",
+          .help = "Write the answer as JSON to FILE; - is standard output, and then nothing else goes there"};
+}
+
+/// The tables of all of them.
+template <>
+std::span<const Option<CheckOptions>> command_options<CheckOptions>();
+template <>
+std::span<const Option<NewOptions>> command_options<NewOptions>();
+template <>
+std::span<const Option<EvaluateOptions>> command_options<EvaluateOptions>();
+template <>
+std::span<const Option<ReduceOptions>> command_options<ReduceOptions>();
+template <>
+std::span<const Option<ResponseOptions>> command_options<ResponseOptions>();
+template <>
+std::span<const Option<BackboneOptions>> command_options<BackboneOptions>();
+template <>
+std::span<const Option<WearOptions>> command_options<WearOptions>();
+template <>
+std::span<const Option<RunOptions>> command_options<RunOptions>();
+template <>
+std::span<const Option<ImportOptions>> command_options<ImportOptions>();
+template <>
+std::span<const Option<ExportOptions>> command_options<ExportOptions>();
+template <>
+std::span<const Option<ReportOptions>> command_options<ReportOptions>();
+template <>
+std::span<const Option<SolverChoice>> command_options<SolverChoice>();
+template <>
+std::span<const Option<AnalysisChoice>> command_options<AnalysisChoice>();
+template <>
+std::span<const Option<DeckOptions>> command_options<DeckOptions>();
 
 /// Writes a command's JSON to where --json says: nowhere when empty, `out` for "-", else a file. Throws InputError.
 void deliver_json(const std::string& where, const std::string& text, const Streams& streams);

@@ -13,6 +13,7 @@
 #include "reduction/model_file.hpp"
 #include "studies/program/engine/model_toml.hpp"
 #include "studies/program/study_file/refusal.hpp"
+#include "studies/program/study_file/section_reader.hpp"
 #include "studies/report/record/design_record.hpp"
 
 namespace dovetail::studies {
@@ -69,18 +70,29 @@ bool is_hdf5_file(const std::string& file) {
   return file.ends_with(".h5") || file.ends_with(".hdf5");
 }
 
-std::vector<Override> with_solver(std::vector<Override> overrides, const SolverOverrides& solver) {
-  const auto add = [&](const char* option, const char* key, const std::string& value) {
-    overrides.push_back({.key = key, .value = value, .origin = std::string(option) + " " + value});
-  };
-  if (solver.harmonics) add("--harmonics", "solver.harmonics", std::to_string(*solver.harmonics));
-  if (solver.samples) add("--samples", "solver.samples", std::to_string(*solver.samples));
-  if (solver.tolerance) add("--tolerance", "solver.tolerance", shortest(*solver.tolerance));
-  if (solver.solver) add("--solver", "solver.solver", *solver.solver);
-  if (solver.pseudo_penalty) add("--pseudo-penalty", "solver.pseudo_penalty_n_per_m", shortest(*solver.pseudo_penalty));
-  if (solver.pseudo_penalty_normal)
-    add("--pseudo-penalty-normal", "solver.pseudo_penalty_normal_n_per_m", shortest(*solver.pseudo_penalty_normal));
-  return overrides;
+std::vector<Override> overrides(const std::vector<std::string>& set, const SolverChoice& solver) {
+  std::vector<Override> result;
+  std::vector<Violation> found;
+  for (const std::string& assignment : set) try {
+      result.push_back(parse_override(assignment));
+    } catch (const InputError& error) {
+      found.insert(found.end(), error.violations().begin(), error.violations().end());
+    }
+  for (const SolverKey& key : solver_keys()) {
+    std::string text = solver.*key.member;
+    if (text.empty() || (key.automatic && text == "auto")) continue;
+    const std::string origin = key.option() + " " + one_line(text);
+    // What is a number but not as TOML writes it: 1., .5, 1E-9
+    char* end = nullptr;
+    if (const double value = std::strtod(text.c_str(), &end); *end == 0 && text.find_first_of(".eE") != text.npos)
+      text = real_text(value);
+    if (key.automatic && text.find_first_not_of("+-0123456789") != text.npos)
+      found.push_back({.file = {}, .key = origin, .value = {}, .allowed = "must be a whole number or auto"});
+    else
+      result.push_back({.key = "solver." + std::string(key.key), .value = text, .origin = origin});
+  }
+  refuse(std::move(found));
+  return result;
 }
 
 InputError infeasible(const std::string& file, const std::vector<std::string>& messages) {
@@ -93,8 +105,8 @@ InputError infeasible(const std::string& file, const std::vector<std::string>& m
 
 namespace {
 
-LoadedModel from_study(const std::string& file, const std::vector<Override>& overrides) {
-  const Study study = load_study(file, overrides);
+LoadedModel from_study(const std::string& file, const std::vector<Override>& given) {
+  const Study study = load_study(file, given);
   optimizer::CandidateModel candidate = scene_evaluator(study)->builder().build(study.scene);
   if (candidate.status == "infeasible") throw infeasible(file, candidate.messages);
   LoadedModel loaded;
@@ -117,36 +129,21 @@ LoadedModel from_study(const std::string& file, const std::vector<Override>& ove
   return loaded;
 }
 
-/// The settings of a model, within the ranges that a study file keeps. Throws InputError naming the options.
-optimizer::SolverSettings settings_of(const SolverOverrides& solver) {
-  optimizer::SolverSettings settings;
-  Complaints wrong;
-  const std::string section = "solver.";
-  for (const Override& given : with_solver({}, solver))
-    for (const Field<optimizer::SolverSettings>& field : option_table<optimizer::SolverSettings>()) {
-      if (given.key != section + std::string(field.key)) continue;
-      if (const auto* text = std::get_if<std::string optimizer::SolverSettings::*>(&field.member)) {
-        settings.*(*text) = given.value;
-        continue;
-      }
-      const double value = std::strtod(given.value.c_str(), nullptr);
-      if (!field.range.contains(value))
-        wrong.add(given.origin, field.range.phrase());
-      else if (const auto* whole = std::get_if<int optimizer::SolverSettings::*>(&field.member))
-        settings.*(*whole) = static_cast<int>(value);
-      else if (const auto* real = std::get_if<double optimizer::SolverSettings::*>(&field.member))
-        settings.*(*real) = value;
-    }
-  wrong.raise();
-  return settings;
-}
-
 /// Before a model is read: options that do not fit are told whatever the file is like.
-steady::Options model_options(const std::string& file, const std::vector<Override>& overrides,
-                              const SolverOverrides& solver) {
-  if (!overrides.empty())
-    refuse(overrides.front().origin, "sets a key of a study file, but the input is a reduced model", {}, file);
-  return optimizer::steady_options(settings_of(solver));
+steady::Options model_options(const std::string& file, const std::vector<std::string>& set,
+                              const SolverChoice& solver) {
+  if (!set.empty())
+    refuse(parse_override(set.front()).origin, "sets a key of a study file, but the input is a reduced model", {},
+           file);
+  Document document{.file = file, .text = {}, .root = {}};
+  document.root.kind = Node::Kind::table;
+  apply_overrides(document, overrides({}, solver));
+  Problems problems(file);
+  optimizer::SolverSettings settings;
+  SectionReader(document.root.find("solver"), "solver", problems)
+      .fields(settings, option_table<optimizer::SolverSettings>());
+  problems.raise();
+  return optimizer::steady_options(settings);
 }
 
 /// The largest harmonic in which the model is forced.
@@ -158,19 +155,20 @@ int largest_harmonic(const reduction::ReducedModel& model) {
 
 /// No harmonic of the force may be left out: the default rises to it, and fewer are refused. The default samples
 /// rise with the harmonics. Throws InputError.
-void fit_to_force(const std::string& file, const SolverOverrides& solver, const reduction::ReducedModel& model,
+void fit_to_force(const std::string& file, const SolverChoice& solver, const reduction::ReducedModel& model,
                   steady::Options& steady) {
   const int forced = largest_harmonic(model);
   const auto wrong = [&](const std::string& key, int value, const std::string& allowed) {
     refuse(key, allowed, std::to_string(value), file);
   };
-  if (!solver.harmonics) steady.harmonics = std::max(steady.harmonics, forced);
+  const auto left_open = [](const std::string& text) { return text.empty() || text == "auto"; };
+  if (left_open(solver.harmonics)) steady.harmonics = std::max(steady.harmonics, forced);
   if (steady.harmonics < forced)
     wrong("--harmonics", steady.harmonics, "must be >= " + std::to_string(forced) + ", the largest of the force");
   const Range& harmonics = optimizer::find_parameter("solver.harmonics")->range;
   if (!harmonics.contains(steady.harmonics))
     wrong("/force/cosine, harmonics", forced, "of the force with harmonics " + harmonics.phrase());
-  if (!solver.samples) steady.samples = quality::samples_for(steady.harmonics, steady.samples);
+  if (left_open(solver.samples)) steady.samples = quality::samples_for(steady.harmonics, steady.samples);
   if (steady.samples < 2 * steady.harmonics + 2)
     wrong("--samples", steady.samples,
           "must be >= 2 * harmonics + 2 = " + std::to_string(2 * steady.harmonics + 2) + " for " +
@@ -178,7 +176,7 @@ void fit_to_force(const std::string& file, const SolverOverrides& solver, const 
 }
 
 LoadedModel from_model(const std::string& file, reduction::ReducedModel model, steady::Options steady,
-                       const SolverOverrides& solver) {
+                       const SolverChoice& solver) {
   fit_to_force(file, solver, model, steady);
   LoadedModel loaded;
   loaded.joint.options = steady;
@@ -205,15 +203,14 @@ std::optional<reduction::ReducedModel> read_any_model(const std::string& input) 
   return read_model_document(document);
 }
 
-LoadedModel load_model(const std::string& input, const std::vector<Override>& overrides,
-                       const SolverOverrides& solver) {
+LoadedModel load_model(const std::string& input, const std::vector<std::string>& set, const SolverChoice& solver) {
   if (is_hdf5_file(input)) {
-    const steady::Options steady = model_options(input, overrides, solver);
+    const steady::Options steady = model_options(input, set, solver);
     return from_model(input, reduction::read_model(input), steady, solver);
   }
   const Document document = load_document(input);
-  if (!is_model_document(document)) return from_study(input, with_solver(overrides, solver));
-  const steady::Options steady = model_options(input, overrides, solver);
+  if (!is_model_document(document)) return from_study(input, overrides(set, solver));
+  const steady::Options steady = model_options(input, set, solver);
   return from_model(input, read_model_document(document), steady, solver);
 }
 

@@ -48,11 +48,12 @@ struct LoadedModel {
 [[nodiscard]] std::optional<reduction::ReducedModel> read_any_model(const std::string& input);
 
 /// Throws InputError for wrong input and for a study whose geometry is infeasible.
-[[nodiscard]] LoadedModel load_model(const std::string& input, const std::vector<Override>& overrides,
-                                     const SolverOverrides& solver);
+[[nodiscard]] LoadedModel load_model(const std::string& input, const std::vector<std::string>& set,
+                                     const SolverChoice& solver);
 
-/// The solver settings as overrides of a study file's keys.
-[[nodiscard]] std::vector<Override> with_solver(std::vector<Override> overrides, const SolverOverrides& solver);
+/// Those given with --set, and the solver's options as overrides of the keys of [solver]. Throws InputError with all
+/// that are not KEY=VALUE, and for numbers that are neither whole nor auto.
+[[nodiscard]] std::vector<Override> overrides(const std::vector<std::string>& set, const SolverChoice& solver = {});
 
 /// The broken rules of an infeasible candidate as input errors of that file.
 [[nodiscard]] InputError infeasible(const std::string& file, const std::vector<std::string>& messages);

@@ -6,34 +6,21 @@
 
 #include "paths/resonance.hpp"
 #include "quality/automatic.hpp"
-#include "studies/program/study_file/refusal.hpp"
 
 namespace dovetail::studies {
-namespace {
 
-constexpr Range kAccuracies{.lower = 1e-8, .upper = 1};
-
-}  // namespace
-
-double accuracy(const SolverOverrides& solver) {
+double accuracy(const SolverChoice& solver) {
   return solver.accuracy.value_or(quality::AutomaticOptions{}.amplitude_tolerance);
 }
 
-void check_accuracy(const SolverOverrides& solver) {
-  if (!solver.accuracy) return;
-  const std::string given = shortest(*solver.accuracy);
-  if (!kAccuracies.contains(*solver.accuracy)) refuse("--accuracy", kAccuracies.phrase(), given);
-  if (!solver.automatic()) refuse("--accuracy", "only has a meaning with --harmonics auto or --samples auto", given);
-}
-
 std::optional<Status> choose_truncation(LoadedModel& loaded, const std::vector<double>& hz,
-                                        const SolverOverrides& solver) {
+                                        const SolverChoice& solver) {
   if (!solver.automatic()) return std::nullopt;
   std::vector<double> omega;
   for (const double f : hz) omega.push_back(2 * std::numbers::pi * f);
   quality::AutomaticOptions options;
-  options.harmonics = solver.automatic_harmonics;
-  options.samples = solver.automatic_samples;
+  options.harmonics = solver.harmonics == "auto";
+  options.samples = solver.samples == "auto";
   options.amplitude_tolerance = accuracy(solver);
   options.energy_tolerance = 10 * accuracy(solver);
   const quality::AutomaticSettings chosen = quality::automatic_settings(loaded.joint, omega, options);
@@ -42,7 +29,7 @@ std::optional<Status> choose_truncation(LoadedModel& loaded, const std::vector<d
 }
 
 std::optional<Status> choose_truncation(optimizer::Scene& scene, const optimizer::SceneEvaluator& evaluator,
-                                        const SolverOverrides& solver) {
+                                        const SolverChoice& solver) {
   if (!solver.automatic()) return std::nullopt;
   const optimizer::CandidateModel candidate = evaluator.builder().build(scene);
   if (!candidate.converged()) return std::nullopt;
@@ -58,7 +45,7 @@ std::optional<Status> choose_truncation(optimizer::Scene& scene, const optimizer
   return status;
 }
 
-std::string truncation_complaint(Status status, const steady::Options& reached, const SolverOverrides& solver) {
+std::string truncation_complaint(Status status, const steady::Options& reached, const SolverChoice& solver) {
   if (status == Status::iteration_limit)
     return fmt::format("the accuracy {:g} is not reached with {} harmonics and {} samples", accuracy(solver),
                        reached.harmonics, reached.samples);

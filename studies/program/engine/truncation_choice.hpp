@@ -9,24 +9,20 @@
 namespace dovetail::studies {
 
 /// The relative accuracy of amplitudes that `auto` has to reach; that of energies and wear is ten times as large.
-[[nodiscard]] double accuracy(const SolverOverrides& solver);
-
-/// Throws InputError when an accuracy is given that is out of range, or without anything automatic.
-void check_accuracy(const SolverOverrides& solver);
+[[nodiscard]] double accuracy(const SolverChoice& solver);
 
 /// Chooses what `solver` leaves to be automatic for a response at these frequencies and writes it to
 /// loaded.joint.options. Returns how the choice ended (see quality::AutomaticSettings), or nothing when nothing was to
 /// be chosen.
-std::optional<Status> choose_truncation(LoadedModel& loaded, const std::vector<double>& hz,
-                                        const SolverOverrides& solver);
+std::optional<Status> choose_truncation(LoadedModel& loaded, const std::vector<double>& hz, const SolverChoice& solver);
 
 /// The same for a scene, at its unworn resonance. Nothing is chosen where its model does not exist: evaluating it says
 /// why.
 std::optional<Status> choose_truncation(optimizer::Scene& scene, const optimizer::SceneEvaluator& evaluator,
-                                        const SolverOverrides& solver);
+                                        const SolverChoice& solver);
 
 /// One sentence about a choice that did not reach the accuracy.
 [[nodiscard]] std::string truncation_complaint(Status status, const steady::Options& reached,
-                                               const SolverOverrides& solver);
+                                               const SolverChoice& solver);
 
 }  // namespace dovetail::studies

@@ -109,13 +109,14 @@ std::vector<WornCurve> worn_curves(const WearOptions& options, const LoadedModel
                                    const wear::Watcher& watcher) {
   std::vector<WornCurve> curves;
   const Eigen::Index states = history.cycles.size();
-  if (options.curves == 0 || states == 0 || watcher.stopped()) return curves;
+  const int count = options.curves.value_or(0);
+  if (count == 0 || states == 0 || watcher.stopped()) return curves;
   const std::vector<double> hz = curve_frequencies(options, loaded, history);
   std::vector<double> omega(hz.size());
   std::ranges::transform(hz, omega.begin(), [](double value) { return kTurn * value; });
   Eigen::Index before = -1;
-  for (int k = 0; k < options.curves && !watcher.stopped(); ++k) {
-    const double share = options.curves == 1 ? 1.0 : static_cast<double>(k) / (options.curves - 1);
+  for (int k = 0; k < count && !watcher.stopped(); ++k) {
+    const double share = count == 1 ? 1.0 : static_cast<double>(k) / (count - 1);
     const double volume = history.worn_volume[0] + share * (history.worn_volume[states - 1] - history.worn_volume[0]);
     Eigen::Index state = 0;
     (history.worn_volume.array() - volume).abs().minCoeff(&state);

@@ -46,20 +46,14 @@ std::string allowed(const Field<S>& field) {
   return text;
 }
 
-std::string capitalised(std::string_view help) {
-  std::string text(help);
-  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-  if (!text.empty() && text.back() != '.') text += '.';
-  return text;
-}
-
 /// Comment and assignment of each field; `mark` is put before the assignment ("# " leaves it to its default).
 template <class S>
 std::string lines(const S& object, std::span<const Field<S>> fields, const std::string& mark = "") {
   std::string text;
   for (const Field<S>& field : fields) {
     const std::string may_be = allowed(field);
-    text += "# " + capitalised(field.help) + (may_be.empty() ? "" : " (" + may_be + ")") + "\n";
+    text += "# " + capitalised(field.help) + (field.help.ends_with('.') ? "" : ".") +
+            (may_be.empty() ? "" : " (" + may_be + ")") + "\n";
     text += mark + std::string(field.key) + " = " + value_text(object, field) + "\n";
   }
   return text;
@@ -146,6 +140,12 @@ lower = 4e-3
 }
 
 }  // namespace
+
+std::string capitalised(std::string_view help) {
+  std::string text(help);
+  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
+}
 
 std::string unit_of_key(std::string_view key) {
   static constexpr std::array<std::pair<std::string_view, std::string_view>, 13> endings{{{"_m3_per_j", "m^3/J"},

@@ -96,7 +96,7 @@ expect 0 check s.toml --set solver.pseudo_penalty_n_per_m=1e8 --set solver.solve
 expect 2 check s.toml --set solver.pseudo_penalty_n_per_m=-1; lines 1; says "must be >= 0"
 expect 2 evaluate s.toml --pseudo-penalty -1; lines 1; says "--pseudo-penalty -1: must be >= 0"
 expect 2 evaluate s.toml --solver guess; lines 1; says "--solver"
-expect 2 evaluate s.toml --harmonics 3.5; lines 1; says "must be a whole number or auto, not 3.5"
+expect 2 evaluate s.toml --harmonics 3.5; lines 1; says "--harmonics 3.5: must be a whole number or auto"
 expect 2 evaluate s.toml --accuracy 1e-3; lines 1; says "only has a meaning with --harmonics auto"
 expect 2 backbone s.toml --from 0 --to 1 --points 0; lines 2; says "--from = 0: must be > 0"; says "--points = 0"
 expect 2 import s.toml -o m.h5; lines 1; says "is not a reduced model"; absent m.h5

@@ -1,0 +1,113 @@
+// Options of the commands on study files, runs and model files.
+#include <array>
+
+#include "studies/program/commands/commands.hpp"
+#include "studies/program/study_file/export.hpp"
+
+namespace dovetail::studies {
+namespace {
+
+template <class S>
+Option<S> study_option() {
+  return {"STUDY", &S::study, {}, "The study file (TOML)", true};
+}
+
+/// -o of a command that writes one file.
+template <class S>
+Option<S> output_option(std::string S::*member, std::string_view type, const char* help) {
+  return {"-o,--output", member, type, help, true};
+}
+
+}  // namespace
+
+template <>
+std::span<const Option<CheckOptions>> command_options<CheckOptions>() {
+  static const std::vector<Option<CheckOptions>> table{study_option<CheckOptions>(), set_option<CheckOptions>()};
+  return table;
+}
+
+template <>
+std::span<const Option<NewOptions>> command_options<NewOptions>() {
+  static const std::vector<Option<NewOptions>> table{
+      {"FILE", &NewOptions::file, {}, "The study file to write (TOML); must not exist", true}};
+  return table;
+}
+
+template <>
+std::span<const Option<EvaluateOptions>> command_options<EvaluateOptions>() {
+  using E = EvaluateOptions;
+  static const std::vector<Option<E>> table{
+      study_option<E>(),
+      {"--no-bars", &E::no_bars, {}, "Responses alone, without their error bars: in a fraction of the time"},
+      {"--no-history",
+       &E::no_history,
+       {},
+       "The direct worn state stands where it is in doubt, as in a search: the wear history is asked only where the "
+       "direct method finds none"},
+      {"--unworn", &E::unworn, {}, "Responses of the joint before it wears, and limits on them, without error bars"},
+      set_option<E>(),
+      json_option<E>()};
+  return table;
+}
+
+template <>
+std::span<const Option<ReduceOptions>> command_options<ReduceOptions>() {
+  using R = ReduceOptions;
+  static const std::vector<Option<R>> table{study_option<R>(), set_option<R>(),
+                                            output_option<R>(&R::model, "MODEL.h5", "The model file to write")};
+  return table;
+}
+
+template <>
+std::span<const Option<RunOptions>> command_options<RunOptions>() {
+  using R = RunOptions;
+  static const std::vector<Option<R>> table{
+      study_option<R>(),
+      {"-o,--output", &R::directory, "DIR", "Directory of the results (default: results/NAME)"},
+      {"--resume", &R::resume, {}, "Continue the run stored in the directory"}};
+  return table;
+}
+
+template <>
+std::span<const Option<ImportOptions>> command_options<ImportOptions>() {
+  using I = ImportOptions;
+  static const std::vector<Option<I>> table{{"INPUT", &I::input, {}, "The model (TOML)", true},
+                                            output_option<I>(&I::model, "MODEL.h5", "The model file to write")};
+  return table;
+}
+
+template <>
+std::span<const Option<DeckOptions>> command_options<DeckOptions>() {
+  using D = DeckOptions;
+  static const std::vector<Option<D>> table{
+      {"--nodal-diameter", &D::nodal_diameters, "N",
+       "inp: nodal diameters of the frequency steps, separated by commas (default: the study's)"},
+      {"--modes", &D::modes, "N", "inp: modes per nodal diameter", false, {.lower = 1}},
+      {"--contact", &D::contact, {}, "inp: flanks in frictional contact, not glued"}};
+  return table;
+}
+
+template <>
+std::span<const Option<ExportOptions>> command_options<ExportOptions>() {
+  using E = ExportOptions;
+  static const std::vector<Option<E>> table = [] {
+    std::string formats;
+    for (const std::string_view format : export_formats()) formats += std::string(format) + ", ";
+    return std::vector<Option<E>>{
+        {"INPUT", &E::input, {}, "Directory of a run, a study file, or a reduced model", true},
+        {"--format", &E::format, "NAME", "One of " + formats + std::string(kMatrixMarket), true},
+        output_option<E>(&E::file, "FILE", "The file to write"),
+        set_option<E>()};
+  }();
+  return table;
+}
+
+template <>
+std::span<const Option<ReportOptions>> command_options<ReportOptions>() {
+  using R = ReportOptions;
+  static const std::vector<Option<R>> table{{"DIR", &R::directory, {}, "Directory of the run", true},
+                                            output_option<R>(&R::file, "FILE.html", "The page to write")};
+  return table;
+}
+
+}  // namespace dovetail::studies

@@ -1,0 +1,106 @@
+#include "studies/program/commands/option.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include "studies/program/commands/commands.hpp"
+
+namespace dovetail::studies {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+/// What is said about the options, or nothing.
+template <class Options>
+std::string said(const Options& options) {
+  try {
+    complaints(options).raise();
+    return {};
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+TEST(CommandOptions, DefaultsAreAllowed) {
+  EXPECT_EQ(said(WearOptions{}), "");
+  EXPECT_EQ(said(EvaluateOptions{}), "");
+  EXPECT_EQ(said(ExportOptions{}), "");
+}
+
+TEST(CommandOptions, TellEverythingThatIsWrongAtOnce) {
+  WearOptions options;
+  options.cycles = 5;
+  options.band_from_hz = std::nan("");
+  options.solver.accuracy = 3;
+  EXPECT_THAT(said(options), AllOf(HasSubstr("--cycles = 5: only has a meaning with --method history"),
+                                   HasSubstr("--band-from = nan: must be > 0 and <= 1e+09"),
+                                   HasSubstr("--band-from = nan: only has a meaning with --follow band"),
+                                   HasSubstr("--accuracy = 3: must be >= 1e-08 and <= 1"),
+                                   HasSubstr("--accuracy = 3: only has a meaning with --harmonics auto")));
+}
+
+TEST(CommandOptions, AMeaningMayBeOfOneValueAlone) {
+  WearOptions options;
+  options.integrator = "explicit";
+  EXPECT_EQ(said(options), "");
+  options.integrator = "implicit";
+  EXPECT_THAT(said(options), HasSubstr("--integrator = implicit: only has a meaning with --method history"));
+  options.method = "history";
+  options.history_tolerance = 0;
+  options.follow = "resonance";
+  EXPECT_THAT(said(options),
+              AllOf(HasSubstr("--history-tolerance = 0: must be > 0"), Not(HasSubstr("--integrator ="))));
+  EXPECT_THAT(said(options), HasSubstr("--follow = resonance: needs --integrator explicit"));
+}
+
+TEST(CommandOptions, AnyOfSeveralAlternativesGivesAMeaning) {
+  ResponseOptions options;
+  options.from_hz = options.to_hz = 1;
+  options.solver.accuracy = 0.01;
+  EXPECT_NE(said(options), "");
+  options.solver.samples = "auto";
+  EXPECT_EQ(said(options), "");
+}
+
+TEST(CommandOptions, SomeNeedEachOther) {
+  WearOptions options;
+  options.method = "history";
+  options.follow = "band";
+  EXPECT_THAT(said(options), AllOf(HasSubstr("--band-from: is needed with --follow band"),
+                                   HasSubstr("--band-to: is needed with --follow band")));
+  options.follow.clear();
+  options.curve_from_hz = 1;
+  EXPECT_THAT(said(options), HasSubstr("--curve-from = 1: only has a meaning with --curve-to"));
+}
+
+/// Every option of the commands on a model.
+template <class Options>
+void expect_in(const std::string& text) {
+  const Options options;
+  visit_options(options, [&]<class S>(const S&, std::span<const Option<S>> table) {
+    for (const Option<S>& option : table)
+      if (option.name.starts_with("--")) {
+        EXPECT_THAT(text, HasSubstr(option.name)) << "the README does not name it";
+      }
+  });
+}
+
+TEST(CommandOptions, AreAllInTheReadme) {
+  std::ifstream stream(README);
+  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  expect_in<EvaluateOptions>(text);
+  expect_in<ResponseOptions>(text);
+  expect_in<BackboneOptions>(text);
+  expect_in<WearOptions>(text);
+  expect_in<ExportOptions>(text);
+  expect_in<RunOptions>(text);
+}
+
+}  // namespace
+}  // namespace dovetail::studies
