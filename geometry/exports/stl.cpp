@@ -6,13 +6,13 @@
 #include <cstring>
 
 #include "core/errors.hpp"
+#include "geometry/profile/key_units.hpp"
 #include "geometry/solid/surface.hpp"
 
 namespace dovetail::geometry {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "the format is little endian");
-constexpr double kMillimetre = 1e-3;
 
 template <class T>
 void append(std::string& bytes, T value) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "geometry/mesh/params.hpp"
+
 namespace dovetail::geometry {
 namespace {
 
@@ -25,7 +27,7 @@ Place place(const std::vector<double>& nodes, double x) {
   const double fraction = (x - nodes[index(node)]) / (nodes[index(node + 1)] - nodes[index(node)]);
   assert(fraction > -1e-9 && fraction < 1 + 1e-9);
   // A point that is a contact node up to rounding is that node.
-  constexpr double kRounding = 1e-12;
+  constexpr double kRounding = SizeParams{}.rounding;
   if (fraction < kRounding) return {node, 0};
   if (fraction > 1 - kRounding) return {node, 1};
   return {node, fraction};

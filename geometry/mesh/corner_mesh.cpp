@@ -7,6 +7,7 @@
 
 #include "core/errors.hpp"
 #include "geometry/mesh/contact_grid.hpp"
+#include "geometry/mesh/params.hpp"
 #include "geometry/mesh/size_field.hpp"
 #include "geometry/mesh/triangulation.hpp"
 
@@ -26,7 +27,7 @@ bool is_aerofoil(const Edge& e) {
 /// Fractions between from and to (included) so that every part has the same integral of 1/size.
 template <class Point>
 std::vector<double> graded_parts(double from, double to, double length, const Point& point, const SizeField& size) {
-  constexpr int kSamples = 400;
+  constexpr int kSamples = SizeParams{}.samples;
   std::vector<double> integral(kSamples + 1, 0.0);
   const double step = (to - from) / kSamples;
   for (int i = 0; i < kSamples; ++i)

@@ -3,6 +3,8 @@
 #include <Eigen/LU>
 #include <cassert>
 
+#include "geometry/mesh/params.hpp"
+
 namespace dovetail::geometry {
 namespace {
 
@@ -10,7 +12,7 @@ using Stiffness = Eigen::Matrix<double, 6, 6>;
 
 /// `area E B^T C B` with E = 1/area: the area drops out.
 Stiffness stiffness(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
-  constexpr double kPoisson = 0.3;
+  constexpr double kPoisson = MotionParams{}.poisson;
   Eigen::Matrix2d jacobian;
   jacobian << b - a, c - a;
   Eigen::Matrix<double, 3, 2> local;

@@ -5,28 +5,23 @@
 #include <limits>
 
 #include "geometry/mesh/contact_grid.hpp"
+#include "geometry/mesh/params.hpp"
 #include "geometry/profile/flank_form.hpp"
 
 namespace dovetail::geometry {
 namespace {
 
-/// Half of a flank, s = 0 ... 1/2, cut for integrals of 1/h: fine enough for the smallest core there is.
-constexpr int kSamples = 20000;
-
-/// Growth of the size per length at which neighbours differ by a factor of e^0.35 = 1.4.
-constexpr double kSteepest = 0.35;
+constexpr FractionParams kParams = {};
 
 /// Where small edges are wanted, fractions of the length; the other end has its mirror image.
 struct Zone {
   double from, to, core;
 };
 
-/// Around the beginning of a rounding over the length w from the end: the contact ends 0.25 w to 0.55 w beyond it under
-/// a flank pressure of 80 MPa on titanium, R = 1 to 50 mm; half as much again for uneven loads. The pressure peaks in
-/// between and falls by a square root towards the edge of the contact.
+/// Around the beginning of a rounding.
 Zone rounding_zone(const FlankParameters& flank, double length) {
   const double w = rounded_length(flank.edge_radius) / length;
-  return {.from = 0.3 * w, .to = 1.1 * w, .core = w / 8};
+  return {.from = kParams.zone_from * w, .to = kParams.zone_to * w, .core = kParams.core * w};
 }
 
 std::vector<Zone> zones(const ProfileParameters& reference, double grading) {
@@ -38,18 +33,14 @@ std::vector<Zone> zones(const ProfileParameters& reference, double grading) {
   return found;
 }
 
-/// Edges in the middle of rounded flanks are at most so many times as long as equal ones: worn zones end there. So they
-/// are on sharp flanks of the usual grading.
-constexpr double kLongest = 2.4;
-
-/// [kSamples + 1] integral of 1/h from 0 to i/(2 kSamples), no h above `largest`.
+/// [kParams.samples + 1] integral of 1/h from 0 to i/(2 kParams.samples), no h above `largest`.
 std::vector<double> integral(const std::vector<Zone>& zones, double largest) {
   std::vector<double> sum{0};
-  for (int i = 0; i < kSamples; ++i) {
-    const double s = 0.5 * (i + 0.5) / kSamples;
+  for (int i = 0; i < kParams.samples; ++i) {
+    const double s = 0.5 * (i + 0.5) / kParams.samples;
     double h = largest;
     for (const Zone& z : zones) h = std::min(h, z.core + std::max({0.0, z.from - s, s - z.to}));
-    sum.push_back(sum.back() + 0.5 / kSamples / h);
+    sum.push_back(sum.back() + 0.5 / kParams.samples / h);
   }
   return sum;
 }
@@ -59,13 +50,12 @@ std::vector<double> bounded_integral(const std::vector<Zone>& zones) {
   double high = std::numeric_limits<double>::infinity();
   for (const Zone& z : zones) high = std::min(high, z.core + std::max(0.0, 0.5 - z.to));  // in the middle
   std::vector<double> sum = integral(zones, high);
-  if (2 * sum.back() * high <= kLongest) return sum;
-  constexpr int kHalvings = 10;  // to a thousandth
+  if (2 * sum.back() * high <= kParams.longest) return sum;
   double low = 0;
-  for (int k = 0; k < kHalvings; ++k) {
+  for (int k = 0; k < kParams.halvings; ++k) {
     const double middle = (low + high) / 2;
     sum = integral(zones, middle);
-    (2 * sum.back() * middle > kLongest ? high : low) = middle;
+    (2 * sum.back() * middle > kParams.longest ? high : low) = middle;
   }
   return sum;
 }
@@ -82,8 +72,8 @@ std::vector<double> flank_fractions(const ProfileParameters& reference, const Me
     return rounded ? bounded_integral(wanted) : integral(wanted, std::numeric_limits<double>::infinity());
   };
   std::vector<double> sum = integrated();
-  while (2 * sum.back() > kSteepest * parts) {
-    for (Zone& z : wanted) z.core *= 1.1;
+  while (2 * sum.back() > kParams.steepest * parts) {
+    for (Zone& z : wanted) z.core *= kParams.widening;
     sum = integrated();
   }
   std::vector<double> fractions(static_cast<std::size_t>(parts) + 1);
@@ -92,7 +82,7 @@ std::vector<double> flank_fractions(const ProfileParameters& reference, const Me
     const double target = sum.back() * 2 * k / parts;
     const auto above = std::lower_bound(sum.begin() + 1, sum.end() - 1, target);
     const double inside = (target - *(above - 1)) / (*above - *(above - 1));
-    const double s = 0.5 * (static_cast<double>(above - sum.begin()) - 1 + inside) / kSamples;
+    const double s = 0.5 * (static_cast<double>(above - sum.begin()) - 1 + inside) / kParams.samples;
     fractions[static_cast<std::size_t>(parts - k)] = 1 - s;
     fractions[static_cast<std::size_t>(k)] = 2 * k == parts ? 0.5 : s;
   }

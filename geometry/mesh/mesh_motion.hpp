@@ -18,6 +18,8 @@ struct MeshedSector {
   std::string note;       ///< a sentence saying what was done and the quality figures
 };
 
+struct SectionReference;
+
 /// All designs on one mesh topology. The topology, the division of the boundary and the element
 /// sizes come from the reference design alone (made symmetric, so that the mesh is a mirror image of
 /// itself). For another design, boundary nodes keep their fraction of their edge; the displacement
@@ -33,11 +35,6 @@ class MeshFamily {
   /// Cost: about 0.1 s with the default sizes. Throws InputError when a size is out of range or the
   /// boundary of the reference crosses itself.
   explicit MeshFamily(const ProfileParameters& reference, const MeshSizes& sizes = {}, const MeshLimits& limits = {});
-  ~MeshFamily();
-  MeshFamily(MeshFamily&&) noexcept;
-  MeshFamily& operator=(MeshFamily&&) noexcept;
-  MeshFamily(const MeshFamily&) = delete;
-  MeshFamily& operator=(const MeshFamily&) = delete;
 
   /// Cost: below 1 ms with the default sizes, 0.1 s more when meshed afresh. May be called from several threads at
   /// once.
@@ -46,8 +43,9 @@ class MeshFamily {
   [[nodiscard]] MeshedSector mesh_of(const Profile& profile, const ProfileParameters& parameters) const;
 
  private:
-  struct State;
-  std::unique_ptr<const State> state_;
+  MeshSizes sizes_;
+  MeshLimits limits_;
+  std::shared_ptr<const SectionReference> reference_;
 };
 
 /// Mesh of a single design: the design is its own reference.

@@ -9,10 +9,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "core/errors.hpp"
 #include "core/options.hpp"
+#include "geometry/mesh/params.hpp"
 
 namespace dovetail::geometry {
 namespace {
@@ -26,13 +28,7 @@ using Delaunay =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
                                                CGAL::No_constraint_intersection_tag>;
 
-// Tuned once on default sections: the shape of the triangles hardly depends on them.
-constexpr double kTooLarge = 1.25;       // circumradius against that of the equilateral triangle of the wanted size
-constexpr double kClearance = 0.75;      // between points, in wanted sizes
-constexpr double kWallClearance = 0.55;  // from the boundary, in wanted sizes
-constexpr double kCrowded = 0.6;         // closer points are removed
-constexpr int kRounds = 4;
-constexpr int kRelaxations = 10;
+constexpr FillingParams kParams = {};
 
 std::size_t index(int i) {
   return static_cast<std::size_t>(i);
@@ -50,13 +46,13 @@ class Filling {
   }
 
   Triangulation run() {
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kParams.rounds; ++round) {
       while (insert_circumcentres()) {
       }
-      for (int i = 0; i < kRelaxations; ++i) relax();
+      for (int i = 0; i < kParams.relaxations; ++i) relax();
       thin_out();
     }
-    for (int i = 0; i < kRelaxations; ++i) relax();
+    for (int i = 0; i < kParams.relaxations; ++i) relax();
     std::vector<std::array<int, 3>> elements = triangles();
     reject_lost_walls(elements);
     improve_worst(elements);
@@ -177,14 +173,14 @@ class Filling {
       const Vector2d center = at(i) + offset;
       const double size = size_(center);
       const double excess = std::sqrt(3.0) * offset.norm() / size;
-      if (excess > kTooLarge) candidates.push_back({excess, center, size});
+      if (excess > kParams.too_large) candidates.push_back({excess, center, size});
     }
     std::stable_sort(candidates.begin(), candidates.end(),
                      [](const Candidate& a, const Candidate& b) { return a.excess > b.excess; });
     const int before = count();
     for (const Candidate& c : candidates)
-      if (!crowded(c.center, kClearance * c.size) && inside(c.center) &&
-          wall_distance(c.center) > kWallClearance * c.size)
+      if (!crowded(c.center, kParams.clearance * c.size) && inside(c.center) &&
+          wall_distance(c.center) > kParams.wall_clearance * c.size)
         points_.push_back(c.center);
     return count() > before;
   }
@@ -212,10 +208,10 @@ class Filling {
     std::vector<Vector2d> kept(points_.begin(), points_.begin() + walls_);
     for (int i = walls_; i < count(); ++i) {
       const double size = size_(at(i));
-      const double squared = kCrowded * kCrowded * size * size;
+      const double squared = kParams.crowded * kParams.crowded * size * size;
       const bool free = std::none_of(kept.begin(), kept.end(),
                                      [&](const Vector2d& p) { return (p - at(i)).squaredNorm() < squared; });
-      if (free && inside(at(i)) && wall_distance(at(i)) > 0.7 * kWallClearance * size) kept.push_back(at(i));
+      if (free && inside(at(i)) && wall_distance(at(i)) > kParams.wall_crowded * size) kept.push_back(at(i));
     }
     points_ = std::move(kept);
   }
@@ -232,7 +228,7 @@ class Filling {
     std::vector<std::vector<int>> around(points_.size());
     for (std::size_t e = 0; e < elements.size(); ++e)
       for (int i : elements[e]) around[static_cast<std::size_t>(i)].push_back(static_cast<int>(e));
-    for (int sweep = 0; sweep < 8; ++sweep)
+    for (int sweep = 0; sweep < kParams.sweeps; ++sweep)
       for (std::size_t i = static_cast<std::size_t>(walls_); i < points_.size(); ++i) {
         const auto worst = [&] {
           double value = 1;
@@ -240,11 +236,11 @@ class Filling {
           return value;
         };
         double best = worst();
-        if (best > 0.75) continue;
+        if (best > kParams.good) continue;
         Vector2d place = points_[i];
-        const double step = 0.1 * size_(place) / (1 + sweep);
-        for (int direction = 0; direction < 8; ++direction) {
-          const double angle = direction * std::acos(-1.0) / 4;
+        const double step = kParams.step * size_(place) / (1 + sweep);
+        for (int direction = 0; direction < kParams.directions; ++direction) {
+          const double angle = 2 * direction * std::numbers::pi / kParams.directions;
           const Vector2d origin = place;
           points_[i] = origin + step * Vector2d(std::cos(angle), std::sin(angle));
           if (const double value = worst(); value > best) {

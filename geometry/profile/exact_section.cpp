@@ -25,10 +25,11 @@ using MonotoneCurve = Traits::X_monotone_curve_2;
 using Polygon = Traits::General_polygon_2;
 using PolygonSet = CGAL::General_polygon_set_2<Traits>;
 using Eigen::Vector2d;
+constexpr double kGrid = ExactParams{}.snap;
 
 /// Whole picometres: a double holds them exactly up to 9 km.
 Kernel::Point_2 snapped(const Vector2d& at) {
-  return {std::nearbyint(at.x() / kSnap), std::nearbyint(at.y() / kSnap)};
+  return {std::nearbyint(at.x() / kGrid), std::nearbyint(at.y() / kGrid)};
 }
 
 std::vector<Curve> exact_curves(const Chain& chain) {
@@ -60,7 +61,7 @@ Polygon exact_polygon(const Chain& chain) {
 }
 
 Vector2d rounded(const MonotoneCurve::Point_2& at) {
-  return kSnap * Vector2d(CGAL::to_double(at.x()), CGAL::to_double(at.y()));
+  return kGrid * Vector2d(CGAL::to_double(at.x()), CGAL::to_double(at.y()));
 }
 
 /// Back to doubles, for measuring only.
@@ -75,7 +76,7 @@ double rounded_area(const Polygon& polygon) {
     }
     const auto& circle = curve->supporting_circle();
     const Vector2d center =
-        kSnap * Vector2d(CGAL::to_double(circle.center().x()), CGAL::to_double(circle.center().y()));
+        kGrid * Vector2d(CGAL::to_double(circle.center().x()), CGAL::to_double(circle.center().y()));
     const Vector2d from = start - center;
     const Vector2d to = end - center;
     // An x-monotone arc turns by at most pi; atan2 may give its angle the wrong sign there.

@@ -1,19 +1,16 @@
 #pragma once
 
+#include "geometry/profile/params.hpp"
 #include "geometry/profile/profile.hpp"
 
 namespace dovetail::geometry {
 
-/// The exact questions about chains of lines and arcs, answered with exact arithmetic on exact arcs (CGAL).
-///
-/// Resolution: the tangent points of the design are irrational, so every arc is replaced by the exact circle
-/// through its start, middle and end rounded to picometres (kSnap). Two curves that touch in the design may
-/// therefore cross by about a picometre near their touching point; overlaps are told from that by their area,
-/// see kOverlapNoise.
-inline constexpr double kSnap = 1e-12;
-
-/// Area that rounding to kSnap can produce along a boundary of 1 m, m2: overlaps up to this are none.
-inline constexpr double kOverlapNoise = 2e-12;
+// The exact questions about chains of lines and arcs, answered with exact arithmetic on exact arcs (CGAL).
+//
+// Resolution: the tangent points of the design are irrational, so every arc is replaced by the exact circle
+// through its start, middle and end rounded to picometres (ExactParams::snap). Two curves that touch in the design may
+// therefore cross by about a picometre near their touching point; overlaps are told from that by their area,
+// see ExactParams::noise.
 
 /// True when no two edges meet except where one ends and the next one starts. Cost: O(n log n), under a
 /// millisecond for a section.

@@ -6,7 +6,8 @@
 namespace dovetail::geometry {
 
 double fillet_share(double distance_in_radii) {
-  const double t = std::clamp((distance_in_radii - kFilletFrom) / (kFilletTo - kFilletFrom), 0.0, 1.0);
+  constexpr FilletShareParams kParams = {};
+  const double t = std::clamp((distance_in_radii - kParams.from) / (kParams.to - kParams.from), 0.0, 1.0);
   return t * t * (3 - 2 * t);
 }
 

@@ -10,8 +10,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Bulges below this are drawn as straight lines: arcs of some hundred metres radius help nobody.
-constexpr double kStraight = 0.01e-6;
+constexpr FinishedParams kParams = {};
 
 /// Out of the material.
 Vector2d outward(const Edge& e, double fraction) {
@@ -36,10 +35,9 @@ class FinishedFlank {
       std::reverse(borders.begin(), borders.end());
       for (double& border : borders) border = 1 - border;
     }
-    // Pieces shorter than a nanometre are rounding of a border.
     double from = 0;
     for (double border : borders)
-      if ((border - from) * flank_.length() > 1e-9) {
+      if ((border - from) * flank_.length() > kParams.shortest) {
         append(chain, from, border == borders.back() ? 1.0 : border, 0);
         from = border;
       }
@@ -51,9 +49,9 @@ class FinishedFlank {
   void append(Chain& chain, double from, double to, int depth) const {
     const double middle = (from + to) / 2;
     Edge fit = line({}, point(from), point(to));
-    if ((point(middle) - fit.point(0.5)).norm() > kStraight)
+    if ((point(middle) - fit.point(0.5)).norm() > kParams.straight)
       fit = arc_through({}, point(from), point(middle), point(to));
-    if (depth < 12 && error(fit, from, to) > kFlankArcError / 2) {
+    if (depth < kParams.halvings && error(fit, from, to) > kParams.error / 2) {
       append(chain, from, middle, depth + 1);
       append(chain, middle, to, depth + 1);
     } else {
@@ -64,8 +62,8 @@ class FinishedFlank {
   /// Largest distance of the form from the edge that stands for it.
   [[nodiscard]] double error(const Edge& fit, double from, double to) const {
     double largest = 0;
-    for (int i = 1; i < 32; ++i) {
-      const Vector2d at = point(from + (to - from) * i / 32);
+    for (int i = 1; i < kParams.places; ++i) {
+      const Vector2d at = point(from + (to - from) * i / kParams.places);
       const double distance =
           fit.is_arc() ? (at - fit.center).norm() - fit.radius : (at - fit.start).dot(outward(fit, 0));
       largest = std::max(largest, std::abs(distance));

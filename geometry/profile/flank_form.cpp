@@ -15,13 +15,13 @@ struct EndLoss {
 
 std::array<EndLoss, 2> end_losses(const FlankParameters& p) {
   return {EndLoss{p.relief_depth != 0 ? p.relief_length / p.length : 0, p.relief_depth},
-          EndLoss{rounded_length(p.edge_radius) / p.length, kEdgeDrop}};
+          EndLoss{rounded_length(p.edge_radius) / p.length, EdgeParams{}.drop}};
 }
 
 }  // namespace
 
 double rounded_length(double edge_radius) {
-  return std::sqrt(2 * edge_radius * kEdgeDrop);
+  return std::sqrt(2 * edge_radius * EdgeParams{}.drop);
 }
 
 FlankForm::FlankForm(const FlankParameters& parameters) : parameters_(parameters) {
@@ -34,13 +34,8 @@ FlankForm::FlankForm(const FlankParameters& parameters) : parameters_(parameters
   std::sort(pieces_.begin(), pieces_.end());
 
   // Each piece is a parabola: its smallest value is at an end or at its vertex.
-  double smallest = raw(0);
-  const auto consider = [&](double s) {
-    if (raw(s) < smallest) {
-      smallest = raw(s);
-      touching_ = s;
-    }
-  };
+  shift_ = raw(0);
+  const auto consider = [&](double s) { shift_ = std::min(shift_, raw(s)); };
   for (std::size_t i = 0; i + 1 < pieces_.size(); ++i) {
     const double from = pieces_[i];
     const double to = pieces_[i + 1];
@@ -53,7 +48,6 @@ FlankForm::FlankForm(const FlankParameters& parameters) : parameters_(parameters
     }
     consider(to);
   }
-  shift_ = smallest;
 }
 
 double FlankForm::raw(double s) const {
@@ -67,48 +61,6 @@ double FlankForm::raw(double s) const {
 
 double FlankForm::gap(double s) const {
   return std::max(0.0, raw(s) - shift_);
-}
-
-double FlankForm::slope(double s) const {
-  const FlankParameters& p = parameters_;
-  double slope = p.mismatch + 4 * p.crown * (2 * s - 1);
-  for (const EndLoss& loss : end_losses(p)) {
-    if (s < loss.reach) slope -= 2 * loss.depth * (1 - s / loss.reach) / loss.reach;
-    if (1 - s < loss.reach) slope += 2 * loss.depth * (1 - (1 - s) / loss.reach) / loss.reach;
-  }
-  return slope;
-}
-
-GapGradient FlankForm::raw_gradient(double s) const {
-  const FlankParameters& p = parameters_;
-  GapGradient by{.mismatch = s, .crown = (2 * s - 1) * (2 * s - 1)};
-  const double border = p.relief_length / p.length;
-  for (double distance : {s, 1 - s}) {
-    if (distance >= border) continue;
-    const double left = 1 - distance / border;
-    by.relief_depth += left * left;
-    by.relief_length += 2 * p.relief_depth * left * distance / border / p.relief_length;
-    by.length -= 2 * p.relief_depth * left * distance / border / p.length;
-  }
-  const double w = rounded_length(p.edge_radius);
-  for (double distance : {s * p.length, (1 - s) * p.length}) {
-    if (distance >= w) continue;
-    const double beyond = w - distance;  // d/dR of beyond^2/(2 R) with dw/dR = w/(2 R)
-    by.edge_radius += beyond * distance / (2 * p.edge_radius * p.edge_radius);
-    by.length -= beyond * distance / (p.edge_radius * p.length);
-  }
-  return by;
-}
-
-GapGradient FlankForm::gradient(double s) const {
-  const GapGradient at = raw_gradient(s);
-  const GapGradient touch = raw_gradient(touching_);
-  return {.mismatch = at.mismatch - touch.mismatch,
-          .crown = at.crown - touch.crown,
-          .relief_length = at.relief_length - touch.relief_length,
-          .relief_depth = at.relief_depth - touch.relief_depth,
-          .edge_radius = at.edge_radius - touch.edge_radius,
-          .length = at.length - touch.length};
 }
 
 }  // namespace dovetail::geometry

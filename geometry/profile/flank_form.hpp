@@ -2,21 +2,13 @@
 
 #include <array>
 
+#include "geometry/profile/params.hpp"
 #include "geometry/profile/profile.hpp"
 
 namespace dovetail::geometry {
 
-/// Derivatives of a gap with respect to the flank's parameters; dimensionless, all lengths in m.
-struct GapGradient {
-  double mismatch = 0, crown = 0, relief_length = 0, relief_depth = 0, edge_radius = 0, length = 0;
-};
-
-/// How far the rounding of a flank's end has fallen behind the flank where the flank ends, m. The contact ends where it
-/// has fallen by about 0.3 um (R = 1 mm) to 1.2 um (R = 50 mm) under 80 MPa on titanium; the rest is room for loads
-/// that press one end more.
-inline constexpr double kEdgeDrop = 5e-6;
-
-/// w = sqrt(2 R kEdgeDrop): how much of the flank's length, from its end, the rounding with radius R takes; 0 without.
+/// w = sqrt(2 R EdgeParams::drop): how much of the flank's length, from its end, the rounding with radius R takes; 0
+/// without.
 [[nodiscard]] double rounded_length(double edge_radius);
 
 /// The micrometre form of a blade flank: how far it stays behind the nominal flank, at s = 0 (neck-side end)
@@ -27,7 +19,7 @@ inline constexpr double kEdgeDrop = 5e-6;
 ///   edge(s) = (w - s length)^2 / (2 edge_radius) where s length < w = rounded_length(edge_radius), else 0.
 ///
 /// edge(s) is the parabola of a circle that leaves the flank at w from its end. The flank's ends so stay where the
-/// section has them, kEdgeDrop behind, and what is straight is the rest. feasibility.hpp keeps half of the flank
+/// section has them, EdgeParams::drop behind, and what is straight is the rest. feasibility.hpp keeps half of the flank
 /// straight.
 ///
 /// c makes the smallest gap over the flank zero: a rigid shift of the blade, so the form only ever takes
@@ -38,34 +30,21 @@ class FlankForm {
 
   /// Gap at s, m, >= 0.
   [[nodiscard]] double gap(double s) const;
-  /// dg/ds, m.
-  [[nodiscard]] double slope(double s) const;
-  /// Derivatives of gap(s), the shift c included (by the envelope theorem: s of the smallest gap held fixed).
-  /// Where two places share the smallest gap the derivative is that of the first of them. By edge_radius: 0 at a sharp
-  /// end, where w grows like a square root.
-  [[nodiscard]] GapGradient gradient(double s) const;
-  /// Where the gap is smallest (the first such place).
-  [[nodiscard]] double touching() const { return touching_; }
   /// Borders of the pieces on each of which g is one parabola: 0, the inner borders of reliefs and roundings in rising
   /// order, 1.
   [[nodiscard]] const std::array<double, 6>& pieces() const { return pieces_; }
 
  private:
   [[nodiscard]] double raw(double s) const;
-  [[nodiscard]] GapGradient raw_gradient(double s) const;
 
   FlankParameters parameters_;
   std::array<double, 6> pieces_{};
-  double touching_ = 0;
   double shift_ = 0;
 };
 
-/// Largest distance between the finished flank and the arcs that stand for it, m.
-inline constexpr double kFlankArcError = 0.05e-6;
-
 /// The blade as it is to be made: the edges flank_right and flank_left are replaced by short chains
 /// flank_right_1, flank_right_2, ... of lines and of arcs through three points each, which follow the nominal
-/// flank moved into the blade by the gap, to within kFlankArcError. The neck fillet and root corner beside them
+/// flank moved into the blade by the gap, to within FinishedParams::error. The neck fillet and root corner beside them
 /// are drawn again through their far end, their middle moved by half the gap at the flank's end, and the finished
 /// flank's end; so the chain stays closed, with a change of direction of about 2 gap/radius (0.01 for 10 um on
 /// 2 mm) at their ends. The number of flank edges depends on the form; without any form it is one line.

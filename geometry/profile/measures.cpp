@@ -16,49 +16,16 @@ double cross(const Vector2d& a, const Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Area and first moment about the origin of the triangle (origin, start, end) and, for an arc, the circular
-/// segment between chord and arc. `from` is taken as origin: coordinates of some mm lose no digits.
-struct Moments {
-  double area = 0;
-  Vector2d first = Vector2d::Zero();
-};
-
-Moments moments(const Chain& chain, const Vector2d& from) {
-  Moments sum;
-  for (const Edge& e : chain) {
-    const Vector2d a = e.start - from;
-    const Vector2d b = e.end - from;
-    const double triangle = cross(a, b) / 2;
-    sum.area += triangle;
-    sum.first += triangle / 3 * (a + b);
-    if (!e.is_arc()) continue;
-    const double half = e.sweep / 2;
-    const double segment = e.radius * e.radius * (e.sweep - std::sin(e.sweep)) / 2;
-    // The segment's centre of gravity lies on its axis, 2 r^3 sin^3(half) / (3 segment) from the circle's centre.
-    const Vector2d axis = (e.point(0.5) - e.center) / e.radius;
-    const double moment = 2.0 / 3.0 * std::pow(e.radius, 3) * std::pow(std::sin(half), 3);
-    sum.area += segment;
-    sum.first += segment * (e.center - from) + moment * axis;
-  }
-  return sum;
-}
-
 }  // namespace
 
 double area(const Chain& chain) {
-  return moments(chain, chain.front().start).area;
-}
-
-double length(const Chain& chain) {
+  const Vector2d from = chain.front().start;  // as origin: coordinates of some mm lose no digits
   double sum = 0;
-  for (const Edge& e : chain) sum += e.length();
+  for (const Edge& e : chain) {
+    sum += cross(Vector2d(e.start - from), Vector2d(e.end - from)) / 2;
+    if (e.is_arc()) sum += e.radius * e.radius * (e.sweep - std::sin(e.sweep)) / 2;
+  }
   return sum;
-}
-
-Vector2d centroid(const Chain& chain) {
-  const Vector2d from = chain.front().start;
-  const Moments sum = moments(chain, from);
-  return from + sum.first / sum.area;
 }
 
 Eigen::AlignedBox2d bounding_box(const Chain& chain) {

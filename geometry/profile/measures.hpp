@@ -10,12 +10,6 @@ namespace dovetail::geometry {
 /// Area enclosed by a closed chain, m2: exact for lines and arcs (Green's theorem), positive counter-clockwise.
 [[nodiscard]] double area(const Chain& chain);
 
-/// Length of a chain, m.
-[[nodiscard]] double length(const Chain& chain);
-
-/// Centre of gravity of the area enclosed by a closed chain, m.
-[[nodiscard]] Eigen::Vector2d centroid(const Chain& chain);
-
 /// Smallest box around the chain, arcs included, m.
 [[nodiscard]] Eigen::AlignedBox2d bounding_box(const Chain& chain);
 

@@ -8,6 +8,7 @@
 
 #include "geometry/profile/exact_section.hpp"
 #include "geometry/profile/measures.hpp"
+#include "geometry/rules/params.hpp"
 #include "geometry/rules/solid_rules.hpp"
 
 namespace dovetail::geometry {
@@ -38,7 +39,7 @@ Rule overlap_rule(double overlap, double flank_length) {
   const double depth = overlap / flank_length;
   return {
       .name = "no_overlap",
-      .margin = overlap > 0 ? -depth / 1e-3 : 0,
+      .margin = overlap > 0 ? -depth / RuleParams{}.overlap_unit : 0,
       .sentence = overlap > 0
                       ? fmt::format("blade and disk overlap by {:.4g} mm2, {:.4g} mm deep on the mean over the flanks",
                                     overlap * 1e6, depth * 1e3)
@@ -71,7 +72,7 @@ Feasibility check_feasibility(const ProfileParameters& parameters, const Feasibi
          .sentence = "whether blade and disk overlap cannot be told: an outline crosses itself or is inside out"});
   } else {
     const double overlap = overlap_area(profile.blade, profile.disk);
-    result.overlap_area = overlap > kOverlapNoise ? overlap : 0;
+    result.overlap_area = overlap > ExactParams{}.noise ? overlap : 0;
     result.rules.push_back(overlap_rule(result.overlap_area, 2 * parameters.mean(&FlankParameters::length)));
   }
   result.feasible = all_kept(result.rules);

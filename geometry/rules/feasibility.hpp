@@ -22,21 +22,18 @@ struct Feasibility {
       0;  ///< of blade and disk, m2; 0 when a chain crosses itself or is inside out (not defined then)
 };
 
-/// Shortest straight part, and least step between the lobe's and the neck fillet's radius, that counts as one, m.
-inline constexpr double kShortestStraight = 0.05e-3;
-
 /// The rules that follow from closed forms of the dimensions. Margins are smooth in all parameters:
 ///
 /// - walls, (thickness - minimum_wall)/minimum_wall: neck_wall, post_wall, lobe_wall (rim to flank), platform_wall,
 ///   aerofoil_root_wall, aerofoil_tip_wall, web_wall (slot floor to bore: also violated by a slot that is deeper
 ///   than the disk is high);
-/// - straight parts between blends, (length - kShortestStraight)/1 mm: neck_left_fits, neck_right_fits,
+/// - straight parts between blends, (length - RuleParams::straight)/1 mm: neck_left_fits, neck_right_fits,
 ///   shoulder_fits (includes: shank wider than neck), shank_fits, platform_underside_fits, platform_top_fits,
 ///   aerofoil_fits, root_bottom_fits, slot_floor_fits, mouth_left_fits, mouth_right_fits, runout_left_fits,
 ///   runout_right_fits;
 /// - clearances, distance/1 mm: bottom_gap, shank_above_rim, platform_within_pitch, slot_left_within_cut,
 ///   slot_right_within_cut, mouth_left_within_cut, mouth_right_within_cut;
-/// - radii against each other: lobe_within_neck_fillet (the neck fillet is larger by kShortestStraight),
+/// - radii against each other: lobe_within_neck_fillet (the neck fillet is larger by RuleParams::straight),
 ///   root_corner_within_slot_fillet (the slot fillet is not smaller), /1 mm;
 /// - re-entrant radii against the tool, (radius - minimum_cutter_radius)/1 mm: neck_fillet_cutter,
 ///   slot_fillet_cutter, blend_cutter. Outer corners can be cut by any tool;

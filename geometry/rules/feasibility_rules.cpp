@@ -5,6 +5,7 @@
 #include "geometry/profile/flank_form.hpp"
 #include "geometry/profile/measures.hpp"
 #include "geometry/rules/feasibility.hpp"
+#include "geometry/rules/params.hpp"
 #include "geometry/rules/rule_list.hpp"
 
 namespace dovetail::geometry {
@@ -60,7 +61,7 @@ void clearances(RuleList& rules, const Measures& m) {
 
 void radii(RuleList& rules, const ProfileParameters& p, double cutter) {
   rules.at_least("lobe_within_neck_fillet", "the neck fillet's radius", p.neck_fillet_radius,
-                 p.lobe_radius + kShortestStraight, "for the lobe to stay clear of it");
+                 p.lobe_radius + RuleParams{}.straight, "for the lobe to stay clear of it");
   rules.at_least("root_corner_within_slot_fillet", "the slot fillet's radius", p.slot_fillet_radius,
                  p.root_corner_radius, "for the root corner to stay clear of it");
   const char* cut = "for the tool to cut it";

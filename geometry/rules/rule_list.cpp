@@ -3,16 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
+
+#include "geometry/profile/key_units.hpp"
+#include "geometry/rules/params.hpp"
 
 namespace dovetail::geometry {
-
-namespace {
-
-constexpr double kMillimetre = 1e-3;
-constexpr double kDegree = std::numbers::pi / 180;
-
-}  // namespace
 
 void RuleList::at_least(std::string name, const std::string& what, double value, double bound,
                         const std::string& of_what, double scale) {
@@ -20,7 +15,7 @@ void RuleList::at_least(std::string name, const std::string& what, double value,
 }
 
 void RuleList::straight(const std::string& part, const std::string& what, double length) {
-  at_least(part + "_fits", "the straight part of " + what, length, kShortestStraight,
+  at_least(part + "_fits", "the straight part of " + what, length, RuleParams{}.straight,
            "to leave room for the fillets beside it");
 }
 

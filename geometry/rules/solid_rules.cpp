@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "geometry/profile/profile.hpp"
+#include "geometry/rules/params.hpp"
 #include "geometry/rules/rule_list.hpp"
 #include "geometry/solid/slot_sweep.hpp"
 
@@ -14,16 +15,16 @@ namespace dovetail::geometry {
 namespace {
 
 using Eigen::Vector2d;
+constexpr RuleParams kParams = {};
 
 /// Least determinant over the platform's top from the blend's foot at x to the side, at the slot's end at z.
 double least_stretch(const ProfileParameters& p, const SolidParameters& solid, double foot, double z) {
-  constexpr int kPlaces = 24;
   const double side = p.platform_width / 2, fall = -1 / (side - foot);
   const double s = std::sin(solid.stagger), c = std::cos(solid.stagger), slot = std::tan(solid.skew_angle);
   const double chord = p.chord / p.slot_length;
   double least = kInfinity;
-  for (int k = 0; k <= kPlaces; ++k) {
-    const double x = foot + (side - foot) * k / kPlaces, weight = fall * (x - side);
+  for (int k = 0; k <= kParams.places; ++k) {
+    const double x = foot + (side - foot) * k / kParams.places, weight = fall * (x - side);
     Eigen::Matrix2d change;
     change << 1 + weight * (c - 1) + fall * (z * (chord * s - slot) + x * (c - 1)), slot + weight * (chord * s - slot),
         fall * z * (chord * c - 1) - (weight * weight + 2 * weight * fall * x) * s, 1 + weight * (chord * c - 1);
@@ -35,13 +36,13 @@ double least_stretch(const ProfileParameters& p, const SolidParameters& solid, d
 void platform(RuleList& rules, const Profile& profile, const ProfileParameters& p, const SolidParameters& solid) {
   const double foot = edge(profile.blade, "platform_top_right").end.x(), width = p.platform_width / 2 - foot;
   const double off = p.chord / 2 * std::abs(std::sin(solid.stagger - solid.skew_angle)) / std::cos(solid.skew_angle);
-  rules.at_least("aerofoil_on_platform", "the width of the platform beside the aerofoil's edge", width - off, width / 5,
-                 "as a fifth of that in mid-chord");
+  rules.at_least("aerofoil_on_platform", "the width of the platform beside the aerofoil's edge", width - off,
+                 width / kParams.beside, "as a fifth of that in mid-chord");
   rules.share_at_least(
       "platform_follows_aerofoil",
       "the least area of a piece of the platform beside the aerofoil against that without angles",
       std::min(least_stretch(p, solid, foot, p.slot_length / 2), least_stretch(p, solid, foot, -p.slot_length / 2)),
-      kLeastPlatformStretch, "for the platform not to fold");
+      kParams.stretch, "for the platform not to fold");
 }
 
 /// Distances to the cuts where the skew makes them smallest. Below the rim the slot moves further than the cuts, the

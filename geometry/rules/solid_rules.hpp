@@ -7,16 +7,13 @@
 
 namespace dovetail::geometry {
 
-/// Least local change of area, seen along the radius, of a platform between its side and the aerofoil (1: none).
-inline constexpr double kLeastPlatformStretch = 0.2;
-
 /// What a solid sector has to keep besides the rules of its section. a is the skew.
 ///
 /// - aerofoil_on_platform, in mm: the aerofoil's edge is chord/2 |sin(stagger - a)|/cos(a) off the middle of the
 ///   platform; the width left between the blend's foot and the platform's side is at least a fifth of that in
 ///   mid-chord;
 /// - platform_follows_aerofoil: the least determinant of d(x', z')/d(x, z), see SolidFamily, over the platform's top at
-///   both ends of the slot is at least kLeastPlatformStretch. Broken by chords that are turned far from the slot or
+///   both ends of the slot is at least RuleParams::stretch. Broken by chords that are turned far from the slot or
 ///   much shorter than it, whose platform would have to fold;
 /// - platform_, slot_ and mouth_, left and right, _within_cut_at_ends: the distances to the sector's cuts, which a
 ///   skewed slot reduces towards one end, >= 0 at the end concerned, in mm;

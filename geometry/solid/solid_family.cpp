@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/mesh/flank_fractions.hpp"
 #include "geometry/mesh/section_reference.hpp"
 #include "geometry/solid/aerofoil_form.hpp"
 #include "geometry/solid/morph_weights.hpp"
@@ -12,18 +13,6 @@
 #include "geometry/solid/solid_layers.hpp"
 
 namespace dovetail::geometry {
-namespace {
-
-/// Ends and middles of the layers, m.
-std::vector<double> node_heights(double slot_length, const SolidSizes& sizes) {
-  const std::vector<double> ends = layer_ends(slot_length, sizes.slot_elements, sizes.slot_grading);
-  std::vector<double> heights{ends.front()};
-  for (std::size_t k = 1; k < ends.size(); ++k) {
-    heights.push_back((ends[k - 1] + ends[k]) / 2);
-    heights.push_back(ends[k]);
-  }
-  return heights;
-}
 
 /// A reference with what the solid needs of it besides.
 struct SolidReference {
@@ -41,6 +30,8 @@ struct SolidReference {
         for (const int node : plane.element(e)) aerofoil[static_cast<std::size_t>(node)] = true;
   }
 };
+
+namespace {
 
 /// One design on its way from the section to the solid.
 class Sweep {
@@ -99,7 +90,8 @@ MeshedSector swept(const SolidReference& reference, MeshedSector plane, const Pr
   result.remeshed = plane.remeshed;
   result.sector = solid_layers(plane.sector, sizes.slot_elements);
   const Sweep sweep(reference, plane.sector.mesh, profile, parameters, solid);
-  const std::vector<double> heights = node_heights(parameters.slot_length, sizes);
+  const std::vector<double> heights =
+      with_middles(layer_ends(parameters.slot_length, sizes.slot_elements, sizes.slot_grading));
   const Eigen::Index count = plane.sector.mesh.node_count();
   fem::Mesh& mesh = result.sector.mesh;
   mesh.nodes.resize(3, count * static_cast<Eigen::Index>(heights.size()));
@@ -113,27 +105,13 @@ MeshedSector swept(const SolidReference& reference, MeshedSector plane, const Pr
 
 }  // namespace
 
-struct SolidFamily::State {
-  MeshSizes sizes;
-  SolidSizes along;
-  MeshLimits limits;
-  std::shared_ptr<const SectionReference> section;
-  SolidReference reference;
-
-  State(const ProfileParameters& parameters, const MeshSizes& s, const SolidSizes& a, const MeshLimits& l)
-      : sizes(checked(s)),
-        along(checked(a, s)),
-        limits(l),
-        section(std::make_shared<const SectionReference>(parameters, sizes)),
-        reference(section, section->mesh_of(build_profile(parameters), parameters).sector.mesh) {}
-};
-
 SolidFamily::SolidFamily(const ProfileParameters& reference, const MeshSizes& sizes, const SolidSizes& along,
                          const MeshLimits& limits)
-    : state_(std::make_unique<const State>(reference, sizes, along, limits)) {}
-SolidFamily::~SolidFamily() = default;
-SolidFamily::SolidFamily(SolidFamily&&) noexcept = default;
-SolidFamily& SolidFamily::operator=(SolidFamily&&) noexcept = default;
+    : sizes_(checked(sizes)), along_(checked(along, sizes)), limits_(limits) {
+  auto section = std::make_shared<const SectionReference>(reference, sizes_);
+  const MeshedSector plane = section->mesh_of(build_profile(reference), reference);
+  reference_ = std::make_shared<const SolidReference>(std::move(section), plane.sector.mesh);
+}
 
 MeshedSector SolidFamily::mesh_of(const ProfileParameters& parameters, const SolidParameters& solid) const {
   return mesh_of(build_profile(parameters), parameters, solid);
@@ -141,12 +119,11 @@ MeshedSector SolidFamily::mesh_of(const ProfileParameters& parameters, const Sol
 
 MeshedSector SolidFamily::mesh_of(const Profile& profile, const ProfileParameters& parameters,
                                   const SolidParameters& solid) const {
-  const State& state = *state_;
-  SectionMesh section = mesh_section(state.section, profile, parameters, state.sizes, state.limits);
-  if (section.reference == state.section)
-    return swept(state.reference, std::move(section.plane), profile, parameters, checked(solid), state.along);
+  SectionMesh section = mesh_section(reference_->section, profile, parameters, sizes_, limits_);
+  if (section.reference == reference_->section)
+    return swept(*reference_, std::move(section.plane), profile, parameters, checked(solid), along_);
   const SolidReference own(section.reference, section.plane.sector.mesh);
-  return swept(own, std::move(section.plane), profile, parameters, checked(solid), state.along);
+  return swept(own, std::move(section.plane), profile, parameters, checked(solid), along_);
 }
 
 MeshedSector mesh_solid(const ProfileParameters& parameters, const SolidParameters& solid, const MeshSizes& sizes,

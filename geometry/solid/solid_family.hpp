@@ -8,6 +8,8 @@
 
 namespace dovetail::geometry {
 
+struct SolidReference;
+
 /// All solid sectors on one mesh topology: the plane mesh of MeshFamily, laid down at 2 slot_elements + 1 heights z
 /// (ends and middles of the layers) and joined to 18-node wedges. At each height
 ///
@@ -30,11 +32,6 @@ class SolidFamily {
   /// reference crosses itself.
   explicit SolidFamily(const ProfileParameters& reference, const MeshSizes& sizes = {}, const SolidSizes& along = {},
                        const MeshLimits& limits = {});
-  ~SolidFamily();
-  SolidFamily(SolidFamily&&) noexcept;
-  SolidFamily& operator=(SolidFamily&&) noexcept;
-  SolidFamily(const SolidFamily&) = delete;
-  SolidFamily& operator=(const SolidFamily&) = delete;
 
   /// May be called from several threads at once. Throws InputError when a parameter is out of range.
   [[nodiscard]] MeshedSector mesh_of(const ProfileParameters& parameters, const SolidParameters& solid) const;
@@ -43,8 +40,10 @@ class SolidFamily {
                                      const SolidParameters& solid) const;
 
  private:
-  struct State;
-  std::unique_ptr<const State> state_;
+  MeshSizes sizes_;
+  SolidSizes along_;
+  MeshLimits limits_;
+  std::shared_ptr<const SolidReference> reference_;
 };
 
 /// Mesh of a single design: the design is its own reference.

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "fem/sector_mesh.hpp"
@@ -9,11 +8,6 @@
 #include "geometry/solid/solid_parameters.hpp"
 
 namespace dovetail::geometry {
-
-/// Derivatives of a gap over a solid flank: those of the form across the slot and, with its mismatch always 0, along.
-struct SolidGapGradient {
-  GapGradient across, along;
-};
 
 /// The micrometre form of a blade flank over its whole surface: at s from 0 (neck side) to 1 (root side) across and at
 /// u from 0 (lowest z) to 1 along the slot, measured along the normal,
@@ -28,13 +22,6 @@ class SolidFlankForm {
 
   /// Gap, m, >= 0.
   [[nodiscard]] double gap(double s, double u) const { return across_.gap(s) + along_.gap(u); }
-  /// dg/ds and dg/du, m.
-  [[nodiscard]] std::array<double, 2> slope(double s, double u) const { return {across_.slope(s), along_.slope(u)}; }
-  /// Derivatives by the parameters: of FlankParameters, and by axial_crown (crown), axial_relief_length,
-  /// axial_relief_depth and the slot's own length (length).
-  [[nodiscard]] SolidGapGradient gradient(double s, double u) const {
-    return {across_.gradient(s), along_.gradient(u)};
-  }
 
  private:
   FlankForm across_, along_;

@@ -1,107 +1,60 @@
 #include "geometry/solid/solid_parameters.hpp"
 
 #include <array>
-#include <numbers>
 #include <utility>
 #include <vector>
+
+#include "geometry/profile/key_units.hpp"
 
 namespace dovetail {
 
 namespace {
 
-constexpr double kMillimetre = 1e-3;
-constexpr double kMicrometre = 1e-6;
-constexpr double kDegree = std::numbers::pi / 180.0;
+using geometry::between, geometry::kDegree, geometry::kMicrometre, geometry::kMillimetre;
 
 using S = geometry::SolidParameters;
 using Z = geometry::SolidSizes;
-
-const auto& solid_fields() {
-  static const std::array fields{
-      Field<S>{"skew_angle_deg",
-               &S::skew_angle,
-               kDegree,
-               {.lower = -30, .upper = 30},
-               "Angle between the slot and the axis of rotation; the section is that of the planes across the axis."},
-      Field<S>{"stagger_deg",
-               &S::stagger,
-               kDegree,
-               {.lower = -60, .upper = 60},
-               "Angle between the chord at the aerofoil's root and the axis of rotation."},
-      Field<S>{"twist_deg",
-               &S::twist,
-               kDegree,
-               {.lower = -75, .upper = 75},
-               "Turn of the chord from the aerofoil's root to its tip, linear along the span."},
-      Field<S>{"tip_chord_mm",
-               &S::tip_chord,
-               kMillimetre,
-               {.lower = 0, .upper = 5000},
-               "Chord at the tip, linear from chord_mm at the root; 0: chord_mm."},
-      Field<S>{"lean_mm",
-               &S::lean,
-               kMillimetre,
-               {.lower = -500, .upper = 500},
-               "Tangential offset of the aerofoil's tip, growing with the square of the distance from its root."},
-      Field<S>{"edge_thickness_fraction",
-               &S::edge_thickness_fraction,
-               1,
-               {.lower = 0.1, .upper = 1},
-               "Thickness of the aerofoil at its leading and trailing edge over that in mid-chord; 1: a plate."},
-      Field<S>{"axial_crown_um",
-               &S::axial_crown,
-               kMicrometre,
-               {.lower = -500, .upper = 500},
-               "Height of the blade flanks' bulge in the middle of the slot; negative: hollow."},
-      Field<S>{"axial_relief_length_mm",
-               &S::axial_relief_length,
-               kMillimetre,
-               {.lower = 0, .upper = 1000},
-               "Length of the relieved zone at each end of the slot."},
-      Field<S>{"axial_relief_depth_um",
-               &S::axial_relief_depth,
-               kMicrometre,
-               {.lower = 0, .upper = 500},
-               "Depth of the relief at the ends of the slot."},
-  };
-  return fields;
-}
-
-const auto& size_fields() {
-  static const std::array fields{
-      Field<Z>{"slot_elements",
-               &Z::slot_elements,
-               1,
-               {.lower = 2, .upper = 500},
-               "Layers of elements along the slot (solid sector only)."},
-      Field<Z>{"slot_grading",
-               &Z::slot_grading,
-               1,
-               {.lower = 0.1, .upper = 1},
-               "Size of the layers at the slot's ends over that in its middle; 1: all equal (solid sector only)."},
-      Field<Z>{"contact_flank_elements",
-               &Z::contact_flank_elements,
-               1,
-               {.lower = 0, .upper = 2000},
-               "Parts between contact nodes across the slot, at most flank_elements; 0: as many (solid sector only)."},
-      Field<Z>{"contact_slot_elements",
-               &Z::contact_slot_elements,
-               1,
-               {.lower = 0, .upper = 500},
-               "Parts between contact nodes along the slot, at most slot_elements; 0: as many (solid sector only)."},
-  };
-  return fields;
-}
 
 }  // namespace
 
 template <>
 std::span<const Field<S>> option_table<S>() {
-  return solid_fields();
+  static const std::array fields{
+      Field<S>{"skew_angle_deg", &S::skew_angle, kDegree, between(-30, 30),
+               "Angle between the slot and the axis of rotation; the section is that of the planes across the axis."},
+      Field<S>{"stagger_deg", &S::stagger, kDegree, between(-60, 60),
+               "Angle between the chord at the aerofoil's root and the axis of rotation."},
+      Field<S>{"twist_deg", &S::twist, kDegree, between(-75, 75),
+               "Turn of the chord from the aerofoil's root to its tip, linear along the span."},
+      Field<S>{"tip_chord_mm", &S::tip_chord, kMillimetre, between(0, 5000),
+               "Chord at the tip, linear from chord_mm at the root; 0: chord_mm."},
+      Field<S>{"lean_mm", &S::lean, kMillimetre, between(-500, 500),
+               "Tangential offset of the aerofoil's tip, growing with the square of the distance from its root."},
+      Field<S>{"edge_thickness_fraction", &S::edge_thickness_fraction, 1, between(0.1, 1),
+               "Thickness of the aerofoil at its leading and trailing edge over that in mid-chord; 1: a plate."},
+      Field<S>{"axial_crown_um", &S::axial_crown, kMicrometre, between(-500, 500),
+               "Height of the blade flanks' bulge in the middle of the slot; negative: hollow."},
+      Field<S>{"axial_relief_length_mm", &S::axial_relief_length, kMillimetre, between(0, 1000),
+               "Length of the relieved zone at each end of the slot."},
+      Field<S>{"axial_relief_depth_um", &S::axial_relief_depth, kMicrometre, between(0, 500),
+               "Depth of the relief at the ends of the slot."},
+  };
+  return fields;
 }
+
 template <>
 std::span<const Field<Z>> option_table<Z>() {
-  return size_fields();
+  static const std::array fields{
+      Field<Z>{"slot_elements", &Z::slot_elements, 1, between(2, 500),
+               "Layers of elements along the slot (solid sector only)."},
+      Field<Z>{"slot_grading", &Z::slot_grading, 1, between(0.1, 1),
+               "Size of the layers at the slot's ends over that in its middle; 1: all equal (solid sector only)."},
+      Field<Z>{"contact_flank_elements", &Z::contact_flank_elements, 1, between(0, 2000),
+               "Parts between contact nodes across the slot, at most flank_elements; 0: as many (solid sector only)."},
+      Field<Z>{"contact_slot_elements", &Z::contact_slot_elements, 1, between(0, 500),
+               "Parts between contact nodes along the slot, at most slot_elements; 0: as many (solid sector only)."},
+  };
+  return fields;
 }
 
 namespace geometry {

@@ -15,18 +15,6 @@ bool write_value(hid_t file, const std::string& object, const std::string& name,
   return attribute.valid() && H5Awrite(attribute, memory_type, value) >= 0;
 }
 
-// An opened attribute; `one` tells whether it holds a single value (scalar, or an array of one).
-struct Attribute {
-  Handle id, type, space;
-
-  Attribute(hid_t file, const std::string& object, const std::string& name)
-      : id(H5Aopen_by_name(file, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose),
-        type(id.valid() ? H5Aget_type(id) : H5I_INVALID_HID, H5Tclose),
-        space(id.valid() ? H5Aget_space(id) : H5I_INVALID_HID, H5Sclose) {}
-  [[nodiscard]] bool valid() const { return id.valid() && type.valid() && space.valid(); }
-  [[nodiscard]] bool one() const { return H5Sget_simple_extent_npoints(space) == 1; }
-};
-
 std::string key(const std::string& object, const std::string& name) {
   return "attribute " + name + " of " + object;
 }
@@ -37,13 +25,13 @@ constexpr const char* kUnwritable = "cannot be written: the object is missing, o
 
 void File::write_attribute(const std::string& object, const std::string& name, double value) {
   const Quiet quiet;
-  if (!write_value(handle_, object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &value))
+  if (!write_value(handle_, object, name, Kind<double>::in_file(), Kind<double>::in_memory(), &value))
     fail(key(object, name), {}, kUnwritable);
 }
 
 void File::write_attribute(const std::string& object, const std::string& name, std::int64_t value) {
   const Quiet quiet;
-  if (!write_value(handle_, object, name, H5T_STD_I64LE, H5T_NATIVE_INT64, &value))
+  if (!write_value(handle_, object, name, Kind<std::int64_t>::in_file(), Kind<std::int64_t>::in_memory(), &value))
     fail(key(object, name), {}, kUnwritable);
 }
 
@@ -59,41 +47,30 @@ bool File::has_attribute(const std::string& object, const std::string& name) con
   return exists(object) && H5Aexists_by_name(handle_, object.c_str(), name.c_str(), H5P_DEFAULT) > 0;
 }
 
-double File::real_attribute(const std::string& object, const std::string& name) const {
+template <class T>
+T File::attribute(const std::string& object, const std::string& name) const {
   const Quiet quiet;
   if (!has_attribute(object, name)) fail(key(object, name), {}, "the attribute is missing");
-  const Attribute attribute(handle_, object, name);
-  if (!attribute.valid()) fail(key(object, name), {}, kDamaged);
-  if (H5Tget_class(attribute.type) != H5T_FLOAT || !attribute.one())
-    fail(key(object, name), type_name(attribute.type), "must be one floating-point number");
-  double value = 0;
-  if (H5Aread(attribute.id, H5T_NATIVE_DOUBLE, &value) < 0) fail(key(object, name), {}, kDamaged);
-  return value;
-}
-
-std::int64_t File::integer_attribute(const std::string& object, const std::string& name) const {
-  const Quiet quiet;
-  if (!has_attribute(object, name)) fail(key(object, name), {}, "the attribute is missing");
-  const Attribute attribute(handle_, object, name);
-  if (!attribute.valid()) fail(key(object, name), {}, kDamaged);
-  if (H5Tget_class(attribute.type) != H5T_INTEGER || !attribute.one())
-    fail(key(object, name), type_name(attribute.type), "must be one integer");
-  std::int64_t value = 0;
-  if (H5Aread(attribute.id, H5T_NATIVE_INT64, &value) < 0) fail(key(object, name), {}, kDamaged);
-  return value;
-}
-
-std::string File::string_attribute(const std::string& object, const std::string& name) const {
-  const Quiet quiet;
-  if (!has_attribute(object, name)) fail(key(object, name), {}, "the attribute is missing");
-  const Attribute attribute(handle_, object, name);
-  if (!attribute.valid()) fail(key(object, name), {}, kDamaged);
-  if (H5Tget_class(attribute.type) != H5T_STRING || !attribute.one())
-    fail(key(object, name), type_name(attribute.type), "must be one string");
-  std::vector<std::string> values;
-  const auto read = [&](hid_t memory, void* buffer) { return H5Aread(attribute.id, memory, buffer); };
-  if (!strings_from(attribute.type, attribute.space, 1, read, values)) fail(key(object, name), {}, kDamaged);
+  const Stored found(H5Aopen_by_name(handle_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                     H5Aget_type, H5Aget_space);
+  if (!found.valid()) fail(key(object, name), {}, kDamaged);
+  // A scalar, or an array of one.
+  if (H5Tget_class(found.type) != Kind<T>::kClass || H5Sget_simple_extent_npoints(found.space) != 1)
+    fail(key(object, name), type_name(found.type), std::string("must be one ") + Kind<T>::kOne);
+  std::vector<T> values;
+  const auto read = [&](hid_t memory, void* buffer) { return H5Aread(found.id, memory, buffer); };
+  if (!values_of(found, 1, read, values)) fail(key(object, name), {}, kDamaged);
   return values.front();
+}
+
+double File::real_attribute(const std::string& object, const std::string& name) const {
+  return attribute<double>(object, name);
+}
+std::int64_t File::integer_attribute(const std::string& object, const std::string& name) const {
+  return attribute<std::int64_t>(object, name);
+}
+std::string File::string_attribute(const std::string& object, const std::string& name) const {
+  return attribute<std::string>(object, name);
 }
 
 }  // namespace dovetail::hdf5

@@ -21,6 +21,8 @@ struct Array {
   [[nodiscard]] std::size_t rank() const { return shape.size(); }
 };
 
+struct Stored;
+
 /// An open file. Objects are named by absolute paths ("/contact/area"); groups on the way to a new
 /// data set are made. Not to be used from two threads at once (HDF5 keeps global state).
 class File {
@@ -72,6 +74,13 @@ class File {
 
  private:
   File(std::int64_t handle, std::string path) : handle_(handle), path_(std::move(path)) {}
+  [[nodiscard]] Stored data_set(const std::string& object) const;
+  template <class T>
+  [[nodiscard]] Array<T> read(const std::string& object) const;
+  template <class T>
+  [[nodiscard]] T attribute(const std::string& object, const std::string& name) const;
+  template <class T>
+  void write_numbers(const std::string& object, std::span<const T> values, std::span<const std::size_t> shape);
   [[noreturn]] void fail(const std::string& object, const std::string& value, const std::string& allowed) const;
 
   std::int64_t handle_ = -1;

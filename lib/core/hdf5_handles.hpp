@@ -3,10 +3,13 @@
 #include <hdf5.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <numeric>
 #include <span>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 // Private to the sources of dovetail::hdf5: owners of HDF5 identifiers and what they are asked for.
@@ -37,8 +40,8 @@ class Handle {
   ~Handle() {
     if (id_ >= 0) close_(id_);
   }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, H5I_INVALID_HID)), close_(other.close_) {}
+  Handle& operator=(Handle&&) = delete;
   operator hid_t() const { return id_; }  // NOLINT: stands for the identifier in every call
   [[nodiscard]] bool valid() const { return id_ >= 0; }
 
@@ -122,6 +125,52 @@ inline bool strings_from(hid_t type, hid_t space, std::size_t count, const std::
     values[k] = text;
   }
   return true;
+}
+
+/// A data set or an attribute with its type and shape.
+struct Stored {
+  Handle id, type, space;
+
+  Stored(hid_t opened, herr_t (*closer)(hid_t), hid_t (*type_of)(hid_t), hid_t (*space_of)(hid_t))
+      : id(opened, closer),
+        type(id.valid() ? type_of(id) : H5I_INVALID_HID, H5Tclose),
+        space(id.valid() ? space_of(id) : H5I_INVALID_HID, H5Sclose) {}
+  [[nodiscard]] bool valid() const { return id.valid() && type.valid() && space.valid(); }
+};
+
+// What values of a type are in a file, and what a message calls them.
+template <class T>
+struct Kind;
+template <>
+struct Kind<double> {
+  static constexpr H5T_class_t kClass = H5T_FLOAT;
+  static constexpr const char *kArray = "64-bit floating-point numbers", *kOne = "floating-point number";
+  static hid_t in_file() { return H5T_IEEE_F64LE; }
+  static hid_t in_memory() { return H5T_NATIVE_DOUBLE; }
+};
+template <>
+struct Kind<std::int64_t> {
+  static constexpr H5T_class_t kClass = H5T_INTEGER;
+  static constexpr const char *kArray = "64-bit integers", *kOne = "integer";
+  static hid_t in_file() { return H5T_STD_I64LE; }
+  static hid_t in_memory() { return H5T_NATIVE_INT64; }
+};
+template <>
+struct Kind<std::string> {
+  static constexpr H5T_class_t kClass = H5T_STRING;
+  static constexpr const char *kArray = "strings", *kOne = "string";
+};
+
+// All values of `stored`, which `read` puts into a buffer of the given memory type; false when it cannot.
+template <class T>
+bool values_of(const Stored& stored, std::size_t count, const std::function<herr_t(hid_t, void*)>& read,
+               std::vector<T>& values) {
+  if constexpr (std::is_same_v<T, std::string>) {
+    return strings_from(stored.type, stored.space, count, read, values);
+  } else {
+    values.resize(count);
+    return values.empty() || read(Kind<T>::in_memory(), values.data()) >= 0;
+  }
 }
 
 }  // namespace dovetail::hdf5

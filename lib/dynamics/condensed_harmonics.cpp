@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "dynamics/condensed_model.hpp"
+#include "dynamics/params.hpp"
 #include "numerics/dense_lu.hpp"
 #include "numerics/dense_product.hpp"
 
@@ -45,7 +46,7 @@ Eigen::MatrixXcd CondensedModel::solve_internal(const Eigen::MatrixXcd& internal
     return internal.col(0).cwiseInverse().asDiagonal() * rhs;
   }
   const numerics::ComplexLu lu(internal);
-  if (!(lu.reciprocal_condition() > 1e-16)) *status = Status::singular;
+  if (!(lu.reciprocal_condition() > CondensationParams{}.resonance)) *status = Status::singular;
   if (lu.status() != Status::converged) return Eigen::MatrixXcd::Zero(rhs.rows(), rhs.cols());
   return lu.solve(rhs);
 }

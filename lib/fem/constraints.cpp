@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/errors.hpp"
+#include "fem/params.hpp"
 
 namespace dovetail::fem {
 
@@ -60,6 +61,7 @@ struct NodeRoles {
 };
 
 void check(const Flank& flank, int dimensions) {
+  constexpr MatchingParams kParams = {};
   const std::string key = "sector.flanks." + flank.name;
   const int count = flank.contact_count();
   if (flank.grid[0] < 2 || flank.grid[1] < 1)
@@ -74,13 +76,13 @@ void check(const Flank& flank, int dimensions) {
            std::to_string(flank.interpolation.rows()) + " x " + std::to_string(flank.interpolation.cols()),
            "must have a row per pair and a column per contact node");
   const Eigen::VectorXd sums = flank.interpolation * Eigen::VectorXd::Ones(count);
-  if (!((sums.array() - 1).abs() <= 1e-9).all()) refuse(key + ".interpolation", "rows", "must sum to 1");
+  if (!((sums.array() - 1).abs() <= kParams.weights).all()) refuse(key + ".interpolation", "rows", "must sum to 1");
   if (flank.normal.size() != dimensions || flank.tangents.rows() != dimensions ||
       flank.tangents.cols() != dimensions - 1)
     refuse(key + ".normal, tangents", std::to_string(flank.normal.size()), "must be as many as dimensions");
   Eigen::MatrixXd frame(dimensions, dimensions);
   frame << flank.normal, flank.tangents;
-  if (!((frame.transpose() * frame - Eigen::MatrixXd::Identity(dimensions, dimensions)).norm() <= 1e-9))
+  if (!((frame.transpose() * frame - Eigen::MatrixXd::Identity(dimensions, dimensions)).norm() <= kParams.weights))
     refuse(key + ".normal, tangents", "frame", "must be orthonormal");
 }
 
@@ -142,7 +144,7 @@ class TransformationBuilder {
     rotation.topLeftCorner<2, 2>() << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
     for (const std::array<int, 2>& pair : sector_.cyclic_pairs) {
       const Eigen::VectorXd left = sector_.mesh.nodes.col(pair[0]), right = sector_.mesh.nodes.col(pair[1]);
-      if (!((rotation * left - right).norm() <= 1e-7 * right.norm()))
+      if (!((rotation * left - right).norm() <= MatchingParams{}.image * right.norm()))
         refuse("sector.cyclic_pairs", std::to_string(pair[0]) + ", " + std::to_string(pair[1]),
                "must be a node of the left cut and its image on the right cut");
       for (int c = 0; c < d_; ++c)

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "fem/glued_modes.hpp"
+#include "fem/params.hpp"
 #include "numerics/dense_product.hpp"
 #include "numerics/dense_symmetric.hpp"
 
@@ -18,6 +19,7 @@ namespace {
 
 using Complex = std::complex<double>;
 using Sparse = Eigen::SparseMatrix<double>;
+constexpr DiameterBasisParams kParams = {};
 
 /// A(phase) = A0 + e^{i phase} A1 + e^{-i phase} A1^T over the internal dofs.
 struct PhaseMatrix {
@@ -31,7 +33,7 @@ std::pair<Sparse, Sparse> transformation_parts(const SectorMesh& sector, BoreSup
   const Eigen::SparseMatrix<Complex> glued = one.transformation.leftCols(one.internal_count);
   const Sparse turning = Sparse(glued.imag()) / std::sin(phase);
   const Sparse constant = Sparse(glued.real()) - std::cos(phase) * turning;
-  return {constant.pruned(1.0, 1e-14), turning.pruned(1.0, 1e-14)};
+  return {constant.pruned(1.0, kParams.rounding), turning.pruned(1.0, kParams.rounding)};
 }
 
 PhaseMatrix phase_matrix(const Sparse& full, const Sparse& a, const Sparse& b) {
@@ -88,9 +90,8 @@ class RitzBasis {
     direction /= length;
     for (int pass = 0; pass < 2; ++pass)
       if (basis_.cols() > 0) direction -= basis_ * (basis_.transpose() * direction);
-    constexpr double kNew = 1e-7;
     const double left = direction.norm();
-    if (left < kNew) return;
+    if (left < kParams.fresh) return;
     basis_.conservativeResize(direction.size(), basis_.cols() + 1);
     basis_.col(basis_.cols() - 1) = direction / left;
   }
@@ -136,7 +137,7 @@ class Diameters {
   NodalDiameterFrequencies run() {
     const std::size_t count = result_.nodal_diameters.size();
     // Two samples and one between are worth a basis; one or two sectors have no phase to follow.
-    const bool ritz = options_.tolerance > 0 && count > 3 && sector_.sectors > 2;
+    const bool ritz = options_.tolerance > 0 && count > kParams.few && sector_.sectors > 2;
     if (ritz) basis_.emplace(sector_, stiffness_, mass_, bore_);
     if (!ritz) {
       for (std::size_t k = 0; k < count; ++k) solve(k);

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <Eigen/SparseCore>
-#include <complex>
 
 #include "fem/constraints.hpp"
 #include "numerics/sparse_modes.hpp"
@@ -16,15 +14,12 @@ template <class Scalar>
                                                   const Eigen::SparseMatrix<double>& mass,
                                                   const Constraints<Scalar>& constraints,
                                                   const numerics::ModesOptions& options,
-                                                  numerics::SparseCholesky<Scalar>& cholesky);
-
-extern template numerics::Modes<double> glued_modes(const Eigen::SparseMatrix<double>&,
-                                                    const Eigen::SparseMatrix<double>&, const Constraints<double>&,
-                                                    const numerics::ModesOptions&, numerics::SparseCholesky<double>&);
-extern template numerics::Modes<std::complex<double>> glued_modes(const Eigen::SparseMatrix<double>&,
-                                                                  const Eigen::SparseMatrix<double>&,
-                                                                  const Constraints<std::complex<double>>&,
-                                                                  const numerics::ModesOptions&,
-                                                                  numerics::SparseCholesky<std::complex<double>>&);
+                                                  numerics::SparseCholesky<Scalar>& cholesky) {
+  // Columns of the contact dofs never enter: constrain with those of the internal dofs only.
+  Constraints<Scalar> glued;
+  glued.transformation = constraints.transformation.leftCols(constraints.internal_count);
+  glued.internal_count = constraints.internal_count;
+  return numerics::smallest_modes<Scalar>(constrain(stiffness, glued), constrain(mass, glued), options, cholesky);
+}
 
 }  // namespace dovetail::fem

@@ -8,33 +8,42 @@
 namespace dovetail::numerics {
 namespace {
 
-Eigen::MatrixXcd complex_product(CBLAS_TRANSPOSE first, const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) {
-  const Eigen::Index rows = first == CblasNoTrans ? a.rows() : a.cols();
-  const Eigen::Index inner = first == CblasNoTrans ? a.cols() : a.rows();
-  assert(inner == b.rows());
-  if (inner == 0) return Eigen::MatrixXcd::Zero(rows, b.cols());
-  Eigen::MatrixXcd c(rows, b.cols());
-  if (c.size() == 0) return c;
+void gemm(CBLAS_TRANSPOSE form, int rows, int columns, int inner, const double* a, int lda, const double* b, int ldb,
+          double* c, int ldc) {
+  cblas_dgemm(CblasColMajor, form, CblasNoTrans, rows, columns, inner, 1.0, a, lda, b, ldb, 0.0, c, ldc);
+}
+void gemm(CBLAS_TRANSPOSE form, int rows, int columns, int inner, const std::complex<double>* a, int lda,
+          const std::complex<double>* b, int ldb, std::complex<double>* c, int ldc) {
   const std::complex<double> one = 1, zero = 0;
-  cblas_zgemm(CblasColMajor, first, CblasNoTrans, static_cast<int>(rows), static_cast<int>(b.cols()),
-              static_cast<int>(inner), &one, a.data(), static_cast<int>(a.rows()), b.data(), static_cast<int>(b.rows()),
-              &zero, c.data(), static_cast<int>(rows));
+  cblas_zgemm(CblasColMajor, form, CblasNoTrans, rows, columns, inner, &one, a, lda, b, ldb, &zero, c, ldc);
+}
+
+/// C = A B with A in this form.
+template <class Matrix>
+void multiply(CBLAS_TRANSPOSE form, const Matrix& a, const Matrix& b, Matrix& c) {
+  const bool turned = form != CblasNoTrans;
+  const Eigen::Index rows = turned ? a.cols() : a.rows(), inner = turned ? a.rows() : a.cols();
+  assert(inner == b.rows());
+  c.resize(rows, b.cols());
+  if (c.size() == 0) return;
+  if (inner == 0)
+    c.setZero();
+  else
+    gemm(form, static_cast<int>(rows), static_cast<int>(b.cols()), static_cast<int>(inner), a.data(),
+         static_cast<int>(a.rows()), b.data(), static_cast<int>(inner), c.data(), static_cast<int>(rows));
+}
+
+template <class Matrix>
+Matrix multiplied(CBLAS_TRANSPOSE form, const Matrix& a, const Matrix& b) {
+  Matrix c;
+  multiply(form, a, b, c);
   return c;
 }
 
 }  // namespace
 
 void product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, Eigen::MatrixXd& c) {
-  assert(a.cols() == b.rows());
-  c.resize(a.rows(), b.cols());
-  if (c.size() == 0) return;
-  if (a.cols() == 0) {
-    c.setZero();
-    return;
-  }
-  cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, static_cast<int>(a.rows()), static_cast<int>(b.cols()),
-              static_cast<int>(a.cols()), 1.0, a.data(), static_cast<int>(a.rows()), b.data(),
-              static_cast<int>(b.rows()), 0.0, c.data(), static_cast<int>(c.rows()));
+  multiply(CblasNoTrans, a, b, c);
 }
 
 void add_product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b,
@@ -51,40 +60,27 @@ void add_product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<co
               static_cast<int>(b.outerStride()), 1.0, c.data(), static_cast<int>(c.outerStride()));
 }
 
-Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  assert(a.rows() == b.rows());
-  Eigen::MatrixXd c = Eigen::MatrixXd::Zero(a.cols(), b.cols());
-  if (c.size() == 0 || a.rows() == 0) return c;
-  cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, static_cast<int>(a.cols()), static_cast<int>(b.cols()),
-              static_cast<int>(a.rows()), 1.0, a.data(), static_cast<int>(a.outerStride()), b.data(),
-              static_cast<int>(b.outerStride()), 0.0, c.data(), static_cast<int>(c.rows()));
-  return c;
-}
-
 Eigen::MatrixXd product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  Eigen::MatrixXd c;
-  product(a, b, c);
-  return c;
+  return multiplied(CblasNoTrans, a, b);
 }
-
+Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  return multiplied(CblasTrans, a, b);
+}
 Eigen::MatrixXd adjoint_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  return transposed_product(a, b);
+  return multiplied(CblasTrans, a, b);
+}
+Eigen::MatrixXcd product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) {
+  return multiplied(CblasNoTrans, a, b);
+}
+Eigen::MatrixXcd transposed_product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) {
+  return multiplied(CblasTrans, a, b);
+}
+Eigen::MatrixXcd adjoint_product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) {
+  return multiplied(CblasConjTrans, a, b);
 }
 
 Eigen::MatrixXd congruent(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return transposed_product(b, product(a, b));
-}
-
-Eigen::MatrixXcd product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) {
-  return complex_product(CblasNoTrans, a, b);
-}
-
-Eigen::MatrixXcd transposed_product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) {
-  return complex_product(CblasTrans, a, b);
-}
-
-Eigen::MatrixXcd adjoint_product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) {
-  return complex_product(CblasConjTrans, a, b);
 }
 
 }  // namespace dovetail::numerics

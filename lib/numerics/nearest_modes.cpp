@@ -8,6 +8,7 @@
 
 #include "numerics/dense_product.hpp"
 #include "numerics/dense_symmetric.hpp"
+#include "numerics/params.hpp"
 
 namespace dovetail::numerics {
 

@@ -20,20 +20,6 @@ struct ModesOptions {
   int block = 0;
 };
 
-/// Tuned on sections, sectors and beams of 1 000 to 300 000 unknowns.
-struct ModesParams {
-  /// Vectors at once: more than any multiplicity of a blade's or a sector's frequencies. From `large` unknowns on,
-  /// whose factors are read from memory for every solve, more of them cost next to nothing.
-  int block = 6, large_block = 16;
-  Eigen::Index large = 30000;
-  int vectors = 3, blocks = 5;  ///< the space holds so many vectors per mode wanted, and so many blocks besides
-  Eigen::Index always = 400;    ///< solves that are allowed always
-  /// Length, over that of the block, below which a direction of it is rounding: of a first image, of what is left of
-  /// one, and when it is made orthonormal once more, as a Gram matrix squares the condition of a block.
-  double independent = 1e-12, remainder = 1e-13, second = 1e-3;
-  double range = 1e14;  ///< between values of 1/(lambda - sigma): those beyond belong to no finite eigenvalue
-};
-
 template <class Scalar>
 struct Modes {
   Status status = Status::iteration_limit;

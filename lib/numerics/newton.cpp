@@ -75,7 +75,8 @@ class Newton {
         best.sufficient = true;
         return best;
       }
-      const double ratio = std::isfinite(trial) ? (trial / norm_) * (trial / norm_) : 1e4;
+      const double ratio =
+          std::isfinite(trial) ? (trial / norm_) * (trial / norm_) : std::numeric_limits<double>::infinity();
       t *= std::clamp(t / (ratio - 1 + 2 * t), params_.shortest_cut, params_.longest_cut);
     }
     return best;

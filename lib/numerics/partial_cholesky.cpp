@@ -11,13 +11,11 @@
 #include <vector>
 
 #include "numerics/cholmod_view.hpp"
+#include "numerics/params.hpp"
 
 namespace dovetail::numerics {
 
 namespace {
-
-// Columns carried through the factor at once: enough for matrix-matrix BLAS, little enough for the cache.
-constexpr Eigen::Index kBlockColumns = 32;
 
 using Sparse = Eigen::SparseMatrix<double>;
 // Row by row: what a supernode gathers and scatters is contiguous.
@@ -98,13 +96,12 @@ void PartialCholesky::Factor::analyse(const Sparse& lower) {
 // The whole of A has no Cholesky factor, so its border gets a shift that makes S + shift I positive definite. It is
 // large beside the negative part that S has in a body that floats, and no larger than the rest of S.
 Status PartialCholesky::Factor::factorise(Sparse& lower, double& shift) {
-  constexpr int kAttempts = 6;
-  constexpr double kGrowth = 100;
+  constexpr BorderParams kParams = {};
   const Eigen::Index border = lower.rows() - interior;
-  for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    const double added = attempt == 0 ? shift : (kGrowth - 1) * shift;
+  for (int attempt = 0; attempt < kParams.attempts; ++attempt) {
+    const double added = attempt == 0 ? shift : (kParams.growth - 1) * shift;
     for (Eigen::Index k = interior; k < lower.rows(); ++k) lower.coeffRef(k, k) += added;
-    if (attempt > 0) shift *= kGrowth;
+    if (attempt > 0) shift *= kParams.growth;
     cholmod_sparse view = lower_view(lower);
     cholmod_factorize(&view, factor, &common);
     if (common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
@@ -220,8 +217,8 @@ Eigen::MatrixXd PartialCholesky::eliminate(const Eigen::Ref<const Eigen::MatrixX
   const Eigen::Map<const Eigen::VectorXi> order(factor_->order(), size());
   Eigen::MatrixXd y(b.rows(), b.cols());
   Rows block;
-  for (Eigen::Index first = 0; first < b.cols(); first += kBlockColumns) {
-    const Eigen::Index columns = std::min(kBlockColumns, b.cols() - first);
+  for (Eigen::Index first = 0; first < b.cols(); first += FactorParams{}.columns) {
+    const Eigen::Index columns = std::min(FactorParams{}.columns, b.cols() - first);
     block = b.middleCols(first, columns)(order, Eigen::all);
     factor_->eliminate(block);
     y.middleCols(first, columns) = block;
@@ -234,8 +231,8 @@ Eigen::MatrixXd PartialCholesky::substitute(const Eigen::Ref<const Eigen::Matrix
   const Eigen::Map<const Eigen::VectorXi> order(factor_->order(), size());
   Eigen::MatrixXd x(y.rows(), y.cols());
   Rows block;
-  for (Eigen::Index first = 0; first < y.cols(); first += kBlockColumns) {
-    const Eigen::Index columns = std::min(kBlockColumns, y.cols() - first);
+  for (Eigen::Index first = 0; first < y.cols(); first += FactorParams{}.columns) {
+    const Eigen::Index columns = std::min(FactorParams{}.columns, y.cols() - first);
     block = y.middleCols(first, columns);
     factor_->substitute(block);
     for (Eigen::Index row = 0; row < size(); ++row) x.row(order(row)).segment(first, columns) = block.row(row);

@@ -7,14 +7,11 @@
 #include <stdexcept>
 
 #include "numerics/cholmod_view.hpp"
+#include "numerics/params.hpp"
 
 namespace dovetail::numerics {
 
 namespace {
-
-// Columns solved at once: enough for matrix-matrix BLAS, and a small workspace (at 16 000 unknowns times are flat
-// within 3 % from 16 to 200 columns).
-constexpr Eigen::Index kBlockColumns = 32;
 
 template <class Scalar>
 cholmod_dense dense_view(const Scalar* values, Eigen::Index rows, Eigen::Index columns) {
@@ -102,8 +99,8 @@ typename SparseCholesky<Scalar>::Dense SparseCholesky<Scalar>::solve(const Eigen
   const Eigen::Index n = size();
   Dense x(n, b.cols());
   Dense gathered;  // only when the columns of b are not contiguous
-  for (Eigen::Index first = 0; first < b.cols(); first += kBlockColumns) {
-    const Eigen::Index columns = std::min(kBlockColumns, b.cols() - first);
+  for (Eigen::Index first = 0; first < b.cols(); first += FactorParams{}.columns) {
+    const Eigen::Index columns = std::min(FactorParams{}.columns, b.cols() - first);
     const Scalar* source = b.data() + first * b.outerStride();
     if (b.outerStride() != n && columns > 1) {
       gathered = b.middleCols(first, columns);
@@ -112,15 +109,6 @@ typename SparseCholesky<Scalar>::Dense SparseCholesky<Scalar>::solve(const Eigen
     state_->solve_block(source, x.data() + first * n, columns);
   }
   return x;
-}
-
-template <class Scalar>
-void SparseCholesky<Scalar>::solve_in_place(Eigen::Ref<Dense> x) const {
-  assert(factorised() && x.rows() == size() && x.outerStride() == size());
-  for (Eigen::Index first = 0; first < x.cols(); first += kBlockColumns) {
-    Scalar* block = x.data() + first * size();
-    state_->solve_block(block, block, std::min(kBlockColumns, x.cols() - first));
-  }
 }
 
 template <class Scalar>

@@ -42,9 +42,6 @@ class SparseCholesky {
   /// x = A^{-1} b, b [n, k]: in blocks of columns that fit the cache.
   [[nodiscard]] Dense solve(const Eigen::Ref<const Dense>& b) const;
 
-  /// The same in the place of b, whose columns must be contiguous: for many columns of a large body.
-  void solve_in_place(Eigen::Ref<Dense> x) const;
-
   /// The same for one contiguous vector of n scalars without allocating; x and b may be the same.
   void solve(const Scalar* b, Scalar* x) const;
 

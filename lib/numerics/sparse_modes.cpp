@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "numerics/params.hpp"
+
 namespace dovetail::numerics {
 
 namespace {
@@ -12,6 +14,7 @@ namespace {
 template <class Scalar>
 Status factorise_shifted(const Eigen::SparseMatrix<Scalar>& stiffness, const Eigen::SparseMatrix<Scalar>& mass,
                          double& shift, SparseCholesky<Scalar>& cholesky) {
+  constexpr ShiftParams kParams = {};
   const auto factorise = [&] {
     Status result = Status::singular;
     if (shift == 0) {
@@ -21,7 +24,7 @@ Status factorise_shifted(const Eigen::SparseMatrix<Scalar>& stiffness, const Eig
       result = cholesky.factorise(shifted);
     }
     // A singular matrix may pass with pivots of rounding size; its inverse would drown the other modes.
-    if (result == Status::converged && cholesky.reciprocal_condition() < 1e-14) return Status::singular;
+    if (result == Status::converged && cholesky.reciprocal_condition() < kParams.singular) return Status::singular;
     return result;
   };
   Status status = factorise();
@@ -30,8 +33,9 @@ Status factorise_shifted(const Eigen::SparseMatrix<Scalar>& stiffness, const Eig
   for (Eigen::Index i = 0; i < mass.rows(); ++i)
     if (std::abs(mass.coeff(i, i)) > 0)
       largest = std::max(largest, std::abs(stiffness.coeff(i, i)) / std::abs(mass.coeff(i, i)));
-  double lowered = std::min(-1e-10 * largest, -std::abs(shift));
-  for (int attempt = 0; attempt < 6 && status == Status::singular; ++attempt, lowered *= 100) {
+  double lowered = std::min(-kParams.first * largest, -std::abs(shift));
+  for (int attempt = 0; attempt < kParams.attempts && status == Status::singular;
+       ++attempt, lowered *= kParams.growth) {
     shift = lowered;
     status = factorise();
   }

@@ -9,15 +9,12 @@
 #include "numerics/dense_product.hpp"
 #include "numerics/dense_symmetric.hpp"
 #include "numerics/nearest_modes.hpp"
+#include "reduction/params.hpp"
 
 namespace dovetail::reduction {
 
 namespace {
-// S carries the rounding of the elimination, some 1e-13 of its largest entry; the rigid stiffness that
-// spin softening leaves at speed is above 1e-9 of it.
-constexpr double kRigidThreshold = 1e-11;
-// The search for negative modes ends at this multiple of the modes first asked for.
-constexpr Eigen::Index kSearchRange = 4, kSearchAlways = 100;  // but not below so many modes
+constexpr FloatingParams kParams = {};
 }  // namespace
 
 FloatingInverse::FloatingInverse(const numerics::PartialCholesky& stiffness, const Eigen::SparseMatrix<double>& mass)
@@ -26,7 +23,7 @@ FloatingInverse::FloatingInverse(const numerics::PartialCholesky& stiffness, con
   const Eigen::Index contact = schur_inverse_.rows(), n = stiffness.size();
   // The largest row sum, a bound of the eigenvalues near the largest of them.
   const double largest = contact == 0 ? 0 : schur_inverse_.cwiseAbs().colwise().sum().maxCoeff();
-  const double threshold = kRigidThreshold * largest;
+  const double threshold = kParams.rigid * largest;
   const numerics::SymmetricPairs low = numerics::pairs_up_to(schur_inverse_, threshold);
   status_ = low.status;
   if (status_ != Status::converged) return;
@@ -83,14 +80,15 @@ FreeModes free_modes(const FloatingInverse& inverse, int count, Eigen::Index lim
   const numerics::ShiftInverse<double> operation{.rows = n,
                                                  .solve = [&](const Eigen::MatrixXd& b) { return inverse.apply(b); }};
   Eigen::Index wanted = std::min(std::max<Eigen::Index>(count - rigid, inverse.negative()), limit - rigid);
-  const Eigen::Index most = std::max(kSearchRange * (wanted + 1), kSearchAlways);
+  const Eigen::Index most = std::max(kParams.search_range * (wanted + 1), kParams.search_always);
   FreeModes result;
   numerics::Modes<double> modes;
   std::vector<Eigen::Index> order;
   for (Eigen::Index asked = wanted + 1;; asked *= 2) {
     asked = std::min(asked, n);
-    modes = numerics::nearest_modes(operation, mass,
-                                    {.count = static_cast<int>(asked), .tolerance = tolerance, .vector_limit = 20});
+    modes = numerics::nearest_modes(
+        operation, mass,
+        {.count = static_cast<int>(asked), .tolerance = tolerance, .vector_limit = kParams.vector_limit});
     result.status = modes.status;
     if (modes.status != Status::converged) return result;
     order = by_distance_from_zero(modes.eigenvalues);

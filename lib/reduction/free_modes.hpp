@@ -6,6 +6,7 @@
 
 #include "core/status.hpp"
 #include "numerics/partial_cholesky.hpp"
+#include "reduction/params.hpp"
 
 namespace dovetail::reduction {
 
@@ -42,7 +43,9 @@ struct FreeModes {
   /// Number of modes that are not positive or far below the last one: eigenpairs to full accuracy, which are
   /// kept out of every linear system because their large responses would cancel.
   [[nodiscard]] Eigen::Index soft() const {
-    return eigenvalues.size() == 0 ? 0 : (eigenvalues.array() <= 1e-3 * std::abs(eigenvalues.tail(1)(0))).count();
+    return eigenvalues.size() == 0
+               ? 0
+               : (eigenvalues.array() <= FloatingParams{}.soft * std::abs(eigenvalues.tail(1)(0))).count();
   }
 };
 

@@ -17,12 +17,13 @@
 #include "core/errors.hpp"
 #include "core/options.hpp"
 #include "core/replace_file.hpp"
+#include "reduction/params.hpp"
 
 namespace dovetail::reduction {
 
 namespace {
 
-constexpr std::int64_t kLargest = 20000;  // rows or columns: 3.2 GB as a dense matrix
+constexpr std::int64_t kLargest = ModelFileParams{}.largest;
 
 /// The words of a text, line by line; blank lines and comments are passed over.
 class Lines {

@@ -7,12 +7,11 @@
 #include <string>
 
 #include "core/options.hpp"
+#include "reduction/params.hpp"
 
 namespace dovetail::reduction {
 
 namespace {
-
-constexpr double kSymmetry = 1e-9;  // of the largest entry: what exporters that print few digits leave
 
 std::string shape(Eigen::Index rows, Eigen::Index columns) {
   return "[" + std::to_string(rows) + "," + std::to_string(columns) + "]";
@@ -59,7 +58,7 @@ class Checks {
     if (matrix.size() == 0) return;
     Eigen::Index row = 0, column = 0;
     const double difference = (matrix - matrix.transpose()).cwiseAbs().maxCoeff(&row, &column);
-    if (difference <= kSymmetry * matrix.cwiseAbs().maxCoeff()) return;
+    if (difference <= ModelFileParams{}.asymmetry * matrix.cwiseAbs().maxCoeff()) return;
     add(key + at(row, column), shortest(matrix(row, column)),
         "must be symmetric, but the entry " + at(column, row) + " is " + shortest(matrix(column, row)));
   }

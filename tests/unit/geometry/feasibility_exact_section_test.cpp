@@ -64,7 +64,7 @@ TEST(ExactSection, KnowsSimpleChains) {
 
 TEST(ExactSection, SeesNoOverlapInTheNominalSectionBesidesRounding) {
   const Profile profile = build_profile({});
-  EXPECT_LE(overlap_area(profile.blade, profile.disk), kOverlapNoise);
+  EXPECT_LE(overlap_area(profile.blade, profile.disk), ExactParams{}.noise);
 }
 
 TEST(ExactSection, SeesAMicrometreOfInterference) {

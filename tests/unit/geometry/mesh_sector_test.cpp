@@ -187,10 +187,10 @@ TEST_P(SectorMeshOf, LeavesTheFlanksEndsOutOfTheFillets) {
       const double away = std::min((x - on.start).norm(), (x - on.end).norm()) / radius;
       // Along the arc it is a little further than straight.
       const double value = share[static_cast<Eigen::Index>(k)];
-      if (away < 0.99 * kFilletFrom) {
+      if (away < 0.99 * FilletShareParams{}.from) {
         EXPECT_EQ(value, 0) << fillet << " " << away;
       }
-      if (away > kFilletTo) {
+      if (away > FilletShareParams{}.to) {
         EXPECT_EQ(value, 1) << fillet << " " << away;
       }
     }
@@ -203,14 +203,16 @@ TEST_P(SectorMeshOf, LeavesTheFlanksEndsOutOfTheFillets) {
 
 TEST(FilletShare, RisesSmoothlyFromNoneToAll) {
   EXPECT_EQ(fillet_share(0), 0);
-  EXPECT_EQ(fillet_share(kFilletFrom), 0);
-  EXPECT_NEAR(fillet_share((kFilletFrom + kFilletTo) / 2), 0.5, 1e-15);
-  EXPECT_EQ(fillet_share(kFilletTo), 1);
+  EXPECT_EQ(fillet_share(FilletShareParams{}.from), 0);
+  EXPECT_NEAR(fillet_share((FilletShareParams{}.from + FilletShareParams{}.to) / 2), 0.5, 1e-15);
+  EXPECT_EQ(fillet_share(FilletShareParams{}.to), 1);
   EXPECT_EQ(fillet_share(1), 1);
   // A cubic with level ends: next to them it moves with the square of the distance, 3 t^2.
   const double t = 1e-3;
-  EXPECT_NEAR(fillet_share(kFilletFrom + t * (kFilletTo - kFilletFrom)), 3 * t * t, 3 * t * t * t);
-  EXPECT_NEAR(1 - fillet_share(kFilletTo - t * (kFilletTo - kFilletFrom)), 3 * t * t, 3 * t * t * t);
+  EXPECT_NEAR(fillet_share(FilletShareParams{}.from + t * (FilletShareParams{}.to - FilletShareParams{}.from)),
+              3 * t * t, 3 * t * t * t);
+  EXPECT_NEAR(1 - fillet_share(FilletShareParams{}.to - t * (FilletShareParams{}.to - FilletShareParams{}.from)),
+              3 * t * t, 3 * t * t * t);
 }
 
 TEST_P(SectorMeshOf, NamesTheTipAndTheNeck) {

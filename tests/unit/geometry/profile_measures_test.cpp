@@ -26,14 +26,12 @@ Chain polygon(const Chain& chain, int pieces) {
   return chords;
 }
 
-TEST(Measures, KnowTheAreaAndCentroidOfADiskAndAHalfDisk) {
+TEST(Measures, KnowTheAreaAndTheBoxOfADiskAndAHalfDisk) {
   const double r = 2e-3;
   const Vector2d at(0.1, 0.2);
   const auto place = [&](double angle) { return Vector2d(at + r * Vector2d(std::cos(angle), std::sin(angle))); };
   const Chain half{arc("arc", place(0), place(kPi), at, kPi), line("chord", place(kPi), place(0))};
   EXPECT_NEAR(area(half), kPi * r * r / 2, 1e-15 * r);
-  EXPECT_NEAR((centroid(half) - at - Vector2d(0, 4 * r / (3 * kPi))).norm(), 0, 1e-14);
-  EXPECT_NEAR(length(half), (2 + kPi) * r, 1e-15);
   const Eigen::AlignedBox2d box = bounding_box(half);
   EXPECT_NEAR((box.min() - at - Vector2d(-r, 0)).norm(), 0, 1e-15);
   EXPECT_NEAR((box.max() - at - Vector2d(r, r)).norm(), 0, 1e-15);
@@ -41,7 +39,6 @@ TEST(Measures, KnowTheAreaAndCentroidOfADiskAndAHalfDisk) {
   const Chain quarters{arc("a", place(0), place(-kPi / 2), at, -kPi / 2),
                        arc("b", place(-kPi / 2), place(0), at, -1.5 * kPi)};
   EXPECT_NEAR(area(quarters), -kPi * r * r, 1e-15 * r) << "clockwise is negative";
-  EXPECT_NEAR((centroid(quarters) - at).norm(), 0, 1e-14);
 }
 
 TEST(Measures, AgreeWithRefinedPolygonsAtSecondOrder) {
@@ -54,7 +51,6 @@ TEST(Measures, AgreeWithRefinedPolygonsAtSecondOrder) {
     EXPECT_GT(std::abs(coarse), 1e-11);
     // Chord errors are sweep^3/(12 n^2) (1 - O(sweep^2/n^2)), sweep < 2.6: the ratio is 4 within 0.01.
     EXPECT_NEAR(coarse / fine, 4, 0.01);
-    EXPECT_NEAR((centroid(polygon(*chain, 400)) - centroid(*chain)).norm(), 0, 1e-7);
   }
 }
 

@@ -58,28 +58,5 @@ TEST(SolidFlankForm, HasItsSmallestGapAtZero) {
   EXPECT_LE(smallest, 1e-9);  // curvatures of some um over a grid of 1/200: below 1e-10
 }
 
-TEST(SolidFlankForm, HasTheDerivativesItGives) {
-  ProfileParameters p;
-  p.flank("left").mismatch = 7e-6;
-  const SolidParameters base = everything();
-  const double s = 0.8, u = 0.04, h = 1e-6;
-  const SolidFlankForm form(p.flank("left"), p, base);
-  const auto gap = [&](const SolidParameters& solid) { return SolidFlankForm(p.flank("left"), p, solid).gap(s, u); };
-  const auto by = [&](double SolidParameters::*member, double step) {
-    SolidParameters more = base, less = base;
-    more.*member += step;
-    less.*member -= step;
-    return (gap(more) - gap(less)) / (2 * step);
-  };
-  // Central differences; linear in crown and depth, in the length with a third derivative of depth/length^3.
-  const SolidGapGradient gradient = form.gradient(s, u);
-  EXPECT_NEAR(gradient.along.crown, by(&SolidParameters::axial_crown, 1e-7), 1e-9);
-  EXPECT_NEAR(gradient.along.relief_depth, by(&SolidParameters::axial_relief_depth, 1e-7), 1e-9);
-  EXPECT_NEAR(gradient.along.relief_length, by(&SolidParameters::axial_relief_length, 1e-6), 1e-8);
-  const std::array<double, 2> slope = form.slope(s, u);
-  EXPECT_NEAR(slope[0], (form.gap(s + h, u) - form.gap(s - h, u)) / (2 * h), 1e-13);
-  EXPECT_NEAR(slope[1], (form.gap(s, u + h) - form.gap(s, u - h)) / (2 * h), 1e-10);
-}
-
 }  // namespace
 }  // namespace dovetail::geometry
