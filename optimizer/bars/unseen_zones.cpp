@@ -5,9 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "optimizer/candidate/candidate_result.hpp"
 #include "optimizer/candidate/worn_zones.hpp"
-#include "optimizer/evaluator.hpp"
 #include "wear/asymptote/drift.hpp"
 
 namespace dovetail::optimizer {
@@ -89,23 +87,21 @@ std::optional<UnseenDrift> unseen_drift(const Scene& scene, const CandidateResul
 
 double add_unseen_zones(const Scene& scene, CandidateResult& result, Bars& bars) {
   const Unseen zone = unseen(scene, result);
-  bars.add("contact_grid", "asymptotic_wear_volume_m3", zone.volume);
-  bars.add("contact_grid", "asymptotic_wear_depth_max_m", zone.depth);
-  if (const std::optional<UnseenDrift> drift = unseen_drift(scene, result)) {
-    bars.add("contact_grid", "resonance_drift", drift->drift);
-    bars.add("contact_grid", "worn_resonance_hz", drift->drift * result.evaluation.responses.at("resonance_hz"));
-    bars.add("contact_grid", "worn_peak_amplitude_m", drift->amplitude);
+  LeftOpen open{.worn_volume = zone.volume, .worn_depth = zone.depth};
+  if (const std::optional<UnseenDrift> found = unseen_drift(scene, result)) {
+    open.drift = found->drift;
+    open.worn_amplitude = found->amplitude;
   } else {
-    for (const char* name : {"resonance_drift", "worn_resonance_hz", "worn_peak_amplitude_m"}) bars.leave_open(name);
+    bars.leave_open(Stage::worn_resonance);
   }
-  if (zone.energy > result.evaluation.responses.at("dissipated_energy_j"))
+  bars.add("contact_grid", open);
+  if (zone.energy > result.unworn->state.friction_energy)
     result.evaluation.messages.push_back(
         "Slip at the ends of the flanks in zones narrower than half a contact node is not seen: the energy may be as "
         "large as its error bar.");
   return zone.energy;
 }
 
-/// What the nodes at the ends of slipping zones leave open of the friction energy, J per cycle.
 double slip_at_zone_ends(const CandidateResult& result) {
   const std::vector<steady::NodeSummary>& nodes = result.unworn->state.nodes;
   Eigen::VectorXd energy(static_cast<Eigen::Index>(nodes.size()));
