@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "optimizer/bars/params.hpp"
 #include "optimizer/candidate/worn_zones.hpp"
 #include "wear/asymptote/drift.hpp"
 
@@ -43,11 +44,7 @@ struct Unseen {
 /// in the mean under half the pressure. Where the pressure changes little only a part of it slips, which grows with
 /// that change.
 Unseen unseen(const Scene& scene, const CandidateResult& result) {
-  // Of 90 joints without wear (studies/error_bars, seeds 2 and 3) finer meshes found a tenth of that energy in three,
-  // 0.4 and all of it in one each, where other parts of the bar were larger than it, and next to none in the others:
-  // none where no node at an end of a flank lifts off. All of the zone counts from a change by a quarter of the
-  // pressure on.
-  constexpr double kSlipping = 0.3, kAllOfIt = 0.25;
+  constexpr UnseenParams kParams;
   const double modulus = std::min(scene.blade.youngs_modulus, scene.disk.youngs_modulus);
   const double roughness = scene.contact.normal_stiffness;
   Unseen left;
@@ -57,11 +54,11 @@ Unseen unseen(const Scene& scene, const CandidateResult& result) {
     const double asperities = roughness > 0 ? node.max_pressure / roughness : 0;
     const double wedge = node.max_pressure * width / modulus;
     const double change = node.max_pressure - node.min_pressure;
-    const double part = change > 0 ? std::min(1.0, change / (kAllOfIt * node.max_pressure)) : 0;
+    const double part = change > 0 ? std::min(1.0, change / (kParams.all_of_it * node.max_pressure)) : 0;
     const double slip = change * part * width / modulus;
     left.depth = std::max(left.depth, asperities + wedge);
     left.volume += (asperities + wedge) * area / 2;
-    left.energy += kSlipping * scene.contact.friction * node.max_pressure / 2 * part * area * slip;
+    left.energy += kParams.slipping * scene.contact.friction * node.max_pressure / 2 * part * area * slip;
   }
   return left;
 }

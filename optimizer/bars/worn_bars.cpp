@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "optimizer/bars/params.hpp"
 #include "optimizer/candidate/worn_zones.hpp"
 #include "wear/asymptote/drift.hpp"
 #include "wear/measures.hpp"
@@ -15,9 +16,8 @@ namespace {
 /// Whole nodes are worn off or bear: where wear of a history comes to rest the end of a zone lies somewhere within a
 /// node, and a history on shorter ones may end a part of it from there.
 WornChange within_nodes(const fem::ContactCells& cells, const wear::Asymptote& asymptote) {
-  // Of a node, from histories on nodes a quarter as long. Where another order of release ends elsewhere, or nodes that
-  // stick have little to spare, a history depends on its nodes much more than where some touch at times only.
-  const double part = asymptote.doubt == wear::Doubt::lift_off ? 0.055 : 0.25;
+  constexpr HistoryNodeParams kParams;
+  const double part = asymptote.doubt == wear::Doubt::lift_off ? kParams.lift_off : kParams.others;
   // Of a history that decided nodes may touch that it has worn: they carry what is left there.
   const std::vector<bool> worn =
       asymptote.decided_by == wear::FoundBy::history ? wear::worn_nodes(asymptote.depth) : asymptote.released;
@@ -61,10 +61,10 @@ LeftOpen worn_otherwise(const CandidateResult& result, const WornChange& doubt, 
 void add_worn_bars(const Scene& scene, const CandidateResult& result, Bars& bars) {
   const wear::Asymptote& asymptote = *result.asymptote;
   if (const double moved = result.evaluation.model.at("contact_edges_moved_share"); moved > 0)
-    bars.add("edge", worn_otherwise(result,
-                                    {.volume = std::min(1.0, 2.5 * moved) * asymptote.worn_volume,
-                                     .depth = std::min(1.0, 1.5 * moved) * asymptote.largest_depth},
-                                    moved < 1));
+    bars.add("edge",
+             worn_otherwise(
+                 result, width_changed_by(moved, {.volume = asymptote.worn_volume, .depth = asymptote.largest_depth}),
+                 moved < 1));
   if (const WornChange doubt = left_in_doubt(result.model.cells, asymptote); doubt.volume > 0)
     bars.add("history", worn_otherwise(result, doubt, asymptote.confirmed_by_history));
   if (const wear::OtherState* other = rival(asymptote)) {

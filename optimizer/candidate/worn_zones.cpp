@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "optimizer/candidate/params.hpp"
 #include "wear/measures.hpp"
 
 namespace dovetail::optimizer {
@@ -37,6 +38,10 @@ bool ends_differ(const fem::ContactCells& cells, const std::vector<bool>& one, c
 
 }  // namespace
 
+WornChange width_changed_by(double share, const WornChange& zone) {
+  return {.volume = std::min(1.0, 2.5 * share) * zone.volume, .depth = std::min(1.0, 1.5 * share) * zone.depth};
+}
+
 WornChange ends_moved_by(double part, const fem::ContactCells& cells, const std::vector<bool>& worn,
                          const Eigen::VectorXd& depth) {
   WornChange moved;
@@ -56,9 +61,9 @@ WornChange ends_moved_by(double part, const fem::ContactCells& cells, const std:
         volume += cells.area[node] * depth[node];
         deepest = std::max(deepest, depth[node]);
       }
-      // Of a zone of width w the depth grows like its power 3/2, the volume like 5/2.
-      moved.volume += std::min(1.0, 2.5 * share) * volume;
-      moved.depth = std::max(moved.depth, std::min(1.0, 1.5 * share) * deepest);
+      const WornChange of_zone = width_changed_by(share, {.volume = volume, .depth = deepest});
+      moved.volume += of_zone.volume;
+      moved.depth = std::max(moved.depth, of_zone.depth);
     }
   }
   return moved;
@@ -85,10 +90,8 @@ double energy_left_open(const fem::ContactCells& cells, const Eigen::VectorXd& e
   // Slip is largest near the end of a zone that lifts off, and the zone may end anywhere between its last node and the
   // middle of the next, which sticks. The energy between is open by a part that grows with the node's share s of the
   // zone's energy like s^2, as a finer mesh sees what happens in a zone of several nodes. A zone that ends on both
-  // sides is open on both. The part is the one with which the designs of studies/error_bars, seeds 2 and 3, had their
-  // energies inside the bars.
-  constexpr double kPart = 0.4;
-  constexpr double kSticks = 0.01;  // of the energy per area of its neighbour: creep of nodes that all but stick
+  // sides is open on both.
+  constexpr ZoneEndParams kParams;
   const auto density = [&](std::ptrdiff_t k) { return energy[k] / cells.area[k]; };
   double open = 0;
   for (const fem::CellStrip& strip : cells.strips()) {
@@ -99,12 +102,12 @@ double energy_left_open(const fem::ContactCells& cells, const Eigen::VectorXd& e
       for (const std::ptrdiff_t way : {-1, 1}) {
         const std::ptrdiff_t next = k + way;
         if (energy[k] <= 0 || !in(next) || !loaded[static_cast<std::size_t>(next)] ||
-            density(next) >= kSticks * density(k))
+            density(next) >= kParams.sticks * density(k))
           continue;
         double zone = 0;
-        for (std::ptrdiff_t i = k; in(i) && density(i) > kSticks * density(k); i -= way) zone += energy[i];
+        for (std::ptrdiff_t i = k; in(i) && density(i) > kParams.sticks * density(k); i -= way) zone += energy[i];
         const double end = density(k) * (cells.area[k] + cells.area[next]) / 2;
-        open += kPart * end * std::pow(std::min(1.0, end / zone), 2);
+        open += kParams.part * end * std::pow(std::min(1.0, end / zone), 2);
       }
   }
   return open;
