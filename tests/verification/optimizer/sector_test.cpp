@@ -11,7 +11,6 @@
 #include "geometry/solid/solid_family.hpp"
 #include "optimizer/evaluator.hpp"
 #include "optimizer/responses/computed.hpp"
-#include "optimizer/responses/computed.hpp"
 #include "tests/verification/optimizer/sector_joint.hpp"
 
 namespace dovetail::optimizer {
