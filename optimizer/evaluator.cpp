@@ -2,6 +2,7 @@
 
 #include "optimizer/bars/error_bars.hpp"
 #include "optimizer/candidate/stopwatch.hpp"
+#include "optimizer/responses/computed.hpp"
 
 namespace dovetail::optimizer {
 

@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "optimizer/candidate/stopwatch.hpp"
+#include "optimizer/responses/computed.hpp"
+#include "optimizer/responses/response_table.hpp"
 #include "quality/truncation.hpp"
 #include "wear/history/history.hpp"
 #include "wear/measures.hpp"
@@ -96,7 +97,7 @@ std::string judged(const Verification& v) {
 std::string compare(const Scene& scene, const CandidateResult& fine, const VerificationOptions& options,
                     const wear::Watcher& watcher, Verification& verification) {
   if (!fine.evaluation.converged()) return failure("finer mesh", fine.evaluation.status);
-  verification.frequency_hz = fine.unworn->omega / (2 * std::numbers::pi);
+  verification.frequency_hz = hertz(fine.unworn->omega);
   verification.direct_solves = fine.asymptote->solves;
   verification.direct_volume = fine.asymptote->worn_volume;
   verification.direct_depth = fine.asymptote->largest_depth;
@@ -140,7 +141,7 @@ Verification verify(const SceneEvaluator& evaluator, const Scene& scene, const V
   } else {
     verification.search_volume = result.asymptote->worn_volume;
     verification.search_depth = result.asymptote->largest_depth;
-    const auto bar = result.evaluation.error_estimates.find("asymptotic_wear_volume_m3");
+    const auto bar = result.evaluation.error_estimates.find(std::string(kWornVolume.name));
     verification.search_bar = bar == result.evaluation.error_estimates.end() ? std::nan("") : bar->second;
     CandidateResult fine = evaluated_finer(evaluator, scene, 1);
     verification.status = compare(scene_there, fine, options, watcher, verification);

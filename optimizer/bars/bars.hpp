@@ -1,16 +1,18 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "optimizer/problem/evaluation.hpp"
+#include "optimizer/candidate/candidate_result.hpp"
+#include "optimizer/responses/response_table.hpp"
 
 namespace dovetail::optimizer {
 
 /// How much of the change of a response by other settings may be left as its error.
-using Factor = std::function<double(const std::string& response)>;
+using Factor = std::function<double(const Response&)>;
 
 [[nodiscard]] Factor same_for_all(double factor);
 
@@ -23,23 +25,39 @@ struct Companion {
   Factor factor;
 };
 
-/// Gathers the parts of the error bars of an evaluation.
+/// Gathers the parts of the error bars of a candidate that came through all stages.
 class Bars {
  public:
-  explicit Bars(Evaluation& evaluation) : evaluation_(evaluation) {}
+  Bars(const Scene& scene, CandidateResult& result) : scene_(scene), result_(result) {}
 
-  /// The largest that the companions say against `reference`, for every response of the evaluation; of those that ended
+  /// The largest that the companions say against `reference`, for every response of the candidate; of those that ended
   /// early, for what they had come to. Where none has an answer the evaluation is not finished.
   void add(const char* source, const std::vector<Companion>& companions, const Evaluation& reference);
-  void add(const char* source, const std::string& response, double bar);
-  /// Sum of what has been added for a response.
-  [[nodiscard]] double sum(const std::string& response) const;
-  void leave_open(const std::string& response) { open_.insert(response); }
+  /// For every response that hangs on what is open.
+  void add(const char* source, const LeftOpen& open);
+  void add(const char* source, const Response& response, double bar) { sources(response)[source] += bar; }
+  /// What the computations of responses that have a limit know of their errors.
+  void add_own_errors();
+  /// All responses of that stage.
+  void leave_open(Stage stage);
+  /// A joint that does not wear vibrates as it did: its worn responses are at least as uncertain as the others. After
+  /// all other bars of them.
+  void match_unworn();
   /// Makes them error_estimates, unbounded and status of the evaluation.
   void total();
 
+  /// Parts of the bar of a response by their sources.
+  [[nodiscard]] std::map<std::string, double>& sources(const Response& response) {
+    return result_.evaluation.error_sources[std::string(response.name)];
+  }
+
  private:
-  Evaluation& evaluation_;
+  [[nodiscard]] double sum(const Response& response) const;
+  /// Responses without a limit, and those whose bar says nothing.
+  void leave_unresolved_open();
+
+  const Scene& scene_;
+  CandidateResult& result_;
   std::set<std::string> open_;
   std::string missing_;  ///< how the companion ended that has no answer for a response
 };

@@ -10,11 +10,10 @@
 #include <vector>
 
 #include "optimizer/bars/bars.hpp"
-#include "optimizer/bars/pressure_bar.hpp"
+#include "optimizer/bars/params.hpp"
 #include "optimizer/bars/unseen_zones.hpp"
 #include "optimizer/bars/worn_bars.hpp"
-#include "optimizer/candidate/candidate_result.hpp"
-#include "optimizer/scene/responses.hpp"
+#include "optimizer/responses/computed.hpp"
 #include "paths/resonance.hpp"
 #include "quality/truncation.hpp"
 
@@ -22,23 +21,14 @@ namespace dovetail::optimizer {
 
 namespace {
 
-constexpr double kGridRatio = 1.5;
-
-/// Of what nodes 1.5 times as long on the same mesh change. `again`: the part that counts of it.
-Factor grid_factor(double again) {
-  return [again](const std::string& response) {
-    const bool worn = response == "worn_peak_amplitude_m" || response == "resonance_drift";
-    return again * left_over(worn ? 7.0 / 3 : 5.0 / 3, kGridRatio);
-  };
-}
+constexpr CompanionParams kParams;
 
 /// Hardly anything bears, and on other nodes nothing does: that is no worn state.
 void refuse_worn_state(const std::string& status, Evaluation& evaluation) {
   evaluation.status = status;
   evaluation.error_sources.clear();
-  for (const char* name : {"asymptotic_wear_volume_m3", "asymptotic_wear_depth_max_m", "resonance_drift",
-                           "worn_resonance_hz", "worn_peak_amplitude_m"})
-    evaluation.responses.erase(name);
+  for (const Response& response : responses())
+    if (response.stage >= Stage::worn_state) evaluation.responses.erase(std::string(response.name));
   evaluation.messages.push_back(
       "A worn state was found in which hardly anything bears; on another mesh or longer contact nodes there is "
       "none.");
@@ -53,14 +43,14 @@ Evaluation companion(const Scene& scene, CandidateModel model, const Computation
 class ErrorBarSources {
  public:
   ErrorBarSources(const Scene& scene, const ModelBuilder& builder, const OtherMeshes& others, CandidateResult& result)
-      : scene_(scene), builder_(builder), others_(others), result_(result), bars_(result.evaluation) {
+      : scene_(scene), builder_(builder), others_(others), result_(result), bars_(scene, result) {
     // Where the history decided, it does so for the companions.
     as_here_.history = result.asymptote->decided_by == wear::FoundBy::history;
   }
 
   void run() {
     ask_meshes();
-    const Evaluation longer = on_nodes(kGridRatio);
+    const Evaluation longer = on_nodes(kParams.longer_nodes);
     const std::string slides = "asymptote: " + std::string(to_string(Status::gross_sliding));
     const auto does = [&slides](const Evaluation& answer) { return answer.status == slides; };
     if (result_.asymptote->bearing.doubtful() && (does(longer) || std::ranges::any_of(answers_, does)))
@@ -68,12 +58,10 @@ class ErrorBarSources {
     add_contact_grid(longer);
     add_slip();
     ask_settings();
-    add_stress_and_search();
+    bars_.add_own_errors();
+    bars_.add("search", LeftOpen{.frequency = paths::ResonanceOptions{}.frequency_tolerance});
     add_worn_bars(scene_, result_, bars_);
-    match_unworn_bars(result_);
-    const std::vector<std::string> endless = responses_without_limit(scene_);
-    for (const std::string& name : endless) bars_.leave_open(name);
-    if (endless.empty()) add_peak_pressure(scene_, result_, bars_);
+    bars_.match_unworn();
     bars_.total();
   }
 
@@ -97,22 +85,24 @@ class ErrorBarSources {
       const double ratio = static_cast<double>(scene_.mesh.flank_elements) / there.mesh.flank_elements;
       answers_.push_back(companion(there, on_it.build(there), as_here_));
       if (finer_ || ratio == 1) continue;  // 1: a mesh that is as large as meshes may be
-      meshes.push_back({&answers_.back(), [ratio, order = scene_.kind->mesh_order](const std::string& response) {
-                          return left_over(order(response), ratio);
-                        }});
+      meshes.push_back({&answers_.back(), by_mesh(ratio)});
       finer_ = ratio < 1 && answers_.back().converged();
     }
     bars_.add("mesh", meshes, result_.evaluation);
     if (const ModelBuilder* on_it = others_.finer_section()) {
-      constexpr double kRatio = OtherMeshes::kSectionRatio;
+      constexpr double kRatio = kParams.section_ratio;
       Computation how;
       how.wear = false;
       const Evaluation finer = companion(scene_, on_it->build(resized_section(scene_, kRatio)), how);
-      const Factor factor = [this](const std::string& name) {
-        return left_over(scene_.kind->mesh_order(name), kRatio);
-      };
-      bars_.add("mesh", {{&finer, factor}}, result_.evaluation);
+      bars_.add("mesh", {{&finer, by_mesh(kRatio)}}, result_.evaluation);
     }
+  }
+
+  /// Of what a mesh with elements `ratio` times as long changes.
+  [[nodiscard]] Factor by_mesh(double ratio) const {
+    return [ratio, in_space = scene_.kind->in_space](const Response& response) {
+      return left_over(in_space ? response.mesh_order.in_space : response.mesh_order.in_plane, ratio);
+    };
   }
 
   /// The design on contact nodes that are `longer` times as long on the same mesh.
@@ -123,33 +113,30 @@ class ErrorBarSources {
     return companion(scene_, result_.model, how);
   }
 
-  /// A finer mesh has shorter nodes, too: a part of what longer ones change remains beside it. Of what the ends of worn
-  /// zones decide the larger of the two counts whole, as two meshes may by accident agree.
+  /// A finer mesh has shorter nodes, too: a part of what longer ones change remains beside it.
   void add_contact_grid(const Evaluation& longer) {
-    constexpr double kAgain = 0.25;
-    bars_.add("contact_grid", {{&longer, grid_factor(finer_ ? kAgain : 1)}}, result_.evaluation);
+    constexpr double kAgain = kParams.nodes_again;
+    const Factor factor = [again = finer_ ? kAgain : 1](const Response& response) {
+      return again * left_over(response.grid_order, kParams.longer_nodes);
+    };
+    bars_.add("contact_grid", {{&longer, factor}}, result_.evaluation);
     if (!finer_) return;
-    for (const char* name : {"asymptotic_wear_volume_m3", "asymptotic_wear_depth_max_m", "resonance_drift"}) {
-      std::map<std::string, double>& of = result_.evaluation.error_sources[name];
-      bars_.add("contact_grid", name, (1 - kAgain) * std::max(0.0, of["contact_grid"] / kAgain - of["mesh"]));
+    for (const Response& response : responses()) {
+      if (!response.by_zone_ends) continue;
+      std::map<std::string, double>& of = bars_.sources(response);
+      bars_.add("contact_grid", response, (1 - kAgain) * std::max(0.0, of["contact_grid"] / kAgain - of["mesh"]));
     }
   }
 
   /// What the ends of slipping zones leave open, and worn zones narrower than the contact nodes.
   void add_slip() {
     double left_open = slip_at_zone_ends(result_);  // J per cycle
-    const dynamics::CondensedModel& condensed = *result_.model.condensed;
-    const double volume_per_energy = condensed.wear_law().volume_per_energy(condensed.wear_node(0));
-    if (result_.asymptote->worn_volume == 0 && volume_per_energy > 0) {
-      const Evaluation shorter = on_nodes(0.5);
-      bars_.add("contact_grid", {{&shorter, same_for_all(2)}}, result_.evaluation);
+    if (result_.asymptote->worn_volume == 0 && worn_per_energy(result_.model) > 0) {
+      const Evaluation shorter = on_nodes(kParams.shorter_nodes);
+      bars_.add("contact_grid", {{&shorter, same_for_all(kParams.shorter_factor)}}, result_.evaluation);
       left_open += add_unseen_zones(scene_, result_, bars_);
     }
-    bars_.add("contact_grid", "dissipated_energy_j", left_open);
-    // What friction takes from a vibration is a part of what the load brings, and the amplitude changes by that part.
-    bars_.add("contact_grid", "peak_amplitude_m",
-              result_.unworn->amplitude * left_open / result_.unworn->state.input_energy);
-    bars_.add("contact_grid", "initial_wear_rate_m3_per_cycle", volume_per_energy * left_open);
+    bars_.add("contact_grid", LeftOpen{.slip_energy = left_open});
   }
 
   /// What the other settings leave hardly depends on the mesh: it is asked where a design costs least, and where that
@@ -169,11 +156,10 @@ class ErrorBarSources {
         }});
     ask(bases, "samples", factors.samples, {[](Scene& changed, Computation&) { changed.solver.samples *= 2; }});
     ask(bases, "pseudo_penalty", factors.penalty,
-        {[](Scene&, Computation& how) { how.penalty_scale = 0.5; },
-         [](Scene&, Computation& how) { how.penalty_scale = 2; }});
-    ask(bases, "modes", 1.5, {[](Scene& changed, Computation&) {
-          constexpr int kMore = 10;  // one more may be one that the load does not move
-          changed.solver.modes = std::max(2 * changed.solver.modes, changed.solver.modes + kMore);
+        {[](Scene&, Computation& how) { how.penalty_scale = kParams.softer; },
+         [](Scene&, Computation& how) { how.penalty_scale = kParams.harder; }});
+    ask(bases, "modes", kParams.modes_factor, {[](Scene& changed, Computation&) {
+          changed.solver.modes = std::max(2 * changed.solver.modes, changed.solver.modes + kParams.more_modes);
         }});
   }
 
@@ -191,17 +177,6 @@ class ErrorBarSources {
         if (answer.converged()) return bars_.add(source, {{&answer, same_for_all(factor)}}, *base.answer);
       }
     bars_.add(source, {{&answer, same_for_all(factor)}}, result_.evaluation);
-  }
-
-  void add_stress_and_search() {
-    const FilletStress &blade = *result_.blade_fillet, &disk = *result_.disk_fillet;
-    bars_.add("mesh", "blade_fillet_stress_pa", blade.aggregate_error);
-    bars_.add("mesh", "disk_fillet_stress_pa", disk.aggregate_error);
-    bars_.add("mesh", "peak_stress_pa", std::max(blade.maximum_error, disk.maximum_error));
-    const double tolerance = paths::ResonanceOptions{}.frequency_tolerance;
-    for (const char* name : {"resonance_hz", "worn_resonance_hz"})
-      bars_.add("search", name, tolerance * result_.evaluation.responses.at(name));
-    bars_.add("search", "resonance_drift", 2 * tolerance);
   }
 
   const Scene& scene_;

@@ -10,16 +10,13 @@ struct CandidateResult;
 /// infinitely fine settings is asked of companions of the same design, each coarser or finer in one respect. With d the
 /// change of a response:
 ///
-/// - mesh: d to a mesh with 1.5 times the edges, with contact nodes of its own. With an error of order p,
-///   d / (1 - 1.5^-p) is left: p = 1.3 for the peak stress, 1.5 for worn volume, worn amplitude and frequencies, 1.6
-///   for slip next to the sharp ends of flanks, 2 for worn depth and resultants, 2.5 for drift, 2.8 for fillet
-///   stresses; in space 1.5 for resultants and fillet stresses, 2.5 for frequencies. There d to meshes r = 1.5 and 2
-///   times as coarse, of which d / (r^p - 1) is left; the larger counts, as a response may by accident change little
-///   from one to the next; d to a mesh with the same flanks in a section 1.5 times as fine, before wear, counts
-///   besides. Of fillet stresses, what the free surface corrects.
-/// - contact_grid: d to contact nodes 1.5 times as long on the same mesh: 1.03 d, of drift and worn amplitude 0.63 d;
-///   a quarter of that beside a finer mesh, whose nodes are shorter, too. Worn volumes of zero are asked for on nodes
-///   half as long, and what a zone as narrow as the nodes at the ends of the contact would wear unseen counts besides.
+/// - mesh: d to a mesh with 1.5 times the edges, with contact nodes of its own, of which an error of order p leaves
+///   d / (1 - 1.5^-p). In space d to meshes r = 1.5 and 2 times as coarse, of which d / (r^p - 1) is left; the larger
+///   counts, as a response may by accident change little from one to the next; d to a mesh with the same flanks in a
+///   section 1.5 times as fine, before wear, counts besides. Orders stand with the responses.
+/// - contact_grid: d to contact nodes 1.5 times as long on the same mesh, by the response's order; a quarter of that
+///   beside a finer mesh, whose nodes are shorter, too. Worn volumes of zero are asked for on nodes half as long, and
+///   what a zone as narrow as the nodes at the ends of the contact would wear unseen counts besides.
 /// - harmonics, samples: d to 2H+1 and to 2N; errors fall at least like 1/H and 1/N: (2H+1)/(H+1) d and 2 d.
 /// - pseudo_penalty: 1/2 d to half of it, or to twice as much where half has no answer, which acts through the
 ///   harmonics left out.
@@ -32,8 +29,8 @@ struct CandidateResult;
 ///
 /// Harmonics, samples, pseudo-penalty and modes are asked of the first coarser companion that converged, at a fraction
 /// of the cost; where they have no answer there, of the next, in the end on the design's own mesh. The bar is the sum.
-/// A response without a limit is `unbounded`: the pressure peak at sharp ends of the flanks, and whatever companions
-/// none of which converged leave open (with a message).
+/// Responses add what their own computation knows of its error. One without a limit is `unbounded`, and whatever
+/// companions none of which converged leave open (with a message).
 /// @param builder  of the design's own mesh
 /// Cost: an evaluation on a finer mesh, five on coarser ones and one or two on other grids of contact nodes; in space
 /// two on coarser meshes and six or seven as large as the design's own. Each has a budget of its own.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "optimizer/bars/params.hpp"
+
 namespace dovetail::optimizer {
 
 namespace {
@@ -36,7 +38,8 @@ Scene resized(Scene scene, double ratio) {
 OtherMeshes::OtherMeshes(const Scene& reference) {
   for (const double ratio : reference.kind->other_meshes)
     meshes_.push_back({.ratio = ratio, .builder = ModelBuilder(resized(reference, ratio))});
-  if (reference.kind->lengths.empty()) finer_section_.emplace(resized_section(reference, kSectionRatio));
+  if (reference.kind->lengths.empty())
+    finer_section_.emplace(resized_section(reference, CompanionParams{}.section_ratio));
 }
 
 }  // namespace dovetail::optimizer

@@ -17,7 +17,6 @@ namespace dovetail::optimizer {
 /// Makes the models of a study's designs on the other meshes that error bars are asked of.
 class OtherMeshes {
  public:
-  static constexpr double kSectionRatio = 1 / 1.5;  ///< of the finer section
   struct Mesh {
     double ratio;  ///< of the sizes of its elements to those of the design's own
     ModelBuilder builder;

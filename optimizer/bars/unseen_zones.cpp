@@ -5,9 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "optimizer/candidate/candidate_result.hpp"
+#include "optimizer/bars/params.hpp"
 #include "optimizer/candidate/node_lines.hpp"
-#include "optimizer/evaluator.hpp"
 #include "wear/asymptote/drift.hpp"
 #include "wear/asymptote/worn_zones.hpp"
 
@@ -46,11 +45,7 @@ struct Unseen {
 /// in the mean under half the pressure. Where the pressure changes little only a part of it slips, which grows with
 /// that change.
 Unseen unseen(const Scene& scene, const CandidateResult& result) {
-  // Of 90 joints without wear (studies/error_bars, seeds 2 and 3) finer meshes found a tenth of that energy in three,
-  // 0.4 and all of it in one each, where other parts of the bar were larger than it, and next to none in the others:
-  // none where no node at an end of a flank lifts off. All of the zone counts from a change by a quarter of the
-  // pressure on.
-  constexpr double kSlipping = 0.3, kAllOfIt = 0.25;
+  constexpr UnseenParams kParams;
   const double modulus = std::min(scene.blade.youngs_modulus, scene.disk.youngs_modulus);
   const double roughness = scene.contact.normal_stiffness;
   Unseen left;
@@ -60,11 +55,11 @@ Unseen unseen(const Scene& scene, const CandidateResult& result) {
     const double asperities = roughness > 0 ? node.max_pressure / roughness : 0;
     const double wedge = node.max_pressure * width / modulus;
     const double change = node.max_pressure - node.min_pressure;
-    const double part = change > 0 ? std::min(1.0, change / (kAllOfIt * node.max_pressure)) : 0;
+    const double part = change > 0 ? std::min(1.0, change / (kParams.all_of_it * node.max_pressure)) : 0;
     const double slip = change * part * width / modulus;
     left.depth = std::max(left.depth, asperities + wedge);
     left.volume += (asperities + wedge) * area / 2;
-    left.energy += kSlipping * scene.contact.friction * node.max_pressure / 2 * part * area * slip;
+    left.energy += kParams.slipping * scene.contact.friction * node.max_pressure / 2 * part * area * slip;
   }
   return left;
 }
@@ -90,23 +85,21 @@ std::optional<UnseenDrift> unseen_drift(const Scene& scene, const CandidateResul
 
 double add_unseen_zones(const Scene& scene, CandidateResult& result, Bars& bars) {
   const Unseen zone = unseen(scene, result);
-  bars.add("contact_grid", "asymptotic_wear_volume_m3", zone.volume);
-  bars.add("contact_grid", "asymptotic_wear_depth_max_m", zone.depth);
-  if (const std::optional<UnseenDrift> drift = unseen_drift(scene, result)) {
-    bars.add("contact_grid", "resonance_drift", drift->drift);
-    bars.add("contact_grid", "worn_resonance_hz", drift->drift * result.evaluation.responses.at("resonance_hz"));
-    bars.add("contact_grid", "worn_peak_amplitude_m", drift->amplitude);
+  LeftOpen open{.worn_volume = zone.volume, .worn_depth = zone.depth};
+  if (const std::optional<UnseenDrift> found = unseen_drift(scene, result)) {
+    open.drift = found->drift;
+    open.worn_amplitude = found->amplitude;
   } else {
-    for (const char* name : {"resonance_drift", "worn_resonance_hz", "worn_peak_amplitude_m"}) bars.leave_open(name);
+    bars.leave_open(Stage::worn_resonance);
   }
-  if (zone.energy > result.evaluation.responses.at("dissipated_energy_j"))
+  bars.add("contact_grid", open);
+  if (zone.energy > result.unworn->state.friction_energy)
     result.evaluation.messages.push_back(
         "Slip at the ends of the flanks in zones narrower than half a contact node is not seen: the energy may be as "
         "large as its error bar.");
   return zone.energy;
 }
 
-/// What the nodes at the ends of slipping zones leave open of the friction energy, J per cycle.
 double slip_at_zone_ends(const CandidateResult& result) {
   const std::vector<steady::NodeSummary>& nodes = result.unworn->state.nodes;
   Eigen::VectorXd energy(static_cast<Eigen::Index>(nodes.size()));

@@ -10,8 +10,4 @@ struct CandidateResult;
 /// Adds what the ends of worn zones and a doubt of the worn state leave open of the responses of the worn joint.
 void add_worn_bars(const Scene& scene, const CandidateResult& result, Bars& bars);
 
-/// A joint that does not wear vibrates as it did: its worn responses are at least as uncertain as the others. After all
-/// other bars of them.
-void match_unworn_bars(CandidateResult& result);
-
 }  // namespace dovetail::optimizer

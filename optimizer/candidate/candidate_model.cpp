@@ -124,6 +124,10 @@ SharedBudget new_budget(const SolverSettings& solver, const CandidateModel& cand
       solver.time_limit > 0 ? times * solver.time_limit : kInfinity);
 }
 
+double worn_per_energy(const CandidateModel& candidate) {
+  return candidate.condensed->wear_law().volume_per_energy(candidate.condensed->wear_node(0));
+}
+
 void renew_budget(const SolverSettings& solver, CandidateModel& candidate) {
   candidate.jacobian_operations = jacobian_operations(solver, candidate);
   candidate.budget = new_budget(solver, candidate);

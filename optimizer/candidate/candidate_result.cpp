@@ -7,61 +7,22 @@
 #include <numbers>
 #include <utility>
 
-#include "fem/neck.hpp"
-#include "fem/stress_aggregate.hpp"
-#include "geometry/profile/measures.hpp"
 #include "optimizer/candidate/stopwatch.hpp"
 #include "optimizer/candidate/worn_state.hpp"
 #include "optimizer/problem/problem.hpp"
 #include "wear/asymptote/drift.hpp"
-#include "wear/measures.hpp"
 
 namespace dovetail::optimizer {
 
 namespace {
 
-double hertz(double omega) {
-  return omega / (2 * std::numbers::pi);
-}
-
-void static_responses(const Scene& scene, const CandidateModel& model, Evaluation& evaluation) {
-  std::map<std::string, double>& responses = evaluation.responses;
-  const geometry::Profile profile = geometry::build_profile(scene.geometry);
-  const std::vector<fem::Material> bodies = materials(scene);
-  responses["mass_kg"] = scene.kind->blade_mass(scene, model.mesh.sector.mesh);
-  responses["post_width_m"] = geometry::measure(profile, scene.geometry).post;
-
-  const double load = scene.loading.speed * scene.loading.speed;
-  responses["neck_tension_pa"] = load * fem::neck_tension(model.mesh.sector, bodies).mean_stress;
-
-  const fem::ContactCells& surface = model.cells;
-  responses["contact_pressure_max_pa"] =
-      fem::kreisselmeier_steinhauser(model.preload.pressure, surface.area / scene.geometry.slot_length).value;
-  double mean = 0;
-  for (int flank = 0; flank < static_cast<int>(model.mesh.sector.flanks.size()); ++flank) {
-    double force = 0, area = 0;
-    for (Eigen::Index i = 0; i < surface.count(); ++i) {
-      if (surface.flank(i) != flank) continue;
-      force += model.preload.pressure(i) * surface.area(i);
-      area += surface.area(i);
-    }
-    mean = std::max(mean, force / area);
-  }
-  responses["contact_pressure_mean_pa"] = mean;
-  responses["glued_frequency_hz"] = hertz(reduction::glued_frequencies(model.trace)(scene.loading.mode - 1));
-}
-
-void fillet_responses(const Scene& scene, CandidateResult& result) {
+void add_fillet_stresses(const Scene& scene, CandidateResult& result) {
   const fem::SectorMesh& sector = result.model.mesh.sector;
   const steady::State& state = result.unworn->state;
   result.blade_fillet = fillet_stress(scene, result.model, state, sector.blade_fillet_nodes, sector.blade_fillet_share,
                                       scene.blade.poisson_ratio);
   result.disk_fillet = fillet_stress(scene, result.model, state, sector.disk_fillet_nodes, sector.disk_fillet_share,
                                      scene.disk.poisson_ratio);
-  std::map<std::string, double>& responses = result.evaluation.responses;
-  responses["blade_fillet_stress_pa"] = result.blade_fillet->aggregate;
-  responses["disk_fillet_stress_pa"] = result.disk_fillet->aggregate;
-  responses["peak_stress_pa"] = std::max(result.blade_fillet->maximum, result.disk_fillet->maximum);
 }
 
 /// States that needed another pseudo-penalty than the one asked for: their truncation errors are others.
@@ -81,7 +42,6 @@ void note_penalties(CandidateResult& result) {
 /// The physics after the model; returns the status of the evaluation.
 std::string dynamics(const Scene& scene, const Computation& how, const ContactFit& fit, CandidateResult& result) {
   Evaluation& evaluation = result.evaluation;
-  std::map<std::string, double>& responses = evaluation.responses;
   const CandidateModel& model = result.model;
   const steady::Joint joint = joint_of(scene, model, how.penalty_scale);
   Stopwatch watch;
@@ -92,11 +52,8 @@ std::string dynamics(const Scene& scene, const Computation& how, const ContactFi
   evaluation.timings_s["unworn_resonance"] = watch.lap();
   if (result.unworn->status != Status::converged)
     return "unworn_resonance: " + std::string(to_string(result.unworn->status));
-  responses["resonance_hz"] = hertz(result.unworn->omega);
-  responses["peak_amplitude_m"] = result.unworn->amplitude;
-  responses["dissipated_energy_j"] = result.unworn->state.friction_energy;
-  responses["initial_wear_rate_m3_per_cycle"] = wear::worn_volume(model.model.contact, result.unworn->state.wear_rate);
-  fillet_responses(scene, result);
+  add_fillet_stresses(scene, result);
+  result.stage = Stage::unworn;
   evaluation.timings_s["stress"] = watch.lap();
   if (!how.wear) return "converged";
 
@@ -118,19 +75,15 @@ std::string dynamics(const Scene& scene, const Computation& how, const ContactFi
     evaluation.messages.push_back(
         "wear_certificate is above " + shortest(limit) +
         ": the unworn joint hardly wears itself, and the rate that is left counts as no wear.");
-  responses["asymptotic_wear_volume_m3"] = asymptote.worn_volume;
-  responses["asymptotic_wear_depth_max_m"] = asymptote.largest_depth;
+  result.stage = Stage::worn_state;
 
   // A joint that does not wear stays as it is.
-  const wear::Drift drift = asymptote.largest_depth == 0
-                                ? wear::Drift{.unworn = *result.unworn, .worn = *result.unworn}
-                                : wear::resonance_drift(joint.worn(asymptote.depth), *result.unworn, {});
-  result.worn = drift.worn;
+  result.worn = asymptote.largest_depth == 0
+                    ? *result.unworn
+                    : wear::resonance_drift(joint.worn(asymptote.depth), *result.unworn, {}).worn;
   evaluation.timings_s["worn_resonance"] = watch.lap();
   if (result.worn->status != Status::converged) return "worn_resonance: " + std::string(to_string(result.worn->status));
-  responses["worn_resonance_hz"] = hertz(result.worn->omega);
-  responses["resonance_drift"] = drift.drift;
-  responses["worn_peak_amplitude_m"] = result.worn->amplitude;
+  result.stage = Stage::worn_resonance;
 
   return spent(model.budget) ? "worn_resonance: " + std::string(to_string(Status::budget_spent)) : "converged";
 }
@@ -154,7 +107,15 @@ steady::Joint joint_of(const Scene& scene, const CandidateModel& model, double p
   return joint;
 }
 
-CandidateResult computed(const Scene& scene, CandidateModel model, const Computation& how) {
+double drift(const CandidateResult& result) {
+  return result.worn->omega / result.unworn->omega - 1.0;
+}
+
+double hertz(double omega) {
+  return omega / (2 * std::numbers::pi);
+}
+
+CandidateResult through_stages(const Scene& scene, CandidateModel model, const Computation& how) {
   CandidateResult result;
   result.model = std::move(model);
   Evaluation& evaluation = result.evaluation;
@@ -177,7 +138,7 @@ CandidateResult computed(const Scene& scene, CandidateModel model, const Computa
   evaluation.model["contact_nodes"] = static_cast<double>(result.model.cells.count());
   evaluation.status = result.model.status;
   if (!result.model.converged()) return result;
-  static_responses(scene, result.model, evaluation);
+  result.stage = Stage::model;
   evaluation.status = dynamics(scene, how, fit, result);
   if (!fit.settled && result.unworn->status == Status::converged)
     evaluation.messages.push_back(

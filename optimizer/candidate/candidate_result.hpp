@@ -5,15 +5,18 @@
 #include "optimizer/candidate/candidate_model.hpp"
 #include "optimizer/candidate/contact_fit.hpp"
 #include "optimizer/candidate/fillet_stress.hpp"
+#include "optimizer/candidate/stage.hpp"
 #include "optimizer/problem/evaluation.hpp"
 #include "paths/resonance.hpp"
 #include "wear/asymptote/asymptote.hpp"
 
 namespace dovetail::optimizer {
 
-/// Everything an evaluation computed, for reports and exports. Members after the stage that failed are empty.
+/// Everything an evaluation computed, for responses, reports and exports. Members after the stage that failed are
+/// empty.
 struct CandidateResult {
   Evaluation evaluation;
+  std::optional<Stage> stage;  ///< the last one that was come through
   CandidateModel model;
   std::optional<paths::Resonance> unworn, worn;
   std::optional<wear::Asymptote> asymptote;
@@ -21,8 +24,15 @@ struct CandidateResult {
   std::optional<FilletStress> blade_fillet, disk_fillet;
 };
 
-/// The physics on a model that converged: contact nodes fitted to the worn zones, then all responses, without bars.
-[[nodiscard]] CandidateResult computed(const Scene& scene, CandidateModel model, const Computation& how = {});
+/// The physics on a model that converged: contact nodes fitted to the worn zones, then the stages in order. Its
+/// evaluation has no responses, see computed.
+[[nodiscard]] CandidateResult through_stages(const Scene& scene, CandidateModel model, const Computation& how);
+
+/// By wear, relative, of a joint that came through all stages.
+[[nodiscard]] double drift(const CandidateResult& result);
+
+/// Hz, of rad/s.
+[[nodiscard]] double hertz(double omega);
 
 /// Options of every steady state of a scene.
 [[nodiscard]] steady::Options steady_options(const SolverSettings& settings);

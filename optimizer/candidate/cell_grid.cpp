@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "geometry/mesh/flank_fractions.hpp"
+#include "optimizer/candidate/params.hpp"
 #include "optimizer/scene/scene_kind.hpp"
 
 namespace dovetail::optimizer {
@@ -51,7 +52,8 @@ std::vector<double> cell_ends(const EdgeLengths& edge_lengths, const std::vector
   const bool again = counts.size() + 1 == fixed.size();
   counts.resize(fixed.size() - 1);
   std::vector<double> ends{0};
-  constexpr int kSteps = 400;  // of the integral of 1 / length over a piece
+  constexpr CellGridParams kParams;
+  constexpr int kSteps = kParams.steps;
   for (std::size_t p = 0; p + 1 < fixed.size(); ++p) {
     const double from = fixed[p], piece = fixed[p + 1] - from;
     std::vector<double> cells(kSteps + 1, 0.0);
@@ -68,11 +70,10 @@ std::vector<double> cell_ends(const EdgeLengths& edge_lengths, const std::vector
     // So its number changes in the middle, where cells are longest and the contact changes least, and nowhere else.
     const double total = cells.back();
     int& count = counts[p];
-    constexpr double kBit = 0.2;
-    const int asked = std::max(1, static_cast<int>(std::ceil(total - kBit)));
+    const int asked = std::max(1, static_cast<int>(std::ceil(total - kParams.bit)));
     if (!again || std::abs(count - asked) > 1) count = asked;
     const int before = count / 2, after = count - 1 - before;
-    const double scale = std::min(1.0, total / (count - 1 + kBit));
+    const double scale = std::min(1.0, total / (count - 1 + kParams.bit));
     for (int c = 1; c <= before; ++c) ends.push_back(place(c * scale));
     for (int c = after; c >= 1; --c) ends.push_back(place(total - c * scale));
     ends.push_back(fixed[p + 1]);

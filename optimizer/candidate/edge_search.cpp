@@ -5,7 +5,15 @@
 
 #include "optimizer/candidate/node_lines.hpp"
 
+#include "optimizer/candidate/params.hpp"
+
 namespace dovetail::optimizer {
+
+namespace {
+
+constexpr EdgeSearchParams kParams;
+
+}  // namespace
 
 std::vector<std::vector<Edge>> edge_places(const fem::ContactCells& cells, const wear::ReleaseTrail& trail) {
   const std::vector<fem::CellStrip> strips = cells.strips();
@@ -31,9 +39,8 @@ std::vector<std::vector<Edge>> edge_places(const fem::ContactCells& cells, const
 }
 
 void widen_narrow(const EdgeLengths& edge_lengths, const CellLengths& lengths, std::vector<double>& edges) {
-  constexpr double kNarrowest = 0.3;  // of the finest cell
   const auto narrowest = [&](double at) {
-    return kNarrowest * lengths.finest * edge_lengths.at(std::clamp(at, 0.0, 1.0));
+    return kParams.narrowest * lengths.finest * edge_lengths.at(std::clamp(at, 0.0, 1.0));
   };
   for (double& edge : edges) edge = std::clamp(edge, narrowest(0), 1 - narrowest(1));
   for (std::size_t k = 0; k + 1 < edges.size();)
@@ -45,11 +52,10 @@ void widen_narrow(const EdgeLengths& edge_lengths, const CellLengths& lengths, s
 
 void Misfit::add(const std::vector<Edge>& edges_now, const std::vector<double>& held, const std::vector<double>& next,
                  const std::vector<double>& laid, const EdgeLengths& lengths) {
-  constexpr double kRounding = 1e-9;  // of a flank
   bool own = true;
   double beside = 0;  // how far edges are from the ends of their cells
   for (std::size_t k = 0; k < edges_now.size(); ++k) {
-    const auto here = [&](double place) { return std::abs(place - edges_now[k].end) < kRounding; };
+    const auto here = [&](double place) { return std::abs(place - edges_now[k].end) < kParams.rounding; };
     own = own && std::ranges::any_of(laid, here);
     beside = std::max(beside, std::abs(held[k] - edges_now[k].end));
   }
@@ -66,7 +72,6 @@ void Misfit::add(const std::vector<Edge>& edges_now, const std::vector<double>& 
 
 EdgeSearch::Places EdgeSearch::hold(const std::vector<std::vector<Edge>>& edges,
                                     const std::vector<EdgeLengths>& lengths) {
-  constexpr double kBeyond = 0.05;  // lengths of the mesh's edge
   Places places(edges.size());
   held_.resize(edges.size());
   for (std::size_t l = 0; l < edges.size(); ++l) {
@@ -77,7 +82,7 @@ EdgeSearch::Places EdgeSearch::hold(const std::vector<std::vector<Edge>>& edges,
       double place = edge.place;
       if (held.grown > 0) place = edge.outwards > 0 ? std::max(place, held.place) : std::min(place, held.place);
       if (edge.grown) {
-        place += edge.outwards * std::ldexp(kBeyond, held.grown++) * lengths[l].at(edge.place);
+        place += edge.outwards * std::ldexp(kParams.beyond, held.grown++) * lengths[l].at(edge.place);
         held.place = place;
       }
       places[l].push_back(place);
@@ -102,8 +107,8 @@ EdgeSearch::Places EdgeSearch::next(const Places& found, const Places& laid) {
     for (std::size_t k = 0; k < found[l].size(); ++k) {
       const double step = laid[l][k] - laid_[l][k];
       const double slope = step == 0 ? 0 : (miss(found, laid, l, k) - miss(found_, laid_, l, k)) / step;
-      // A slope of -1 is that of edges that do not depend on the grid.
-      if (slope < -0.5 && slope > -4) places[l][k] = laid[l][k] - miss(found, laid, l, k) / slope;
+      if (slope < kParams.flattest && slope > kParams.steepest)
+        places[l][k] = laid[l][k] - miss(found, laid, l, k) / slope;
     }
   }
   laid_ = laid;

@@ -10,6 +10,7 @@
 #include "fem/element.hpp"
 #include "fem/stress.hpp"
 #include "fem/stress_aggregate.hpp"
+#include "optimizer/candidate/params.hpp"
 
 namespace dovetail::optimizer {
 
@@ -24,13 +25,10 @@ Eigen::VectorXcd amplitude(const Eigen::MatrixXd& coefficients, Eigen::Index h) 
   return result;
 }
 
-/// Times per period at which the stress is looked at: the error of a peak is under (pi / 48)^2 / 2 = 0.2 % of the
-/// vibratory part.
-constexpr int kPhases = 48;
-
 /// Largest over a period at every node, of Fourier coefficients of its stress [components nodes, 2H+1].
 Eigen::VectorXd largest_von_mises(const Eigen::MatrixXd& coefficients, Eigen::Index components, double poisson_ratio) {
   Eigen::VectorXd largest = Eigen::VectorXd::Zero(coefficients.rows() / components);
+  constexpr int kPhases = StressParams{}.phases;
   for (int phase = 0; phase < kPhases; ++phase) {
     const double tau = 2 * std::numbers::pi * phase / kPhases;
     const Eigen::VectorXd at = coefficients * dynamics::fourier_row(tau, coefficients.cols());

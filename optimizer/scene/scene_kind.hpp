@@ -29,8 +29,6 @@ struct SceneKind {
   double (*blade_mass)(const Scene& scene, const fem::Mesh& mesh);  ///< kg
   /// What contradicts between keys that have a meaning for this kind alone.
   std::vector<Violation> (*contradictions)(const Scene& scene);
-  /// Order of the error of a response by the mesh.
-  double (*mesh_order)(std::string_view response);
 
   std::span<const std::string_view> counts;   ///< keys of numbers of elements, which another mesh has more or fewer of
   std::span<const std::string_view> lengths;  ///< keys of sizes of elements, which it has larger or smaller
@@ -38,7 +36,7 @@ struct SceneKind {
   bool contact_grid;                   ///< mesh.contact_flank_elements and mesh.contact_slot_elements count
   bool rough_peaks;                    ///< the mesh is known to resolve the pressure at the ends of rough flanks
   bool coarse_answers;                 ///< a coarser mesh says what harmonics, samples, penalties and modes leave open
-  bool surface;                        ///< there is a closed surface to export
+  bool in_space;                       ///< there is a closed surface to export, and responses converge as in space
   int finer_meshes = std::numeric_limits<int>::max();  ///< optimizer.finer_meshes by default, at most
 };
 

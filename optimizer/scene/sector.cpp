@@ -14,16 +14,6 @@ Mesher mesher(const Scene& reference) {
   return [family](const Scene& scene) { return family->mesh_of(scene.geometry, scene.solid); };
 }
 
-// Chosen like those of a section, which hold for all others, on seed 3.
-double mesh_order(std::string_view response) {
-  // Two or three elements on a fillet are too few for the order of finer meshes.
-  if (response.ends_with("_fillet_stress_pa") || response == "contact_pressure_mean_pa" ||
-      response == "neck_tension_pa")
-    return 1.5;
-  if (response == "glued_frequency_hz" || response.ends_with("resonance_hz")) return 2.5;
-  return kSection.mesh_order(response);
-}
-
 constexpr std::array<std::string_view, 5> kCounts{"mesh.flank_elements", "mesh.aerofoil_elements", "mesh.slot_elements",
                                                   "mesh.contact_slot_elements", "mesh.contact_flank_elements"};
 
@@ -47,14 +37,13 @@ const SceneKind kSector{.name = "sector",
                         .mesher = mesher,
                         .blade_mass = blade_mass,
                         .contradictions = too_fine,
-                        .mesh_order = mesh_order,
                         .counts = kCounts,
                         .lengths = {},  // the section beside the flanks is as coarse as elements of the sweep allow
                         .other_meshes = {1.5, 2},  // a finer one would cost more than all else
                         .contact_grid = true,
                         .rough_peaks = false,     // not measured at the corners of rough flanks
                         .coarse_answers = false,  // two or three cells in a worn zone come and go with the harmonics
-                        .surface = true,
+                        .in_space = true,
                         .finer_meshes = 1};  // four times as fine costs hours
 
 }  // namespace dovetail::optimizer

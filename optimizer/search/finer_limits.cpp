@@ -3,13 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-namespace dovetail::optimizer {
+#include "optimizer/search/params.hpp"
 
-namespace {
-/// Of a limit that was broken in spite of the shifts so far, so that the next design does not miss it by as little
-/// again.
-constexpr double kMore = 1.2;
-}  // namespace
+namespace dovetail::optimizer {
 
 FinerLimits::FinerLimits(EvaluationSession& session, const RunHooks& hooks) : session_(session), hooks_(hooks) {}
 
@@ -62,12 +58,12 @@ bool FinerLimits::holds(std::size_t candidate) {
   for (int level = 1; level <= session_.options().finer_meshes; ++level) {
     const FinerCheck& check = look(candidate, level);
     if (check.held) {
-      make_up(check, kMore, shifts);
+      make_up(check, CorrectionParams{}.more, shifts);
       continue;
     }
     // Without an answer there nothing is learned, and what was known stays.
     if (check.evaluation.converged())
-      make_up(check, kMore, shifts);
+      make_up(check, CorrectionParams{}.more, shifts);
     else
       std::ranges::transform(shifts, session_.shifts(), shifts.begin(),
                              [](double a, double b) { return std::max(a, b); });

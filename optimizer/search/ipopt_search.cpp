@@ -10,6 +10,8 @@
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 #include <coin/IpIpoptApplication.hpp>
 #include <coin/IpTNLP.hpp>
+
+#include "optimizer/search/params.hpp"
 #pragma GCC diagnostic pop
 
 namespace dovetail::optimizer {
@@ -125,16 +127,18 @@ SearchOutcome ipopt_search(SearchFunctions& functions, const std::vector<double>
   list.SetStringValue("hessian_approximation", "limited-memory");
   list.SetStringValue("nlp_scaling_method", "none");  // objective and constraints arrive scaled
   list.SetNumericValue("bound_relax_factor", 0.0);    // a design just outside its bounds may not exist
+  constexpr LibraryParams kParams;
   // Differences of noisy responses cannot show a smaller slope than this.
-  const double slope = std::max(options.tolerance, 2 * std::max(options.noise, 1e-15) / difference_step(options));
+  const double slope =
+      std::max(options.tolerance, 2 * std::max(options.noise, kParams.least_noise) / difference_step(options));
   list.SetNumericValue("tol", slope);
-  list.SetNumericValue("acceptable_tol", 100 * slope);
-  list.SetIntegerValue("acceptable_iter", 5);
+  list.SetNumericValue("acceptable_tol", kParams.acceptable * slope);
+  list.SetIntegerValue("acceptable_iter", kParams.acceptable_iterations);
   list.SetNumericValue("acceptable_obj_change_tol", std::max(options.tolerance, options.noise));
-  const double violation = std::max(options.constraint_margin / 2, 1e-8);
+  const double violation = std::max(options.constraint_margin / 2, kParams.constraint_tolerance);
   list.SetNumericValue("constr_viol_tol", violation);
   list.SetNumericValue("acceptable_constr_viol_tol", violation);
-  list.SetIntegerValue("max_iter", 1000);
+  list.SetIntegerValue("max_iter", kParams.iterations);
 
   Ipopt::SmartPtr<Program> program = new Program(functions, start);
   Ipopt::ApplicationReturnStatus status = application->Initialize("");

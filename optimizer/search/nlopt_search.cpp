@@ -7,6 +7,8 @@
 #include <limits>
 #include <nlopt.hpp>
 
+#include "optimizer/search/params.hpp"
+
 namespace dovetail::optimizer {
 
 namespace {
@@ -119,7 +121,9 @@ SearchOutcome minimise(const Algorithm& algorithm, SearchFunctions& functions, c
   search.set_upper_bounds(1.0);
   search.set_min_objective(objective, &callback);
   if (algorithm.constraints == Constraints::own)
-    search.add_inequality_mconstraint(constraints, &callback, std::vector<double>(functions.constraint_count(), 1e-8));
+    search.add_inequality_mconstraint(
+        constraints, &callback,
+        std::vector<double>(functions.constraint_count(), LibraryParams{}.constraint_tolerance));
   search.set_xtol_abs(std::min(stopping_step(options), step / 2));
   // A noisy objective repeats itself long before an optimum, so the change of the objective only stops methods that
   // take whole Newton-like steps.
@@ -143,14 +147,13 @@ SearchOutcome minimise(const Algorithm& algorithm, SearchFunctions& functions, c
 
 SearchOutcome augmented_lagrangian(const Algorithm& algorithm, SearchFunctions& functions, std::vector<double> point,
                                    double step, std::uint64_t seed) {
-  constexpr int kRounds = 10;
-  constexpr double kMostWeight = 1e6;
-  Penalty penalty{.multipliers = std::vector<double>(functions.constraint_count(), 0.0), .weight = 10};
+  constexpr PenaltyParams kParams;
+  Penalty penalty{.multipliers = std::vector<double>(functions.constraint_count(), 0.0), .weight = kParams.weight};
   const double smallest = stopping_step(functions.options());
   const double enough = functions.options().constraint_margin / 2;
   double last_violation = std::numeric_limits<double>::infinity();
   SearchOutcome outcome;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kParams.rounds; ++round) {
     const std::vector<double> before = point;
     outcome = minimise(algorithm, functions, penalty, point, step, seed);
     const std::vector<double> c = functions.value(point).constraints;
@@ -165,9 +168,10 @@ SearchOutcome augmented_lagrangian(const Algorithm& algorithm, SearchFunctions& 
     double moved = 0;
     for (std::size_t i = 0; i < point.size(); ++i) moved = std::max(moved, std::abs(point[i] - before[i]));
     if (change == 0 || (round > 0 && violation <= enough && moved <= 2 * smallest)) return outcome;
-    if (violation > 0.25 * last_violation) penalty.weight = std::min(10 * penalty.weight, kMostWeight);
+    if (violation > kParams.falls * last_violation)
+      penalty.weight = std::min(kParams.growth * penalty.weight, kParams.most);
     last_violation = violation;
-    step = std::max(step / 2, 4 * smallest);
+    step = std::max(step / 2, kParams.smallest_step * smallest);
   }
   return outcome;
 }
@@ -185,7 +189,7 @@ SearchOutcome nlopt_search(const std::string& name, SearchFunctions& functions, 
   if (algorithm->constraints == Constraints::augmented_lagrangian)
     return augmented_lagrangian(*algorithm, functions, start, step, seed);
   Penalty penalty;
-  if (algorithm->constraints == Constraints::exact_penalty) penalty.weight = 10;
+  if (algorithm->constraints == Constraints::exact_penalty) penalty.weight = PenaltyParams{}.weight;
   std::vector<double> point = start;
   return minimise(*algorithm, functions, penalty, point, step, seed);
 }

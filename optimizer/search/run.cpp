@@ -9,6 +9,7 @@
 #include "optimizer/search/finer_limits.hpp"
 #include "optimizer/search/ipopt_search.hpp"
 #include "optimizer/search/nlopt_search.hpp"
+#include "optimizer/search/params.hpp"
 #include "optimizer/search/session.hpp"
 #include "optimizer/search/space_filling.hpp"
 
@@ -69,25 +70,18 @@ SearchOutcome within_budget(Search&& search) {
   }
 }
 
-struct CorrectionSettings {
-  double reserve = 0.2;  // of the evaluations, for what is left to do after a look at finer meshes
-  double step = 0.25;    // first step of the search that goes on, by that of the search; halves from round to round
-  int looks = 6;         // at finer meshes while the search goes on, and as many in the end at what is known
-  double apart = 0.1;  // a known design closer than this in every variable to one that broke its limits is passed over
-};
-
 /// After a search whose best designs broke limits on finer meshes: the best known one, unlike them, that does not.
-void settle_for_another(EvaluationSession& session, FinerLimits& finer, const CorrectionSettings& settings) {
+void settle_for_another(EvaluationSession& session, FinerLimits& finer, const CorrectionParams& params) {
   std::vector<std::size_t> broken;
   for (const FinerCheck& check : finer.checks())
     if (!check.held) broken.push_back(check.candidate);
   const auto beside = [&](std::size_t i, std::size_t j) {
     return std::ranges::equal(session.unit(i), session.unit(j),
-                              [&](double a, double b) { return std::abs(a - b) <= settings.apart; });
+                              [&](double a, double b) { return std::abs(a - b) <= params.apart; });
   };
   for (int look = 0; session.best();) {
     const std::size_t best = *session.best();
-    if (look == settings.looks || std::ranges::any_of(broken, [&](std::size_t i) { return beside(best, i); })) {
+    if (look == params.looks || std::ranges::any_of(broken, [&](std::size_t i) { return beside(best, i); })) {
       session.reject(best);
       continue;
     }
@@ -107,21 +101,21 @@ std::string describe(Status status, const std::string& message) {
 /// keeps its limits on them, or there is none.
 SearchOutcome corrected_search(EvaluationSession& session, FinerLimits& finer) {
   const OptimizerOptions& options = session.options();
-  constexpr CorrectionSettings kSettings;
+  constexpr CorrectionParams kParams;
   const auto all = static_cast<std::size_t>(options.max_evaluations);
   const bool only_scan = options.algorithm == "scan";
   if (finer.active()) {
     finer.correct(session.best().value_or(0));
     session.limit(std::max(session.candidates().size(),
-                           all - static_cast<std::size_t>(kSettings.reserve * options.max_evaluations)));
+                           all - static_cast<std::size_t>(kParams.reserve * options.max_evaluations)));
   }
   SearchOutcome outcome = only_scan ? SearchOutcome{.status = Status::converged, .message = "scan: complete"}
                                     : within_budget([&] { return search(session); });
-  double step = kSettings.step * options.initial_step;
+  double step = kParams.step * options.initial_step;
   // What was kept for a look at finer meshes serves to find something to look at.
   if (finer.active() && !session.best() && !only_scan && outcome.status == Status::iteration_limit) {
     session.limit(all);
-    outcome = within_budget([&] { return search_once(session, options.initial_step, kSettings.looks); });
+    outcome = within_budget([&] { return search_once(session, options.initial_step, kParams.looks); });
   }
   std::optional<std::size_t> held;
   for (int look = 0; finer.active() && session.best(); ++look) {
@@ -134,8 +128,8 @@ SearchOutcome corrected_search(EvaluationSession& session, FinerLimits& finer) {
       if (!unfinished || session.best() == held) return outcome;
       held = session.best();
     }
-    if (look + 1 >= kSettings.looks) {
-      settle_for_another(session, finer, kSettings);
+    if (look + 1 >= kParams.looks) {
+      settle_for_another(session, finer, kParams);
       break;
     }
     if (left == 0 || only_scan || !session.best()) continue;

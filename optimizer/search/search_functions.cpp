@@ -5,12 +5,12 @@
 #include <limits>
 #include <utility>
 
+#include "optimizer/search/params.hpp"
+
 namespace dovetail::optimizer {
 
 namespace {
-constexpr double kUnknownRules = -0.01;  ///< c of the rules when a computed candidate reports none
-constexpr double kFailed = 2.0;          ///< scaled objective of a failed candidate above the level
-constexpr double kMostViolation = 1e3;   ///< keeps sums finite whatever a rule reports
+constexpr SubstituteParams kParams;
 }  // namespace
 
 SearchFunctions::SearchFunctions(EvaluationSession& session, std::string phase)
@@ -60,12 +60,12 @@ SearchValue SearchFunctions::seen(const Candidate& candidate) const {
   if (judgement.computed) {
     value.objective = judgement.objective / scale_;
     for (std::size_t j = 0; j < value.constraints.size(); ++j) value.constraints[j] = aimed(judgement, j);
-    value.constraints.push_back(std::min(judgement.rules.value_or(kUnknownRules), kMostViolation));
+    value.constraints.push_back(std::min(judgement.rules.value_or(kParams.unknown_rules), kParams.most_violation));
   } else if (candidate.evaluation.status == "infeasible") {
-    value.objective = level_ + std::min(judgement.violation, kMostViolation);
-    value.constraints.push_back(std::min(judgement.rules.value_or(1.0), kMostViolation));
+    value.objective = level_ + std::min(judgement.violation, kParams.most_violation);
+    value.constraints.push_back(std::min(judgement.rules.value_or(1.0), kParams.most_violation));
   } else {
-    value.objective = level_ + kFailed;
+    value.objective = level_ + kParams.failed;
     value.constraints.push_back(1.0);
   }
   return value;

@@ -6,12 +6,9 @@
 #include <mutex>
 #include <thread>
 
-namespace dovetail::optimizer {
+#include "optimizer/search/params.hpp"
 
-namespace {
-/// An algorithm asking this often for known candidates only will not come to new ones.
-constexpr int kMostRepeatsInARow = 5000;
-}  // namespace
+namespace dovetail::optimizer {
 
 EvaluationSession::EvaluationSession(const Problem& problem, const Evaluator& evaluator,
                                      const OptimizerOptions& options, const RunHooks& hooks)

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "optimizer/search/params.hpp"
 #include "optimizer/search/random_stream.hpp"
 
 namespace dovetail::optimizer {
@@ -39,11 +40,10 @@ double smallest_distance_squared(const std::vector<std::vector<double>>& points)
 }  // namespace
 
 std::vector<std::vector<double>> latin_hypercube(std::size_t count, std::size_t dimension, std::uint64_t seed) {
-  constexpr int kSamples = 20;
   RandomStream random(seed);
   std::vector<std::vector<double>> best = one_sample(count, dimension, random);
   double widest = smallest_distance_squared(best);
-  for (int sample = 1; sample < kSamples; ++sample) {
+  for (int sample = 1; sample < kHypercubes; ++sample) {
     std::vector<std::vector<double>> points = one_sample(count, dimension, random);
     const double distance = smallest_distance_squared(points);
     if (distance > widest) {

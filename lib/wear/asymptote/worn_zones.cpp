@@ -40,6 +40,10 @@ bool ends_differ(std::span<const NodeLine> lines, const std::vector<bool>& one, 
 
 }  // namespace
 
+WornChange width_changed_by(double share, const WornChange& zone) {
+  return {.volume = std::min(1.0, 2.5 * share) * zone.volume, .depth = std::min(1.0, 1.5 * share) * zone.depth};
+}
+
 WornChange ends_moved_by(double part, std::span<const NodeLine> lines, const Eigen::VectorXd& area,
                          const std::vector<bool>& worn, const Eigen::VectorXd& depth) {
   WornChange moved;
@@ -60,9 +64,9 @@ WornChange ends_moved_by(double part, std::span<const NodeLine> lines, const Eig
         volume += area[node] * depth[node];
         deepest = std::max(deepest, depth[node]);
       }
-      // Of a zone of width w the depth grows like its power 3/2, the volume like 5/2.
-      moved.volume += std::min(1.0, 2.5 * share) * volume;
-      moved.depth = std::max(moved.depth, std::min(1.0, 1.5 * share) * deepest);
+      const WornChange of_zone = width_changed_by(share, {.volume = volume, .depth = deepest});
+      moved.volume += of_zone.volume;
+      moved.depth = std::max(moved.depth, of_zone.depth);
     }
   }
   return moved;

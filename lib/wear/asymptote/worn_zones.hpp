@@ -16,6 +16,9 @@ struct WornChange {
   double volume = 0, depth = 0;  ///< m^3, m
 };
 
+/// What a part of the width of a worn zone changes at most: the depth grows like its power 3/2, the volume like 5/2.
+[[nodiscard]] WornChange width_changed_by(double share, const WornChange& zone);
+
 // `area` [Nc] m^2 of the nodes. Ends of zones are looked for along lines; a node on none changes nothing here.
 
 /// What a part of a node at the end of every zone of `worn` nodes changes at most. The ends of a line are no ends of a

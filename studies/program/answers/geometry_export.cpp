@@ -44,7 +44,7 @@ void export_deck(const optimizer::Scene& scene, const DeckOptions& options, cons
 void export_geometry(const optimizer::Scene& scene, const std::string& format, const DeckOptions& deck,
                      const std::filesystem::path& file) {
   assert(is_export_format(format) && !is_field_format(format));
-  if (needs_space(format) && !scene.kind->surface)
+  if (needs_space(format) && !scene.kind->in_space)
     refuse("scene.type", "must be sector for " + format + ": a section has no surface in space",
            std::string(scene.kind->name));
   if (is_deck_format(format))

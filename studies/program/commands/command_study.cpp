@@ -12,7 +12,7 @@
 
 #include "core/replace_file.hpp"
 #include "optimizer/problem/problem.hpp"
-#include "optimizer/scene/responses.hpp"
+#include "optimizer/responses/response_table.hpp"
 #include "reduction/model_file.hpp"
 #include "studies/program/answers/json.hpp"
 #include "studies/program/commands/commands.hpp"
@@ -76,7 +76,7 @@ std::string evaluation_table(const optimizer::Evaluation& evaluation) {
       std::ranges::all_of(undecided, [&](const auto& name) { return evaluation.constraints.contains(name); });
   text += all ? "\n" : ", as far as limits are judged\n";
   if (!evaluation.responses.empty()) text += "\nresponses\n";
-  for (const optimizer::ResponseName& response : optimizer::response_names()) {
+  for (const optimizer::Response& response : optimizer::responses()) {
     const auto value = evaluation.responses.find(std::string(response.name));
     if (value == evaluation.responses.end()) continue;
     text += fmt::format("  {:<30} {:>14.7g}", response.name, value->second);

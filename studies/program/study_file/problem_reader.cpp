@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "optimizer/scene/responses.hpp"
+#include "optimizer/responses/response_table.hpp"
 
 namespace dovetail::studies {
 namespace {
@@ -156,7 +156,7 @@ std::string read_response(SectionReader& section, Problems& problems) {
   const std::optional<std::string> name = section.text("response", {}, true);
   if (!name || optimizer::find_response(*name)) return name.value_or("");
   std::vector<std::string> names;
-  for (const optimizer::ResponseName& r : optimizer::response_names()) names.emplace_back(r.name);
+  for (const optimizer::Response& r : optimizer::responses()) names.emplace_back(r.name);
   std::string allowed = "is not a response";
   if (const std::string near = nearest(*name, names); !near.empty())
     allowed += "; did you mean \"" + near + "\"?";

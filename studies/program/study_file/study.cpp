@@ -6,7 +6,7 @@
 #include <map>
 #include <type_traits>
 
-#include "optimizer/scene/responses.hpp"
+#include "optimizer/responses/response_table.hpp"
 #include "optimizer/scene/scene_kind.hpp"
 #include "studies/program/study_file/export.hpp"
 #include "studies/program/study_file/problem_reader.hpp"
@@ -95,7 +95,7 @@ void read_exports(SectionReader& root, Study& study, Problems& problems) {
     for (const Node& item : formats->items) {
       if (item.kind != Node::Kind::text || !is_export_format(item.text))
         problems.add(item, "export.formats", allowed);
-      else if (needs_space(item.text) && !study.scene.kind->surface)
+      else if (needs_space(item.text) && !study.scene.kind->in_space)
         problems.add(item, "export.formats", "is a surface in space: scene.type must be \"sector\"");
       else if (std::find(study.exports.begin(), study.exports.end(), item.text) == study.exports.end())
         study.exports.push_back(item.text);
@@ -167,18 +167,19 @@ std::string physics_text(const optimizer::Scene& scene) {
 std::vector<std::string> warnings(const Study& study) {
   std::vector<std::string> result;
   const auto leans_on = [&](const std::string& name, const char* what) {
-    if (name == "contact_pressure_max_pa" && optimizer::responses_without_limit(study.scene).empty())
+    const optimizer::Response* response = optimizer::find_response(name);
+    if (response == nullptr) return;
+    const bool limit = response->has_limit(study.scene);
+    if (response == &optimizer::kContactPressureMax && limit)
       result.push_back(what + (" of " + name) +
                        ": the pressure at the ends of the flanks changes by a fifth from mesh to mesh until "
                        "mesh.flank_elements resolves it: look at its error bar, or take contact_pressure_mean_pa.");
-    for (const std::string& without : optimizer::responses_without_limit(study.scene))
-      if (name == without)
-        result.push_back(
-            what + (" of " + name) +
-            (study.scene.contact.normal_stiffness > 0
-                 ? ": at sharp ends of rough flanks in space it has no error bar; give "
-                 : ": at sharp ends of the flanks it grows without limit as the mesh becomes finer; give ") +
-            "geometry.flank_edge_radius_mm or take contact_pressure_mean_pa.");
+    if (!limit)
+      result.push_back(what + (" of " + name) +
+                       (study.scene.contact.normal_stiffness > 0
+                            ? ": at sharp ends of rough flanks in space it has no error bar; give "
+                            : ": at sharp ends of the flanks it grows without limit as the mesh becomes finer; give ") +
+                       "geometry.flank_edge_radius_mm or take contact_pressure_mean_pa.");
   };
   for (const optimizer::ObjectiveTerm& term : study.problem.objective) leans_on(term.response, "an objective");
   for (const optimizer::ResponseConstraint& limit : study.problem.constraints) leans_on(limit.response, "a limit");

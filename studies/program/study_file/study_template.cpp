@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "optimizer/problem/optimizer_options.hpp"
-#include "optimizer/scene/responses.hpp"
+#include "optimizer/responses/response_table.hpp"
 #include "optimizer/scene/scene.hpp"
 #include "studies/program/study_file/export.hpp"
 
@@ -97,7 +97,7 @@ std::string scene_sections() {
 
 std::string response_list() {
   std::string text;
-  for (const optimizer::ResponseName& response : optimizer::response_names())
+  for (const optimizer::Response& response : optimizer::responses())
     text += "#   " + std::string(response.name) + ": " + std::string(response.help) + "\n";
   return text;
 }

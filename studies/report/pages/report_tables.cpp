@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "optimizer/scene/responses.hpp"
+#include "optimizer/responses/response_table.hpp"
 #include "studies/report/pages/report_words.hpp"
 #include "studies/report/pages/table.hpp"
 #include "studies/report/plots/plot.hpp"
@@ -22,7 +22,7 @@ std::vector<std::string> names_of(const EvaluationRecord* first, const Evaluatio
     return (first && first->responses.count(name) > 0) || (second && second->responses.count(name) > 0);
   };
   std::vector<std::string> names;
-  for (const optimizer::ResponseName& response : optimizer::response_names())
+  for (const optimizer::Response& response : optimizer::responses())
     if (known(std::string(response.name))) names.emplace_back(response.name);
   for (const EvaluationRecord* evaluation : {first, second}) {
     if (!evaluation) continue;
@@ -66,7 +66,7 @@ std::string constraint_words(const std::string& name) {
 }
 
 std::string help_of(const std::string& name) {
-  const optimizer::ResponseName* known = optimizer::find_response(name);
+  const optimizer::Response* known = optimizer::find_response(name);
   return known ? std::string(known->help) : name;
 }
 

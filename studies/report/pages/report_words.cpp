@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "optimizer/scene/responses.hpp"
+#include "optimizer/responses/response_table.hpp"
 
 namespace dovetail::report {
 
@@ -105,7 +105,7 @@ double error_bar(const EvaluationRecord& evaluation, const std::string& name) {
 
 Unit response_unit(const std::string& name, double largest) {
   if (name.ends_with("drift")) return {.symbol = "%", .si = 0.01};
-  const optimizer::ResponseName* known = optimizer::find_response(name);
+  const optimizer::Response* known = optimizer::find_response(name);
   std::string si = known ? std::string(known->unit) : si_unit_of(name);
   if (!name.ends_with("_per_cycle")) return readable_unit(si, largest);
   if (const std::size_t slash = si.find('/'); slash != std::string::npos) si.resize(slash);

@@ -10,6 +10,7 @@
 #include "fem/diameter_frequencies.hpp"
 #include "geometry/solid/solid_family.hpp"
 #include "optimizer/evaluator.hpp"
+#include "optimizer/responses/computed.hpp"
 #include "tests/verification/optimizer/sector_joint.hpp"
 
 namespace dovetail::optimizer {

@@ -1,0 +1,43 @@
+#pragma once
+
+namespace dovetail::optimizer {
+
+// The numbers that steer error bars, tuned on random designs against meshes four times as fine (studies/error_bars).
+// Orders of convergence and what one response alone needs stand in its file in responses.
+
+/// The companions that a design is compared with.
+struct CompanionParams {
+  double longer_nodes = 1.5;        ///< length of contact nodes over the design's own
+  double shorter_nodes = 0.5;       ///< the same where nothing wears
+  double shorter_factor = 2;        ///< part of what they change, as half of a zone may be missed on them, too
+  double nodes_again = 0.25;        ///< part of what longer nodes change that remains beside a finer mesh
+  double section_ratio = 1 / 1.5;   ///< sizes of elements in a finer section
+  double harder = 2, softer = 0.5;  ///< pseudo-penalties, the softer one first
+  double modes_factor = 1.5;        ///< of what twice as many modes change: the error falls like 1 / omega^2
+  int more_modes = 10;              ///< at least: one more may be one that the load does not move
+};
+
+/// Zones narrower than half a contact node, of a joint that does not wear.
+struct UnseenParams {
+  /// Part of such a zone that slips. Of 90 joints without wear (seeds 2 and 3) finer meshes found a tenth of the energy
+  /// of all of it in three, 0.4 and all of it in one each, where other parts of the bar were larger than it, and next
+  /// to none in the others: none where no node at an end of a flank lifts off.
+  double slipping = 0.3;
+  double all_of_it = 0.25;  ///< change of the pressure in a period, relative, from which on all of the zone counts
+};
+
+/// What a history that ends in a state leaves open of it, of the node at each end of a zone, from histories on nodes a
+/// quarter as long. Smaller: such a history ends outside of the bar.
+struct HistoryNodeParams {
+  double lift_off = 0.055;  ///< where some nodes touch at times only
+  /// Where another order of release ends elsewhere, or nodes that stick have little to spare: a history depends on its
+  /// nodes much more there.
+  double others = 0.25;
+};
+
+static_assert(CompanionParams{}.shorter_nodes < 1 && 1 < CompanionParams{}.longer_nodes, "on both sides");
+static_assert(CompanionParams{}.nodes_again < 1, "a finer mesh says most of it");
+static_assert(CompanionParams{}.section_ratio < 1, "finer");
+static_assert(HistoryNodeParams{}.lift_off < HistoryNodeParams{}.others, "the doubt of lift-off is the lesser one");
+
+}  // namespace dovetail::optimizer

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <ranges>
+#include <string_view>
+
+#include "optimizer/responses/response.hpp"
+
+namespace dovetail::optimizer {
+
+// Each stands in a file of this folder, some beside their relatives. A new one is a file, and its name here twice.
+extern const Response kWornVolume, kWornDepth, kInitialWearRate, kResonance, kWornResonance, kResonanceDrift,
+    kPeakAmplitude, kWornPeakAmplitude, kMass, kPeakStress, kContactPressureMax, kContactPressureMean, kNeckTension,
+    kBladeFilletStress, kDiskFilletStress, kPostWidth, kDissipatedEnergy, kGluedFrequency;
+
+/// All responses, in the order of the reports.
+inline constexpr std::array kResponses{&kWornVolume,    &kWornDepth,          &kInitialWearRate,
+                                       &kResonance,     &kWornResonance,      &kResonanceDrift,
+                                       &kPeakAmplitude, &kWornPeakAmplitude,  &kMass,
+                                       &kPeakStress,    &kContactPressureMax, &kContactPressureMean,
+                                       &kNeckTension,   &kBladeFilletStress,  &kDiskFilletStress,
+                                       &kPostWidth,     &kDissipatedEnergy,   &kGluedFrequency};
+
+/// The same to go through. An evaluation may leave some out, never add others.
+[[nodiscard]] inline auto responses() {
+  return std::views::transform(kResponses, [](const Response* each) -> const Response& { return *each; });
+}
+
+/// The entry of that name, or nullptr.
+[[nodiscard]] const Response* find_response(std::string_view name);
+
+}  // namespace dovetail::optimizer
