@@ -1,17 +1,7 @@
 #pragma once
 
-#include <atomic>
-#include <optional>
-#include <string>
 #include "optimizer/bars/other_meshes.hpp"
-#include "optimizer/candidate/candidate_model.hpp"
 #include "optimizer/candidate/candidate_result.hpp"
-#include "optimizer/candidate/contact_fit.hpp"
-#include "optimizer/candidate/fillet_stress.hpp"
-#include "optimizer/problem/evaluation.hpp"
-#include "paths/resonance.hpp"
-#include "wear/asymptote/asymptote.hpp"
-#include "wear/asymptote/drift.hpp"
 
 namespace dovetail::optimizer {
 

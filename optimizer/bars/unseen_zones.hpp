@@ -1,11 +1,8 @@
 #pragma once
 
 #include "optimizer/bars/bars.hpp"
-#include "optimizer/scene/scene.hpp"
 
 namespace dovetail::optimizer {
-
-struct CandidateResult;
 
 /// Adds what zones at the ends of the contact that are narrower than half a node, and so not seen, leave open of a
 /// joint without wear; returns what they leave open of the friction energy, J per cycle.

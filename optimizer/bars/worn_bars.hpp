@@ -1,11 +1,8 @@
 #pragma once
 
 #include "optimizer/bars/bars.hpp"
-#include "optimizer/scene/scene.hpp"
 
 namespace dovetail::optimizer {
-
-struct CandidateResult;
 
 /// Adds what the ends of worn zones and a doubt of the worn state leave open of the responses of the worn joint.
 void add_worn_bars(const Scene& scene, const CandidateResult& result, Bars& bars);

@@ -50,10 +50,6 @@ std::vector<std::string> responses_of(const Problem& problem) {
   return names;
 }
 
-}  // namespace
-
-namespace {
-
 std::vector<Violation> violations_of_terms(const Problem& problem) {
   std::vector<Violation> found;
   const auto wrong = [&](std::string key, std::string value, std::string allowed) {
