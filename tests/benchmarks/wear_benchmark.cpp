@@ -39,7 +39,7 @@ Scene plain(const reduction::ReducedModel& model) {
   return {.joint = {std::make_shared<const dynamics::CondensedModel>(model), {}, kSettings}};
 }
 
-Scene dovetail(const std::vector<studies::Override>& changes) {
+Scene dovetail(const std::vector<std::string>& changes) {
   const studies::LoadedModel loaded = studies::load_model(QUICKSTART, changes, {});
   const paths::Resonance unworn = paths::resonance(loaded.joint, loaded.glued_omega);
   return {.joint = loaded.joint.with(kSettings), .omega = unworn.omega};
@@ -47,12 +47,9 @@ Scene dovetail(const std::vector<studies::Override>& changes) {
 
 Scene scene(const std::string& name) {
   using namespace wear::scenes;
-  const auto change = [](const char* key, const char* value) {
-    return studies::Override{.key = key, .value = value, .origin = key};
-  };
   if (name == "section") return dovetail({});
-  if (name == "crowned") return dovetail({change("geometry.flank_crown_um", "5")});
-  if (name == "mismatch") return dovetail({change("geometry.flank_mismatch_um", "10")});
+  if (name == "crowned") return dovetail({"geometry.flank_crown_um=5"});
+  if (name == "mismatch") return dovetail({"geometry.flank_mismatch_um=10"});
   if (name == "block") return plain(block(random_block(2)));
   if (name == "punch") return plain(punch({.nodes = 61, .offset = 0.013, .tilt = 0.02}));
   if (name == "lift_off") return plain(verdict_model(Family::breathing, 9));

@@ -16,15 +16,15 @@ using Design = std::map<std::string, std::string>;
 
 /// Expects the command to end where the evaluation does, and returns that.
 wear::Asymptote agreed(const Design& design, bool from_positions = false) {
-  std::vector<Override> overrides;
-  for (const auto& [key, value] : design) overrides.push_back({.key = key, .value = value, .origin = "--set"});
-  const Study study = load_study(QUICKSTART, overrides);
+  std::vector<std::string> set;
+  for (const auto& [key, value] : design) set.push_back(key + "=" + value);
+  const Study study = load_study(QUICKSTART, overrides(set));
   const optimizer::CandidateResult evaluated = scene_evaluator(study)->evaluate(study.scene, {.bars = false});
   EXPECT_TRUE(evaluated.evaluation.converged()) << evaluated.evaluation.status;
   WearOptions options;
   options.method = "asymptote";
   options.follow = "fixed";
-  LoadedModel loaded = load_model(QUICKSTART, overrides, {});
+  LoadedModel loaded = load_model(QUICKSTART, set, {});
   if (from_positions) loaded.lines = wear::flank_lines(loaded.model.contact);
   const WearAnswer answer =
       wear_answer(options, loaded, wear_start_at(evaluated.evaluation.model.at("wear_frequency_hz")), {});
