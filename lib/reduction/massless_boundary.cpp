@@ -9,6 +9,7 @@
 #include "reduction/boundary_basis.hpp"
 #include "reduction/contact_order.hpp"
 #include "reduction/free_modes.hpp"
+#include "reduction/params.hpp"
 #include "reduction/validation.hpp"
 
 namespace dovetail {
@@ -145,14 +146,7 @@ TraceModel trace_model(const FullModel& full, const ReductionOptions& options) {
 Reduction reduce(const TraceModel& trace, const Eigen::SparseMatrix<double>& average, ContactNodes contact,
                  double damping_ratio) {
   Reduction result;
-  result.status = trace.status;
-  result.message = trace.message;
-  result.first_neglected_eigenvalue = trace.first_neglected_eigenvalue;
-  result.rigid_modes = trace.rigid_modes;
-  result.negative_modes = trace.negative_modes;
-  result.seconds_factorisation = trace.seconds_factorisation;
-  result.seconds_contact_solves = trace.seconds_contact_solves;
-  result.seconds_modes = trace.seconds_modes;
+  static_cast<ModesRecord&>(result) = trace;
   if (trace.status != Status::converged) return result;
 
   const RitzBasis& basis = trace.structure->basis();
@@ -160,7 +154,7 @@ Reduction reduce(const TraceModel& trace, const Eigen::SparseMatrix<double>& ave
   const Eigen::SparseMatrix<double> a = for_directions(average, contact.directions());
   const Eigen::MatrixXd flexibility = a * trace.structure->on_contact() * a.transpose();
   const numerics::DenseCholesky g(0.5 * (flexibility + flexibility.transpose()));
-  if (!(g.reciprocal_condition() > 1e-14)) {
+  if (!(g.reciprocal_condition() > FlexibilityParams{}.singular)) {
     result.status = Status::singular;
     result.message = "the residual flexibility of the contact is not positive definite: too many modes are kept";
     return result;

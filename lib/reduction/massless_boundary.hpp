@@ -26,38 +26,34 @@ struct ReductionOptions {
   double eigen_tolerance = 1e-6;
 };
 
-/// Massless-boundary reduction [Monjaraz-Tec et al. 2022, arXiv 2111.07693; MacNeal 1971] and all that is
-/// needed to go back to the full model.
-struct Reduction {
+/// How the modes of a structure were found, and what they are.
+struct ModesRecord {
   Status status = Status::converged;
-  std::string message;  ///< why, when not converged
-
-  ReducedModel model;                     ///< coordinates [contact r (node by node: N, T1[, T2]); glued modes q]
-  Recovery recovery;                      ///< u = Phi q + Psi lambda
-  Eigen::VectorXd free_eigenvalues;       ///< [m] Lambda of the basis, (rad/s)^2, ascending; may be negative
-  Eigen::VectorXd glued_frequencies;      ///< [m] angular frequencies of the glued modes, rad/s, ascending
+  std::string message;                    ///< why, when not converged
   double first_neglected_eigenvalue = 0;  ///< (rad/s)^2, infinite when no mode is neglected
   int rigid_modes = 0;                    ///< eigenvalues that are zero to rounding
   int negative_modes = 0;                 ///< negative eigenvalues of the full stiffness (spin softening)
   double seconds_factorisation = 0, seconds_contact_solves = 0, seconds_modes = 0;
 };
 
+/// Massless-boundary reduction [Monjaraz-Tec et al. 2022, arXiv 2111.07693; MacNeal 1971] and all that is
+/// needed to go back to the full model.
+struct Reduction : ModesRecord {
+  ReducedModel model;                 ///< coordinates [contact r (node by node: N, T1[, T2]); glued modes q]
+  Recovery recovery;                  ///< u = Phi q + Psi lambda
+  Eigen::VectorXd free_eigenvalues;   ///< [m] Lambda of the basis, (rad/s)^2, ascending; may be negative
+  Eigen::VectorXd glued_frequencies;  ///< [m] angular frequencies of the glued modes, rad/s, ascending
+};
+
 /// What a structure is at the trace of its contact, before contact nodes are laid on it: free-interface modes and the
 /// flexibility they leave. To lay other contact nodes on the same trace takes dense algebra of their number only.
 /// Holds the factors of the stiffness, for fields to come.
-struct TraceModel {
-  Status status = Status::converged;
-  std::string message;  ///< why, when not converged
-
+struct TraceModel : ModesRecord {
   std::shared_ptr<const ResidualFlexibility> structure;    ///< Phi [n, m], Lambda [m] and X [n, nt], n the full size
   Eigen::MatrixXd static_force, cosine_force, sine_force;  ///< Phi^T f [m, 1], [m, H_f], [m, H_f]
   Eigen::MatrixXd outputs;                                 ///< Phi^T c [m, n_out]
   std::vector<std::string> output_names;
   ContactNodes contact;  ///< the trace's own nodes
-
-  double first_neglected_eigenvalue = 0;
-  int rigid_modes = 0, negative_modes = 0;
-  double seconds_factorisation = 0, seconds_contact_solves = 0, seconds_modes = 0;
 };
 
 /// First half of `reduce`, for `full` with its trace as contact. Cost and statuses as there.

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
+#include <type_traits>
 #include <vector>
 
 #include "core/hdf5_file.hpp"
@@ -12,8 +14,11 @@ namespace dovetail::reduction {
 
 namespace {
 
-using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-using RowMajorIndices = Eigen::Matrix<std::int64_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+/// What files hold for a matrix of real numbers or indices.
+template <class Scalar>
+using InFile = std::conditional_t<std::is_integral_v<Scalar>, std::int64_t, double>;
+template <class Scalar>
+using Rows = Eigen::Matrix<InFile<Scalar>, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 constexpr const char* kFormat = "dovetail-reduced-model";
 constexpr std::int64_t kVersion = 1;
@@ -29,31 +34,23 @@ class Reader {
  public:
   Reader(const hdf5::File& file, std::vector<Violation>& found) : file_(file), found_(found) {}
 
-  void matrix(const std::string& name, Eigen::MatrixXd& target) {
-    attempt(name, 2, [&] {
-      const hdf5::Array<double> array = file_.read_reals(name);
-      target = Eigen::Map<const RowMajor>(array.values.data(), rows(array.shape), columns(array.shape));
-    });
-  }
-  void vector(const std::string& name, Eigen::VectorXd& target) {
-    attempt(name, 1, [&] {
-      const hdf5::Array<double> array = file_.read_reals(name);
-      target = Eigen::Map<const Eigen::VectorXd>(array.values.data(), rows(array.shape));
-    });
-  }
-  void indices(const std::string& name, Eigen::VectorXi& target) {
-    attempt(name, 1, [&] {
-      const hdf5::Array<std::int64_t> array = file_.read_integers(name);
-      if (!fits(name, array.values, 1)) return;
-      target = Eigen::Map<const RowMajorIndices>(array.values.data(), rows(array.shape), 1).cast<int>();
-    });
-  }
-  void indices(const std::string& name, Eigen::MatrixXi& target) {
-    attempt(name, 2, [&] {
-      const hdf5::Array<std::int64_t> array = file_.read_integers(name);
-      if (!fits(name, array.values, array.shape[1])) return;
-      target =
-          Eigen::Map<const RowMajorIndices>(array.values.data(), rows(array.shape), columns(array.shape)).cast<int>();
+  /// A list or a table, of real numbers or of indices, as `target` is.
+  template <class Target>
+  void numbers(const std::string& name, Target& target) {
+    using Scalar = typename Target::Scalar;
+    constexpr bool kList = Target::ColsAtCompileTime == 1;
+    attempt(name, kList ? 1 : 2, [&] {
+      hdf5::Array<InFile<Scalar>> array;
+      if constexpr (std::is_integral_v<Scalar>)
+        array = file_.read_integers(name);
+      else
+        array = file_.read_reals(name);
+      const std::size_t columns = kList ? 1 : array.shape[1];
+      if constexpr (std::is_integral_v<Scalar>)
+        if (!fits(name, array.values, columns)) return;
+      target = Eigen::Map<const Rows<Scalar>>(array.values.data(), static_cast<Eigen::Index>(array.shape[0]),
+                                              static_cast<Eigen::Index>(columns))
+                   .template cast<Scalar>();
     });
   }
   void strings(const std::string& name, std::vector<std::string>& target) {
@@ -61,9 +58,6 @@ class Reader {
   }
 
  private:
-  static Eigen::Index rows(const std::vector<std::size_t>& shape) { return static_cast<Eigen::Index>(shape[0]); }
-  static Eigen::Index columns(const std::vector<std::size_t>& shape) { return static_cast<Eigen::Index>(shape[1]); }
-
   template <class Read>
   void attempt(const std::string& name, std::size_t rank, const Read& read) {
     try {
@@ -125,18 +119,12 @@ void check_header(const hdf5::File& file) {
   throw InputError(std::move(found));
 }
 
-void write(hdf5::File& file, const std::string& name, const RowMajor& matrix) {
-  const std::size_t shape[] = {static_cast<std::size_t>(matrix.rows()), static_cast<std::size_t>(matrix.cols())};
-  file.write(name, std::span(matrix.data(), static_cast<std::size_t>(matrix.size())), shape);
-}
-
-void write(hdf5::File& file, const std::string& name, const Eigen::VectorXd& vector) {
-  file.write(name, std::span(vector.data(), static_cast<std::size_t>(vector.size())));
-}
-
-void write(hdf5::File& file, const std::string& name, const Eigen::VectorXi& vector) {
-  const std::vector<std::int64_t> values(vector.begin(), vector.end());
-  file.write(name, values);
+template <class Matrix>
+void write(hdf5::File& file, const std::string& name, const Matrix& matrix) {
+  const Rows<typename Matrix::Scalar> rows = matrix.template cast<InFile<typename Matrix::Scalar>>();
+  std::vector<std::size_t> shape{static_cast<std::size_t>(matrix.rows())};
+  if (Matrix::ColsAtCompileTime != 1) shape.push_back(static_cast<std::size_t>(matrix.cols()));
+  file.write(name, std::span(rows.data(), static_cast<std::size_t>(rows.size())), shape);
 }
 
 }  // namespace
@@ -147,32 +135,32 @@ ReducedModel read_model(const std::string& path) {
   std::vector<Violation> found;
   Reader read(file, found);
   ReducedModel model;
-  read.matrix("/mass", model.mass);
-  read.matrix("/damping", model.damping);
-  read.matrix("/stiffness", model.stiffness);
+  read.numbers("/mass", model.mass);
+  read.numbers("/damping", model.damping);
+  read.numbers("/stiffness", model.stiffness);
   ContactNodes& contact = model.contact;
-  read.indices("/contact/normal", contact.normal);
-  read.indices("/contact/tangential", contact.tangential);
-  read.vector("/contact/area", contact.area);
-  read.vector("/contact/gap", contact.gap);
-  read.vector("/contact/friction", contact.friction);
-  read.vector("/contact/wear_coefficient", contact.wear_coefficient);
-  if (file.exists("/contact/wear_threshold")) read.vector("/contact/wear_threshold", contact.wear_threshold);
+  read.numbers("/contact/normal", contact.normal);
+  read.numbers("/contact/tangential", contact.tangential);
+  read.numbers("/contact/area", contact.area);
+  read.numbers("/contact/gap", contact.gap);
+  read.numbers("/contact/friction", contact.friction);
+  read.numbers("/contact/wear_coefficient", contact.wear_coefficient);
+  if (file.exists("/contact/wear_threshold")) read.numbers("/contact/wear_threshold", contact.wear_threshold);
   if (std::vector<std::string> law; file.exists("/contact/wear_law")) {
     read.strings("/contact/wear_law", law);
     if (law.size() == 1) contact.wear_law = law.front();
   }
   Eigen::MatrixXd position(0, 3);
-  if (file.exists("/contact/position")) read.matrix("/contact/position", position);
-  if (file.exists("/contact/group")) read.indices("/contact/group", contact.group);
+  if (file.exists("/contact/position")) read.numbers("/contact/position", position);
+  if (file.exists("/contact/group")) read.numbers("/contact/group", contact.group);
   if (file.exists("/contact/slip_origin"))
-    read.matrix("/contact/slip_origin", contact.slip_origin);
+    read.numbers("/contact/slip_origin", contact.slip_origin);
   else
     contact.slip_origin.setZero(contact.normal.size(), contact.tangential.cols());
-  read.vector("/force/static", model.static_force);
-  read.matrix("/force/cosine", model.cosine_force);
-  read.matrix("/force/sine", model.sine_force);
-  read.matrix("/output/vectors", model.output_vectors);
+  read.numbers("/force/static", model.static_force);
+  read.numbers("/force/cosine", model.cosine_force);
+  read.numbers("/force/sine", model.sine_force);
+  read.numbers("/output/vectors", model.output_vectors);
   read.strings("/output/names", model.output_names);
   // Optional data sets that are there must be complete: an empty one means "none" in memory only.
   const auto present = [&](const std::string& name, Eigen::Index rows) {
@@ -204,15 +192,12 @@ void write_model(const std::string& path, const ReducedModel& model) {
   hdf5::write_and_rename(path, [&](hdf5::File& file) {
     file.write_attribute("/", "format", std::string(kFormat));
     file.write_attribute("/", "version", kVersion);
-    write(file, "/mass", RowMajor(model.mass));
-    write(file, "/damping", RowMajor(model.damping));
-    write(file, "/stiffness", RowMajor(model.stiffness));
+    write(file, "/mass", model.mass);
+    write(file, "/damping", model.damping);
+    write(file, "/stiffness", model.stiffness);
     const ContactNodes& contact = model.contact;
     write(file, "/contact/normal", contact.normal);
-    const RowMajorIndices tangential = contact.tangential.cast<std::int64_t>();
-    const std::size_t shape[] = {static_cast<std::size_t>(tangential.rows()),
-                                 static_cast<std::size_t>(tangential.cols())};
-    file.write("/contact/tangential", std::span(tangential.data(), static_cast<std::size_t>(tangential.size())), shape);
+    write(file, "/contact/tangential", contact.tangential);
     write(file, "/contact/area", contact.area);
     write(file, "/contact/gap", contact.gap);
     write(file, "/contact/friction", contact.friction);
@@ -220,13 +205,13 @@ void write_model(const std::string& path, const ReducedModel& model) {
     if (contact.wear_threshold.size() > 0) write(file, "/contact/wear_threshold", contact.wear_threshold);
     if (contact.wear_law != ContactNodes().wear_law)
       file.write("/contact/wear_law", std::vector<std::string>{contact.wear_law});
-    if (contact.position.rows() > 0) write(file, "/contact/position", RowMajor(contact.position));
+    if (contact.position.rows() > 0) write(file, "/contact/position", contact.position);
     if (contact.group.size() > 0) write(file, "/contact/group", contact.group);
-    if (contact.slip_origin.size() > 0) write(file, "/contact/slip_origin", RowMajor(contact.slip_origin));
+    if (contact.slip_origin.size() > 0) write(file, "/contact/slip_origin", contact.slip_origin);
     write(file, "/force/static", model.static_force);
-    write(file, "/force/cosine", RowMajor(model.cosine_force));
-    write(file, "/force/sine", RowMajor(model.sine_force));
-    write(file, "/output/vectors", RowMajor(model.output_vectors));
+    write(file, "/force/cosine", model.cosine_force);
+    write(file, "/force/sine", model.sine_force);
+    write(file, "/output/vectors", model.output_vectors);
     file.write("/output/names", model.output_names);
   });
 }
