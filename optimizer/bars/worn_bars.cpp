@@ -62,10 +62,10 @@ LeftOpen worn_otherwise(const CandidateResult& result, const wear::WornChange& d
 void add_worn_bars(const Scene& scene, const CandidateResult& result, Bars& bars) {
   const wear::Asymptote& asymptote = *result.asymptote;
   if (const double moved = result.evaluation.model.at("contact_edges_moved_share"); moved > 0)
-    bars.add("edge",
-             worn_otherwise(
-                 result, wear::width_changed_by(moved, {.volume = asymptote.worn_volume, .depth = asymptote.largest_depth}),
-                 moved < 1));
+    bars.add("edge", worn_otherwise(result,
+                                    wear::width_changed_by(
+                                        moved, {.volume = asymptote.worn_volume, .depth = asymptote.largest_depth}),
+                                    moved < 1));
   if (const wear::WornChange doubt = left_in_doubt(result.model.cells, asymptote); doubt.volume > 0)
     bars.add("history", worn_otherwise(result, doubt, asymptote.confirmed_by_history));
   if (const wear::OtherState* other = rival(asymptote)) {
