@@ -56,6 +56,9 @@ function(dovetail_library name)
     set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
     if(DOVETAIL_PRECOMPILE)
       target_precompile_headers(${target} REUSE_FROM dovetail_precompiled)
+      # Headers and templates are read once for five files; a file that cannot share names with its neighbours says
+      # SKIP_UNITY_BUILD_INCLUSION.
+      set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 5)
     endif()
   else()
     add_library(${target} INTERFACE)

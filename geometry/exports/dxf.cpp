@@ -10,12 +10,11 @@
 
 #include "core/errors.hpp"
 #include "core/replace_file.hpp"
+#include "geometry/exports/millimetres.hpp"
 
 namespace dovetail::geometry {
 
 namespace {
-
-constexpr double kPerMillimetre = 1e3;
 
 /// Direction of a point seen from an arc's centre, degrees in [0, 360).
 double direction(const Eigen::Vector2d& from) {

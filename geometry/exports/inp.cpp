@@ -13,12 +13,12 @@
 #include "core/replace_file.hpp"
 #include "geometry/exports/inp_layer.hpp"
 #include "geometry/exports/inp_mesh.hpp"
+#include "geometry/exports/millimetres.hpp"
 
 namespace dovetail::geometry {
 
 namespace {
 
-constexpr double kPerMillimetre = 1e3;
 constexpr double kMegapascal = 1e-6;       // per Pa
 constexpr double kTonnePerMm3 = 1e-12;     // per kg/m^3
 constexpr double kMegapascalPerMm = 1e-9;  // per Pa/m

@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/exports/millimetres.hpp"
+
 namespace dovetail::geometry {
 
 namespace {
-
-constexpr double kPerMillimetre = 1e3;
 
 /// Where the deck's node k stands in our order: CPE6 as it is, C3D15 from the 18 nodes (bottom corners, top corners,
 /// bottom edges, top edges, upright edges).

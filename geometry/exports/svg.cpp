@@ -7,13 +7,12 @@
 #include <numbers>
 
 #include "core/replace_file.hpp"
+#include "geometry/exports/millimetres.hpp"
 #include "geometry/profile/measures.hpp"
 
 namespace dovetail::geometry {
 
 namespace {
-
-constexpr double kPerMillimetre = 1e3;
 
 /// Nanometres are finer than any drawing.
 std::string number(double metres) {

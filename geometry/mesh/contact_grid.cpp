@@ -5,14 +5,11 @@
 #include <cmath>
 #include <iterator>
 
+#include "geometry/mesh/index.hpp"
 #include "geometry/mesh/params.hpp"
 
 namespace dovetail::geometry {
 namespace {
-
-std::size_t index(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// The part between `node` and `node + 1` a point is in, and its fraction there.
 struct Place {

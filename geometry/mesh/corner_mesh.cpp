@@ -7,6 +7,7 @@
 
 #include "core/errors.hpp"
 #include "geometry/mesh/contact_grid.hpp"
+#include "geometry/mesh/index.hpp"
 #include "geometry/mesh/params.hpp"
 #include "geometry/mesh/size_field.hpp"
 #include "geometry/mesh/triangulation.hpp"
@@ -15,10 +16,6 @@ namespace dovetail::geometry {
 namespace {
 
 using Eigen::Vector2d;
-
-std::size_t index(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 bool is_aerofoil(const Edge& e) {
   return e.name.starts_with("aerofoil") && !e.is_arc();

@@ -11,7 +11,7 @@
 namespace dovetail::geometry {
 namespace {
 
-constexpr FractionParams kParams = {};
+constexpr FractionParams kFraction = {};
 
 /// Where small edges are wanted, fractions of the length; the other end has its mirror image.
 struct Zone {
@@ -21,7 +21,7 @@ struct Zone {
 /// Around the beginning of a rounding.
 Zone rounding_zone(const FlankParameters& flank, double length) {
   const double w = rounded_length(flank.edge_radius) / length;
-  return {.from = kParams.zone_from * w, .to = kParams.zone_to * w, .core = kParams.core * w};
+  return {.from = kFraction.zone_from * w, .to = kFraction.zone_to * w, .core = kFraction.core * w};
 }
 
 std::vector<Zone> zones(const ProfileParameters& reference, double grading) {
@@ -33,14 +33,14 @@ std::vector<Zone> zones(const ProfileParameters& reference, double grading) {
   return found;
 }
 
-/// [kParams.samples + 1] integral of 1/h from 0 to i/(2 kParams.samples), no h above `largest`.
+/// [kFraction.samples + 1] integral of 1/h from 0 to i/(2 kFraction.samples), no h above `largest`.
 std::vector<double> integral(const std::vector<Zone>& zones, double largest) {
   std::vector<double> sum{0};
-  for (int i = 0; i < kParams.samples; ++i) {
-    const double s = 0.5 * (i + 0.5) / kParams.samples;
+  for (int i = 0; i < kFraction.samples; ++i) {
+    const double s = 0.5 * (i + 0.5) / kFraction.samples;
     double h = largest;
     for (const Zone& z : zones) h = std::min(h, z.core + std::max({0.0, z.from - s, s - z.to}));
-    sum.push_back(sum.back() + 0.5 / kParams.samples / h);
+    sum.push_back(sum.back() + 0.5 / kFraction.samples / h);
   }
   return sum;
 }
@@ -50,12 +50,12 @@ std::vector<double> bounded_integral(const std::vector<Zone>& zones) {
   double high = std::numeric_limits<double>::infinity();
   for (const Zone& z : zones) high = std::min(high, z.core + std::max(0.0, 0.5 - z.to));  // in the middle
   std::vector<double> sum = integral(zones, high);
-  if (2 * sum.back() * high <= kParams.longest) return sum;
+  if (2 * sum.back() * high <= kFraction.longest) return sum;
   double low = 0;
-  for (int k = 0; k < kParams.halvings; ++k) {
+  for (int k = 0; k < kFraction.halvings; ++k) {
     const double middle = (low + high) / 2;
     sum = integral(zones, middle);
-    (2 * sum.back() * middle > kParams.longest ? high : low) = middle;
+    (2 * sum.back() * middle > kFraction.longest ? high : low) = middle;
   }
   return sum;
 }
@@ -72,8 +72,8 @@ std::vector<double> flank_fractions(const ProfileParameters& reference, const Me
     return rounded ? bounded_integral(wanted) : integral(wanted, std::numeric_limits<double>::infinity());
   };
   std::vector<double> sum = integrated();
-  while (2 * sum.back() > kParams.steepest * parts) {
-    for (Zone& z : wanted) z.core *= kParams.widening;
+  while (2 * sum.back() > kFraction.steepest * parts) {
+    for (Zone& z : wanted) z.core *= kFraction.widening;
     sum = integrated();
   }
   std::vector<double> fractions(static_cast<std::size_t>(parts) + 1);
@@ -82,7 +82,7 @@ std::vector<double> flank_fractions(const ProfileParameters& reference, const Me
     const double target = sum.back() * 2 * k / parts;
     const auto above = std::lower_bound(sum.begin() + 1, sum.end() - 1, target);
     const double inside = (target - *(above - 1)) / (*above - *(above - 1));
-    const double s = 0.5 * (static_cast<double>(above - sum.begin()) - 1 + inside) / kParams.samples;
+    const double s = 0.5 * (static_cast<double>(above - sum.begin()) - 1 + inside) / kFraction.samples;
     fractions[static_cast<std::size_t>(parts - k)] = 1 - s;
     fractions[static_cast<std::size_t>(k)] = 2 * k == parts ? 0.5 : s;
   }

@@ -8,6 +8,7 @@
 
 #include "geometry/mesh/contact_grid.hpp"
 #include "geometry/mesh/flank_fractions.hpp"
+#include "geometry/mesh/index.hpp"
 #include "geometry/profile/fillet_share.hpp"
 #include "geometry/profile/flank_form.hpp"
 
@@ -15,10 +16,6 @@ namespace dovetail::geometry {
 namespace {
 
 using Eigen::Vector2d;
-
-std::size_t index(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 std::size_t position(const Chain& chain, const std::string& name) {
   const auto found = std::find_if(chain.begin(), chain.end(), [&](const Edge& e) { return e.name == name; });

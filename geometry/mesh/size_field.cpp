@@ -9,7 +9,7 @@
 namespace dovetail::geometry {
 namespace {
 
-constexpr SizeParams kParams = {};
+constexpr SizeParams kSize = {};
 
 struct Segment {
   Eigen::Vector2d start, end;
@@ -19,7 +19,7 @@ struct Segment {
 std::vector<Segment> polyline(const Chain& chain) {
   std::vector<Segment> segments;
   for (const Edge& e : chain) {
-    const int parts = e.is_arc() ? kParams.arc_parts : 1;
+    const int parts = e.is_arc() ? kSize.arc_parts : 1;
     for (int i = 0; i < parts; ++i)
       segments.push_back({e.point(static_cast<double>(i) / parts), e.point(static_cast<double>(i + 1) / parts), &e});
   }
@@ -35,7 +35,7 @@ double wall_behind(const Eigen::Vector2d& x, const Eigen::Vector2d& d, const Edg
     const Eigen::Vector2d along = s.end - s.start;
     const Eigen::Vector2d to_start = s.start - x;
     const double determinant = along.x() * d.y() - along.y() * d.x();
-    if (std::abs(determinant) <= kParams.parallel * along.norm()) continue;
+    if (std::abs(determinant) <= kSize.parallel * along.norm()) continue;
     const double distance = (along.x() * to_start.y() - along.y() * to_start.x()) / determinant;
     const double position = (d.x() * to_start.y() - d.y() * to_start.x()) / determinant;
     if (distance > 0 && position >= 0 && position <= 1) nearest = std::min(nearest, distance);
@@ -47,7 +47,7 @@ double wanted_on(const Edge& e, const MeshSizes& sizes) {
   if (!e.is_arc()) return sizes.bulk_size;
   const auto named = [&e](const char* part) { return e.name.find(part) != std::string::npos; };
   if (named("blend")) return sizes.blend_fraction * e.radius;
-  return (named("fillet") ? 1 : kParams.other_arcs) * sizes.fillet_fraction * e.radius;
+  return (named("fillet") ? 1 : kSize.other_arcs) * sizes.fillet_fraction * e.radius;
 }
 
 }  // namespace
@@ -84,7 +84,7 @@ SizeField element_sizes(const Chain& chain, const MeshSizes& sizes, const std::v
       const double fraction = (i + 0.5) / samples;
       const Eigen::Vector2d t = e.tangent(fraction);
       const Eigen::Vector2d x = e.point(fraction);
-      field.add_source(x, kParams.wall * wall_behind(x, {-t.y(), t.x()}, e, boundary));
+      field.add_source(x, kSize.wall * wall_behind(x, {-t.y(), t.x()}, e, boundary));
     }
   }
   return field;

@@ -14,6 +14,7 @@
 
 #include "core/errors.hpp"
 #include "core/options.hpp"
+#include "geometry/mesh/index.hpp"
 #include "geometry/mesh/params.hpp"
 
 namespace dovetail::geometry {
@@ -28,11 +29,7 @@ using Delaunay =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
                                                CGAL::No_constraint_intersection_tag>;
 
-constexpr FillingParams kParams = {};
-
-std::size_t index(int i) {
-  return static_cast<std::size_t>(i);
-}
+constexpr FillingParams kFilling = {};
 
 double cross(const Vector2d& a, const Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -46,13 +43,13 @@ class Filling {
   }
 
   Triangulation run() {
-    for (int round = 0; round < kParams.rounds; ++round) {
+    for (int round = 0; round < kFilling.rounds; ++round) {
       while (insert_circumcentres()) {
       }
-      for (int i = 0; i < kParams.relaxations; ++i) relax();
+      for (int i = 0; i < kFilling.relaxations; ++i) relax();
       thin_out();
     }
-    for (int i = 0; i < kParams.relaxations; ++i) relax();
+    for (int i = 0; i < kFilling.relaxations; ++i) relax();
     std::vector<std::array<int, 3>> elements = triangles();
     reject_lost_walls(elements);
     improve_worst(elements);
@@ -173,14 +170,14 @@ class Filling {
       const Vector2d center = at(i) + offset;
       const double size = size_(center);
       const double excess = std::sqrt(3.0) * offset.norm() / size;
-      if (excess > kParams.too_large) candidates.push_back({excess, center, size});
+      if (excess > kFilling.too_large) candidates.push_back({excess, center, size});
     }
     std::stable_sort(candidates.begin(), candidates.end(),
                      [](const Candidate& a, const Candidate& b) { return a.excess > b.excess; });
     const int before = count();
     for (const Candidate& c : candidates)
-      if (!crowded(c.center, kParams.clearance * c.size) && inside(c.center) &&
-          wall_distance(c.center) > kParams.wall_clearance * c.size)
+      if (!crowded(c.center, kFilling.clearance * c.size) && inside(c.center) &&
+          wall_distance(c.center) > kFilling.wall_clearance * c.size)
         points_.push_back(c.center);
     return count() > before;
   }
@@ -208,10 +205,10 @@ class Filling {
     std::vector<Vector2d> kept(points_.begin(), points_.begin() + walls_);
     for (int i = walls_; i < count(); ++i) {
       const double size = size_(at(i));
-      const double squared = kParams.crowded * kParams.crowded * size * size;
+      const double squared = kFilling.crowded * kFilling.crowded * size * size;
       const bool free = std::none_of(kept.begin(), kept.end(),
                                      [&](const Vector2d& p) { return (p - at(i)).squaredNorm() < squared; });
-      if (free && inside(at(i)) && wall_distance(at(i)) > kParams.wall_crowded * size) kept.push_back(at(i));
+      if (free && inside(at(i)) && wall_distance(at(i)) > kFilling.wall_crowded * size) kept.push_back(at(i));
     }
     points_ = std::move(kept);
   }
@@ -228,7 +225,7 @@ class Filling {
     std::vector<std::vector<int>> around(points_.size());
     for (std::size_t e = 0; e < elements.size(); ++e)
       for (int i : elements[e]) around[static_cast<std::size_t>(i)].push_back(static_cast<int>(e));
-    for (int sweep = 0; sweep < kParams.sweeps; ++sweep)
+    for (int sweep = 0; sweep < kFilling.sweeps; ++sweep)
       for (std::size_t i = static_cast<std::size_t>(walls_); i < points_.size(); ++i) {
         const auto worst = [&] {
           double value = 1;
@@ -236,11 +233,11 @@ class Filling {
           return value;
         };
         double best = worst();
-        if (best > kParams.good) continue;
+        if (best > kFilling.good) continue;
         Vector2d place = points_[i];
-        const double step = kParams.step * size_(place) / (1 + sweep);
-        for (int direction = 0; direction < kParams.directions; ++direction) {
-          const double angle = 2 * direction * std::numbers::pi / kParams.directions;
+        const double step = kFilling.step * size_(place) / (1 + sweep);
+        for (int direction = 0; direction < kFilling.directions; ++direction) {
+          const double angle = 2 * direction * std::numbers::pi / kFilling.directions;
           const Vector2d origin = place;
           points_[i] = origin + step * Vector2d(std::cos(angle), std::sin(angle));
           if (const double value = worst(); value > best) {

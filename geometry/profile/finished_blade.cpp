@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr FinishedParams kParams = {};
+constexpr FinishedParams kFinished = {};
 
 /// Out of the material.
 Vector2d outward(const Edge& e, double fraction) {
@@ -37,7 +37,7 @@ class FinishedFlank {
     }
     double from = 0;
     for (double border : borders)
-      if ((border - from) * flank_.length() > kParams.shortest) {
+      if ((border - from) * flank_.length() > kFinished.shortest) {
         append(chain, from, border == borders.back() ? 1.0 : border, 0);
         from = border;
       }
@@ -49,9 +49,9 @@ class FinishedFlank {
   void append(Chain& chain, double from, double to, int depth) const {
     const double middle = (from + to) / 2;
     Edge fit = line({}, point(from), point(to));
-    if ((point(middle) - fit.point(0.5)).norm() > kParams.straight)
+    if ((point(middle) - fit.point(0.5)).norm() > kFinished.straight)
       fit = arc_through({}, point(from), point(middle), point(to));
-    if (depth < kParams.halvings && error(fit, from, to) > kParams.error / 2) {
+    if (depth < kFinished.halvings && error(fit, from, to) > kFinished.error / 2) {
       append(chain, from, middle, depth + 1);
       append(chain, middle, to, depth + 1);
     } else {
@@ -62,8 +62,8 @@ class FinishedFlank {
   /// Largest distance of the form from the edge that stands for it.
   [[nodiscard]] double error(const Edge& fit, double from, double to) const {
     double largest = 0;
-    for (int i = 1; i < kParams.places; ++i) {
-      const Vector2d at = point(from + (to - from) * i / kParams.places);
+    for (int i = 1; i < kFinished.places; ++i) {
+      const Vector2d at = point(from + (to - from) * i / kFinished.places);
       const double distance =
           fit.is_arc() ? (at - fit.center).norm() - fit.radius : (at - fit.start).dot(outward(fit, 0));
       largest = std::max(largest, std::abs(distance));

@@ -15,7 +15,7 @@ namespace dovetail::geometry {
 namespace {
 
 using Eigen::Vector2d;
-constexpr RuleParams kParams = {};
+constexpr RuleParams kRule = {};
 
 /// Least determinant over the platform's top from the blend's foot at x to the side, at the slot's end at z.
 double least_stretch(const ProfileParameters& p, const SolidParameters& solid, double foot, double z) {
@@ -23,8 +23,8 @@ double least_stretch(const ProfileParameters& p, const SolidParameters& solid, d
   const double s = std::sin(solid.stagger), c = std::cos(solid.stagger), slot = std::tan(solid.skew_angle);
   const double chord = p.chord / p.slot_length;
   double least = kInfinity;
-  for (int k = 0; k <= kParams.places; ++k) {
-    const double x = foot + (side - foot) * k / kParams.places, weight = fall * (x - side);
+  for (int k = 0; k <= kRule.places; ++k) {
+    const double x = foot + (side - foot) * k / kRule.places, weight = fall * (x - side);
     Eigen::Matrix2d change;
     change << 1 + weight * (c - 1) + fall * (z * (chord * s - slot) + x * (c - 1)), slot + weight * (chord * s - slot),
         fall * z * (chord * c - 1) - (weight * weight + 2 * weight * fall * x) * s, 1 + weight * (chord * c - 1);
@@ -37,12 +37,12 @@ void platform(RuleList& rules, const Profile& profile, const ProfileParameters& 
   const double foot = edge(profile.blade, "platform_top_right").end.x(), width = p.platform_width / 2 - foot;
   const double off = p.chord / 2 * std::abs(std::sin(solid.stagger - solid.skew_angle)) / std::cos(solid.skew_angle);
   rules.at_least("aerofoil_on_platform", "the width of the platform beside the aerofoil's edge", width - off,
-                 width / kParams.beside, "as a fifth of that in mid-chord");
+                 width / kRule.beside, "as a fifth of that in mid-chord");
   rules.share_at_least(
       "platform_follows_aerofoil",
       "the least area of a piece of the platform beside the aerofoil against that without angles",
       std::min(least_stretch(p, solid, foot, p.slot_length / 2), least_stretch(p, solid, foot, -p.slot_length / 2)),
-      kParams.stretch, "for the platform not to fold");
+      kRule.stretch, "for the platform not to fold");
 }
 
 /// Distances to the cuts where the skew makes them smallest. Below the rim the slot moves further than the cuts, the

@@ -9,6 +9,8 @@
 #include <limits>
 #include <vector>
 
+#include "geometry/mesh/index.hpp"
+
 namespace dovetail::geometry {
 namespace {
 
@@ -16,10 +18,6 @@ using Eigen::Vector2d;
 
 /// In place of values that are to be found.
 constexpr double kFree = std::numeric_limits<double>::quiet_NaN();
-
-std::size_t index(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// 0 where the sweep of the root holds.
 std::vector<double> held_root(const CornerMesh& mesh, const Chain& chain) {

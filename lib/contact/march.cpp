@@ -10,7 +10,7 @@
 namespace dovetail::contact {
 namespace {
 
-constexpr SettlingParams kParams;
+constexpr SettlingParams kSettling;
 
 // Aitken's limit of a geometric sequence of slip states from its last two changes. Its ratio; 0 when it is not one.
 template <int Directions>
@@ -44,7 +44,7 @@ Scale scale_of(const double* prediction, const NodeLaw& law, int samples) {
   }
   if (limit <= 0) limit = largest_force;
   return {.limit = limit,
-          .rounding = std::max(kParams.rounding * limit, kParams.rounding / kParams.errors * largest_force)};
+          .rounding = std::max(kSettling.rounding * limit, kSettling.rounding / kSettling.errors * largest_force)};
 }
 
 /// One period from `memory`. `reset`: the last sample, counted from the beginning of the march, whose state does not
@@ -119,7 +119,7 @@ void march_node(const double* prediction, const NodeLaw& law, const MarchOptions
     // Slip that dies out geometrically is as far from its orbit as the changes still to come: their sum counts. What an
     // extrapolation stirs up dies out faster than what it was made for, of which a little is left.
     double rest = largest;
-    if (Directions == 2 && largest > kParams.errors * rounding) {
+    if (Directions == 2 && largest > kSettling.errors * rounding) {
       const double ratio = largest_before > 0 ? std::max(largest / largest_before, slowest) : 1;
       rest = ratio < 1 ? largest * std::max(1.0, ratio / (1 - ratio)) : kInfinity;
     }
@@ -136,8 +136,8 @@ void march_node(const double* prediction, const NodeLaw& law, const MarchOptions
       result.start.orbit = before;
       break;
     }
-    if (Directions == 2 && may_extrapolate && result.periods >= kParams.patience &&
-        result.periods % kParams.interval == 0 && result.periods < periods) {
+    if (Directions == 2 && may_extrapolate && result.periods >= kSettling.patience &&
+        result.periods % kSettling.interval == 0 && result.periods < periods) {
       const double ratio = extrapolate<Directions>(change, change_before, memory);
       if (ratio > 0) {
         result.extrapolated = true;

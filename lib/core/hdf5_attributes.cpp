@@ -19,27 +19,27 @@ std::string key(const std::string& object, const std::string& name) {
   return "attribute " + name + " of " + object;
 }
 
-constexpr const char* kUnwritable = "cannot be written: the object is missing, or the disk is full";
+constexpr const char* kAttributeUnwritable = "cannot be written: the object is missing, or the disk is full";
 
 }  // namespace
 
 void File::write_attribute(const std::string& object, const std::string& name, double value) {
   const Quiet quiet;
   if (!write_value(handle_, object, name, Kind<double>::in_file(), Kind<double>::in_memory(), &value))
-    fail(key(object, name), {}, kUnwritable);
+    fail(key(object, name), {}, kAttributeUnwritable);
 }
 
 void File::write_attribute(const std::string& object, const std::string& name, std::int64_t value) {
   const Quiet quiet;
   if (!write_value(handle_, object, name, Kind<std::int64_t>::in_file(), Kind<std::int64_t>::in_memory(), &value))
-    fail(key(object, name), {}, kUnwritable);
+    fail(key(object, name), {}, kAttributeUnwritable);
 }
 
 void File::write_attribute(const std::string& object, const std::string& name, const std::string& value) {
   const Quiet quiet;
   const Handle type = string_type();
   const char* pointer = value.c_str();
-  if (!write_value(handle_, object, name, type, type, &pointer)) fail(key(object, name), {}, kUnwritable);
+  if (!write_value(handle_, object, name, type, type, &pointer)) fail(key(object, name), {}, kAttributeUnwritable);
 }
 
 bool File::has_attribute(const std::string& object, const std::string& name) const {

@@ -13,7 +13,7 @@
 namespace dovetail::dynamics {
 namespace {
 
-constexpr CondensationParams kParams = {};
+constexpr CondensationParams kCondensation = {};
 
 Eigen::MatrixXd symmetric(const Eigen::MatrixXd& matrix) {
   return (matrix + matrix.transpose()) / 2;
@@ -54,7 +54,7 @@ CondensedModel::CondensedModel(const reduction::ReducedModel& model) {
   mass_ = split(model.mass);
   damping_ = split(model.damping);
   stiffness_ = split(model.stiffness);
-  const double rounding = kParams.massless * model.mass.cwiseAbs().maxCoeff();
+  const double rounding = kCondensation.massless * model.mass.cwiseAbs().maxCoeff();
   massless_contact_ = (mass_.cc.size() == 0 || mass_.cc.cwiseAbs().maxCoeff() <= rounding) &&
                       (mass_.ci.size() == 0 || mass_.ci.cwiseAbs().maxCoeff() <= rounding);
   diagonalise();
@@ -124,19 +124,20 @@ void CondensedModel::diagonalise() {
   const Eigen::MatrixXd& m = mass_.ii;
   const Eigen::MatrixXd& c = damping_.ii;
   const Eigen::MatrixXd& k = stiffness_.ii;
-  const bool already =
-      m.isDiagonal(kParams.diagonal) && c.isDiagonal(kParams.diagonal) && k.isDiagonal(kParams.diagonal);
+  const bool already = m.isDiagonal(kCondensation.diagonal) && c.isDiagonal(kCondensation.diagonal) &&
+                       k.isDiagonal(kCondensation.diagonal);
   if (!already) {
     // Both the mass and the stiffness metric may be singular; the first that is definite serves.
-    const bool by_mass = numerics::DenseCholesky(m).reciprocal_condition() > kParams.mass_metric;
-    const bool by_stiffness = !by_mass && numerics::DenseCholesky(k).reciprocal_condition() > kParams.stiffness_metric;
+    const bool by_mass = numerics::DenseCholesky(m).reciprocal_condition() > kCondensation.mass_metric;
+    const bool by_stiffness =
+        !by_mass && numerics::DenseCholesky(k).reciprocal_condition() > kCondensation.stiffness_metric;
     if (by_mass || by_stiffness) {
       const numerics::SymmetricPairs pairs = numerics::all_pairs<double>(by_mass ? k : m, by_mass ? m : k);
       if (pairs.status == Status::converged) basis_ = pairs.vectors;
     }
     const Eigen::MatrixXd damping = numerics::congruent(c, basis_);
     const Eigen::VectorXd scale = damping.diagonal().cwiseAbs();
-    modal_ = (by_mass || by_stiffness) && is_diagonal(damping, scale, kParams.modal_damping);
+    modal_ = (by_mass || by_stiffness) && is_diagonal(damping, scale, kCondensation.modal_damping);
     set_glued_frequencies(numerics::congruent(m, basis_), numerics::congruent(k, basis_));
     if (!modal_) basis_ = Eigen::MatrixXd::Identity(ni, ni);
   } else {
@@ -153,17 +154,17 @@ void CondensedModel::diagonalise() {
 // Coordinates without mass follow statically however high the harmonic (unless they are damped).
 void CondensedModel::subtract_massless_coordinates() {
   if (modal_) {
-    const double limit = kParams.massless * mass_.ii.maxCoeff();
+    const double limit = kCondensation.massless * mass_.ii.maxCoeff();
     for (Eigen::Index j = 0; j < mass_.ii.rows(); ++j)
       if (mass_.ii(j, 0) <= limit && stiffness_.ii(j, 0) > 0)
         local_stiffness_ -= stiffness_.ci.col(j).cwiseAbs2() / stiffness_.ii(j, 0);
     return;
   }
-  if (numerics::DenseCholesky(mass_.ii).reciprocal_condition() > kParams.mass_metric) return;
+  if (numerics::DenseCholesky(mass_.ii).reciprocal_condition() > kCondensation.mass_metric) return;
   const numerics::SymmetricPairs mass = numerics::all_pairs<double>(mass_.ii);
   if (mass.status != Status::converged) return;
   const Eigen::VectorXd& values = mass.values;
-  const Eigen::Index count = (values.array() <= kParams.massless * values.cwiseAbs().maxCoeff()).count();
+  const Eigen::Index count = (values.array() <= kCondensation.massless * values.cwiseAbs().maxCoeff()).count();
   const Eigen::MatrixXd massless = mass.vectors.leftCols(count);  // ascending eigenvalues
   const numerics::DenseCholesky stiffness(numerics::congruent(stiffness_.ii, massless));
   if (count == 0 || stiffness.status() != Status::converged) return;
@@ -173,7 +174,7 @@ void CondensedModel::subtract_massless_coordinates() {
 
 void CondensedModel::set_glued_frequencies(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& stiffness) {
   std::vector<double> found;
-  const double smallest = kParams.massless * mass.diagonal().maxCoeff();
+  const double smallest = kCondensation.massless * mass.diagonal().maxCoeff();
   for (Eigen::Index j = 0; j < mass.rows(); ++j)
     if (mass(j, j) > smallest && stiffness(j, j) >= 0) found.push_back(std::sqrt(stiffness(j, j) / mass(j, j)));
   std::sort(found.begin(), found.end());

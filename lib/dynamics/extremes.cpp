@@ -9,7 +9,7 @@
 namespace dovetail::dynamics {
 namespace {
 
-constexpr ExtremesParams kParams = {};
+constexpr ExtremesParams kExtremes = {};
 
 struct Value {
   double value = 0, first = 0, second = 0;
@@ -30,12 +30,12 @@ Value evaluate(const Eigen::Ref<const Eigen::VectorXd>& a, double tau) {
 double stationary(const Eigen::Ref<const Eigen::VectorXd>& a, double lower, double upper) {
   const bool rising = evaluate(a, lower).first > 0;
   double tau = (lower + upper) / 2;
-  for (int i = 0; i < kParams.iterations && upper - lower > kParams.angle; ++i) {
+  for (int i = 0; i < kExtremes.iterations && upper - lower > kExtremes.angle; ++i) {
     const Value v = evaluate(a, tau);
     ((v.first > 0) == rising ? lower : upper) = tau;
     double next = v.second != 0 ? tau - v.first / v.second : lower;
     if (!(next > lower && next < upper)) next = (lower + upper) / 2;
-    if (std::abs(next - tau) < kParams.angle) return next;
+    if (std::abs(next - tau) < kExtremes.angle) return next;
     tau = next;
   }
   return tau;
@@ -47,7 +47,7 @@ Extremes extremes(const Eigen::Ref<const Eigen::VectorXd>& coefficients) {
   const Eigen::Index harmonics = coefficients.size() / 2;
   Extremes result{.minimum = coefficients(0), .maximum = coefficients(0)};
   if (harmonics == 0 || coefficients.tail(2 * harmonics).isZero(0)) return result;
-  const Eigen::Index grid = kParams.places * harmonics;
+  const Eigen::Index grid = kExtremes.places * harmonics;
   const double width = 2 * std::numbers::pi / static_cast<double>(grid);
   const double huge = std::numeric_limits<double>::infinity();
   result.minimum = huge;

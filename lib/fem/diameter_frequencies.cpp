@@ -19,7 +19,7 @@ namespace {
 
 using Complex = std::complex<double>;
 using Sparse = Eigen::SparseMatrix<double>;
-constexpr DiameterBasisParams kParams = {};
+constexpr DiameterBasisParams kDiameterBasis = {};
 
 /// A(phase) = A0 + e^{i phase} A1 + e^{-i phase} A1^T over the internal dofs.
 struct PhaseMatrix {
@@ -33,7 +33,7 @@ std::pair<Sparse, Sparse> transformation_parts(const SectorMesh& sector, BoreSup
   const Eigen::SparseMatrix<Complex> glued = one.transformation.leftCols(one.internal_count);
   const Sparse turning = Sparse(glued.imag()) / std::sin(phase);
   const Sparse constant = Sparse(glued.real()) - std::cos(phase) * turning;
-  return {constant.pruned(1.0, kParams.rounding), turning.pruned(1.0, kParams.rounding)};
+  return {constant.pruned(1.0, kDiameterBasis.rounding), turning.pruned(1.0, kDiameterBasis.rounding)};
 }
 
 PhaseMatrix phase_matrix(const Sparse& full, const Sparse& a, const Sparse& b) {
@@ -91,7 +91,7 @@ class RitzBasis {
     for (int pass = 0; pass < 2; ++pass)
       if (basis_.cols() > 0) direction -= basis_ * (basis_.transpose() * direction);
     const double left = direction.norm();
-    if (left < kParams.fresh) return;
+    if (left < kDiameterBasis.fresh) return;
     basis_.conservativeResize(direction.size(), basis_.cols() + 1);
     basis_.col(basis_.cols() - 1) = direction / left;
   }
@@ -137,7 +137,7 @@ class Diameters {
   NodalDiameterFrequencies run() {
     const std::size_t count = result_.nodal_diameters.size();
     // Two samples and one between are worth a basis; one or two sectors have no phase to follow.
-    const bool ritz = options_.tolerance > 0 && count > kParams.few && sector_.sectors > 2;
+    const bool ritz = options_.tolerance > 0 && count > kDiameterBasis.few && sector_.sectors > 2;
     if (ritz) basis_.emplace(sector_, stiffness_, mass_, bore_);
     if (!ritz) {
       for (std::size_t k = 0; k < count; ++k) solve(k);

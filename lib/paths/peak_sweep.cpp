@@ -19,7 +19,7 @@ std::vector<std::size_t> summits(const branches::Branch& branch, Eigen::Index ou
   return found;
 }
 
-constexpr PeakSweepParams kParams;
+constexpr PeakSweepParams kPeakSweep;
 
 }  // namespace
 
@@ -30,17 +30,18 @@ std::optional<steady::State> climb(const branches::Equations& equations, const s
   double height = from.amplitudes(options.output);
   Peak peak;
   // Where the branch turns away from where it led at the start, the climb begins anew.
-  for (int i = 0; i < kParams.climbs; ++i) {
+  for (int i = 0; i < kPeakSweep.climbs; ++i) {
     peak = find_peak(equations, start, metric,
                      {.output = options.output, .frequency_tolerance = options.frequency_tolerance});
     ++work.solves;
     work.jacobians += peak.iterations;
     const bool ended = peak.status != Status::stalled && peak.status != Status::iteration_limit;
-    if (ended || peak.amplitude < (1 + kParams.gain) * height) break;
+    if (ended || peak.amplitude < (1 + kPeakSweep.gain) * height) break;
     height = peak.amplitude;
     start = peak.at;
   }
-  if (peak.status != Status::converged || peak.amplitude < kParams.height * from.amplitudes(options.output)) return {};
+  if (peak.status != Status::converged || peak.amplitude < kPeakSweep.height * from.amplitudes(options.output))
+    return {};
   steady::State state = described(equations, peak, metric);
   if (state.status != Status::converged || !state.tangent) return {};
   return state;
@@ -48,7 +49,7 @@ std::optional<steady::State> climb(const branches::Equations& equations, const s
 
 Resonance peak_sweep(const steady::Joint& joint, double omega_from, double omega_to,
                      const ResonanceOptions& resonance_options) {
-  branches::FollowOptions coarse = kParams.steps;
+  branches::FollowOptions coarse = kPeakSweep.steps;
   coarse.max_jacobians = resonance_options.max_sweep_jacobians;
   steady::Joint without = joint, with = joint;
   without.options.linearise = false;
@@ -60,9 +61,9 @@ Resonance peak_sweep(const steady::Joint& joint, double omega_from, double omega
   const std::vector<std::size_t> candidates = summits(branch, resonance_options.output);
   if (branch.status == Status::converged) result.status = Status::no_bracket;
   const branches::Equations equations(with, branch.penalty_ratio);
-  for (std::size_t c = 0; c < std::min(candidates.size(), kParams.tried); ++c) {
+  for (std::size_t c = 0; c < std::min(candidates.size(), kPeakSweep.tried); ++c) {
     const steady::State& summit = branch.points[candidates[c]].state;
-    if (summit.amplitudes(resonance_options.output) < kParams.hopeless * result.amplitude) break;
+    if (summit.amplitudes(resonance_options.output) < kPeakSweep.hopeless * result.amplitude) break;
     // The points of the sweep have no tangents, which the width of the peak needs.
     const steady::State from = refined_state(with, summit);
     ++result.solves;

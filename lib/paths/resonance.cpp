@@ -12,7 +12,7 @@
 namespace dovetail::paths {
 namespace {
 
-constexpr ClosingInParams kParams;
+constexpr ClosingInParams kClosingIn;
 
 // A point of the response curve near its peak.
 struct Summit {
@@ -36,8 +36,8 @@ class PeakSearch {
     guess_ = guess;
     bool started = solved(joint_, start_);
     // At an undamped glued resonance the condensed stiffness has a pole: step beside it.
-    for (int i = 1; !started && i <= kParams.off_pole; ++i)
-      started = solved(joint_, start_ * (1 + kParams.off_pole_step * std::pow(10, i - 1) * (i % 2 ? 1 : -1)));
+    for (int i = 1; !started && i <= kClosingIn.off_pole; ++i)
+      started = solved(joint_, start_ * (1 + kClosingIn.off_pole_step * std::pow(10, i - 1) * (i % 2 ? 1 : -1)));
     if (!started) return finish(last_status_);
     Status status = closed_in();
     if (status != Status::converged && !cut_short(status))
@@ -55,17 +55,17 @@ class PeakSearch {
       const Stationarity::Mark here = mark();
       const double width = now_.at.width, tolerated = peak_.frequency_tolerance * now_.omega;
       double step = here.slope * width * width;
-      if (!near && (std::abs(step) <= kParams.near * width || here.slope * before.slope < 0)) {
-        near.emplace(-1 / (width * width), kParams.trust * width);
+      if (!near && (std::abs(step) <= kClosingIn.near * width || here.slope * before.slope < 0)) {
+        near.emplace(-1 / (width * width), kClosingIn.trust * width);
         if (before.omega > 0) near->add(before);
       }
       if (near) {
         near->add(here);
         step = near->step();
-        if (std::abs(step) <= kParams.part * tolerated || near->bracket() <= tolerated) return Status::converged;
+        if (std::abs(step) <= kClosingIn.part * tolerated || near->bracket() <= tolerated) return Status::converged;
         if (near->width() <= tolerated) return Status::no_bracket;  // the curve jumps to another branch there
       } else {
-        step = std::clamp(step, -kParams.longest * now_.omega, kParams.longest * now_.omega);
+        step = std::clamp(step, -kClosingIn.longest * now_.omega, kClosingIn.longest * now_.omega);
       }
       const double target = std::clamp(now_.omega + step, lowest_, highest_);
       if (target == now_.omega) return Status::no_bracket;
@@ -73,7 +73,7 @@ class PeakSearch {
       const int jacobians_before = result_.jacobians;
       if (!go(target)) return last_status_;
       // A curve that leans over has no maximum that steps in frequency could close in on: they fall off it.
-      if (now_.at.amplitude < before.amplitude && result_.jacobians - jacobians_before > kParams.hard)
+      if (now_.at.amplitude < before.amplitude && result_.jacobians - jacobians_before > kClosingIn.hard)
         return Status::no_bracket;
     }
     return Status::iteration_limit;
@@ -92,14 +92,14 @@ class PeakSearch {
   // not get there soon, half the way costs less than its rescues, and they may end on another branch: these come last.
   bool go(double omega) {
     steady::Joint cautious = joint_.with(joint_.options.plain());
-    cautious.options.max_iterations = std::min(kParams.hard, joint_.options.max_iterations);
+    cautious.options.max_iterations = std::min(kClosingIn.hard, joint_.options.max_iterations);
     const auto tried = [&](const steady::Joint& joint, int tries) {
       double target = omega;
       for (int i = 0; i < tries && !cut_short(last_status_); ++i, target = (target + now_.omega) / 2)
         if (solved(joint, target)) return true;
       return false;
     };
-    return (joint_.options.solver == "auto" && tried(cautious, kParams.cautious)) || tried(joint_, kParams.tries);
+    return (joint_.options.solver == "auto" && tried(cautious, kClosingIn.cautious)) || tried(joint_, kClosingIn.tries);
   }
 
   bool solved(const steady::Joint& joint, double omega) {
@@ -156,7 +156,7 @@ struct PeakStart {
 /// With many harmonics the way to the peak is found with half of them, at an eighth of the cost of a step; what is left
 /// is a short way on which Newton's method does not have to find out which nodes slip.
 PeakStart with_fewer_harmonics(steady::Joint joint, PeakStart start, const ResonanceOptions& peak) {
-  if (joint.options.harmonics < kParams.many_harmonics) return start;
+  if (joint.options.harmonics < kClosingIn.many_harmonics) return start;
   const Eigen::Index all = 2 * joint.options.harmonics + 1;
   joint.options.harmonics /= 2;
   const Eigen::Index few = 2 * joint.options.harmonics + 1;
@@ -178,13 +178,13 @@ PeakStart with_fewer_harmonics(steady::Joint joint, PeakStart start, const Reson
 /// beside it. One found with the pseudo-penalty asked for counts where it is no lower.
 void look_again(const steady::Joint& joint, const ResonanceOptions& peak, Resonance& found) {
   const double omega = found.omega;
-  for (const double start : {omega * (1 - kParams.beside), omega * (1 + kParams.beside)}) {
+  for (const double start : {omega * (1 - kClosingIn.beside), omega * (1 + kClosingIn.beside)}) {
     if (found.status != Status::converged || found.state.penalty_ratio == 1) return;
     Resonance other = PeakSearch(joint, peak, start).run({});
     other.solves += found.solves;
     other.jacobians += found.jacobians;
     const bool counts = other.status == Status::converged && other.state.penalty_ratio == 1 &&
-                        other.amplitude >= kParams.no_lower * found.amplitude;
+                        other.amplitude >= kClosingIn.no_lower * found.amplitude;
     if (counts)
       found = std::move(other);
     else

@@ -12,7 +12,7 @@ namespace dovetail::reduction {
 
 namespace {
 
-constexpr ResponseParams kParams = {};
+constexpr ResponseParams kResponse = {};
 
 // Linearly independent loads, each of unit length: cosine, sine and output vectors are often the same one.
 Eigen::MatrixXd independent_loads(const FullModel& full) {
@@ -23,7 +23,7 @@ Eigen::MatrixXd independent_loads(const FullModel& full) {
     if (loads.col(k).squaredNorm() > 0) loaded.push_back(k);
   Eigen::MatrixXd unit = loads(Eigen::all, loaded);
   unit.colwise().normalize();
-  return unit(Eigen::all, numerics::independent_columns(unit, kParams.dependent));
+  return unit(Eigen::all, numerics::independent_columns(unit, kResponse.dependent));
 }
 
 // Projects the M-component of `basis` out of `x`; twice, because once leaves what cancels.
@@ -53,7 +53,7 @@ Eigen::MatrixXd static_responses(const FullModel& full, const FloatingInverse& i
   for (Eigen::Index k = 0; k < x.cols() && count < kept.cols(); ++k) {
     // The part of the response beyond the modes, against the whole of it without the soft ones.
     const double energy = x.col(k).dot(full.stiffness * x.col(k));
-    if (!(energy > kParams.negligible * std::abs(whole(k)))) continue;
+    if (!(energy > kResponse.negligible * std::abs(whole(k)))) continue;
     Eigen::MatrixXd candidate = x.col(k);
     const double size = std::sqrt(std::max(0.0, candidate.col(0).dot(mass * candidate.col(0))));
     if (!(size > 0)) continue;
@@ -61,7 +61,7 @@ Eigen::MatrixXd static_responses(const FullModel& full, const FloatingInverse& i
     const Eigen::MatrixXd earlier = kept.leftCols(count);
     remove(earlier, mass * earlier, candidate);
     const double left = std::sqrt(std::max(0.0, candidate.col(0).dot(mass * candidate.col(0))));
-    if (left <= kParams.parallel) continue;
+    if (left <= kResponse.parallel) continue;
     kept.col(count++) = candidate / left;
   }
   return kept.leftCols(count);

@@ -14,7 +14,7 @@
 namespace dovetail::reduction {
 
 namespace {
-constexpr FloatingParams kParams = {};
+constexpr FloatingParams kFloating = {};
 }  // namespace
 
 FloatingInverse::FloatingInverse(const numerics::PartialCholesky& stiffness, const Eigen::SparseMatrix<double>& mass)
@@ -23,7 +23,7 @@ FloatingInverse::FloatingInverse(const numerics::PartialCholesky& stiffness, con
   const Eigen::Index contact = schur_inverse_.rows(), n = stiffness.size();
   // The largest row sum, a bound of the eigenvalues near the largest of them.
   const double largest = contact == 0 ? 0 : schur_inverse_.cwiseAbs().colwise().sum().maxCoeff();
-  const double threshold = kParams.rigid * largest;
+  const double threshold = kFloating.rigid * largest;
   const numerics::SymmetricPairs low = numerics::pairs_up_to(schur_inverse_, threshold);
   status_ = low.status;
   if (status_ != Status::converged) return;
@@ -80,7 +80,7 @@ FreeModes free_modes(const FloatingInverse& inverse, int count, Eigen::Index lim
   const numerics::ShiftInverse<double> operation{.rows = n,
                                                  .solve = [&](const Eigen::MatrixXd& b) { return inverse.apply(b); }};
   Eigen::Index wanted = std::min(std::max<Eigen::Index>(count - rigid, inverse.negative()), limit - rigid);
-  const Eigen::Index most = std::max(kParams.search_range * (wanted + 1), kParams.search_always);
+  const Eigen::Index most = std::max(kFloating.search_range * (wanted + 1), kFloating.search_always);
   FreeModes result;
   numerics::Modes<double> modes;
   std::vector<Eigen::Index> order;
@@ -88,7 +88,7 @@ FreeModes free_modes(const FloatingInverse& inverse, int count, Eigen::Index lim
     asked = std::min(asked, n);
     modes = numerics::nearest_modes(
         operation, mass,
-        {.count = static_cast<int>(asked), .tolerance = tolerance, .vector_limit = kParams.vector_limit});
+        {.count = static_cast<int>(asked), .tolerance = tolerance, .vector_limit = kFloating.vector_limit});
     result.status = modes.status;
     if (modes.status != Status::converged) return result;
     order = by_distance_from_zero(modes.eigenvalues);

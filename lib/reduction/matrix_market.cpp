@@ -73,9 +73,9 @@ std::string shown(std::string_view word) {
   return text;
 }
 
-class Reader {
+class MatrixReader {
  public:
-  Reader(const std::string& path, const std::string& text)
+  MatrixReader(const std::string& path, const std::string& text)
       : path_(path), text_(text), lines_(std::string_view(text).substr(std::min(text.find('\n'), text.size()))) {}
 
   Eigen::MatrixXd read() {
@@ -228,7 +228,7 @@ Eigen::MatrixXd read_matrix_market(const std::string& path) {
   if (!stream) refuse(errno != 0 ? std::strerror(errno) : "it does not open");
   const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   if (stream.bad()) refuse("reading failed");
-  return Reader(path, text).read();
+  return MatrixReader(path, text).read();
 }
 
 void write_matrix_market(const std::string& path, const Eigen::MatrixXd& matrix, const std::string& comment) {

@@ -4,15 +4,12 @@
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 
 #include "contact/sample_step.hpp"
 #include "stability/params.hpp"
 
 namespace dovetail::stability {
 namespace {
-
-constexpr double kPeriod = 2 * std::numbers::pi;
 
 // A zero of f between a and b; b when f does not change its sign.
 template <class Function>

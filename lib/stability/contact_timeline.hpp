@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <numbers>
 #include <vector>
 
 #include "contact/march.hpp"
@@ -10,6 +11,8 @@
 namespace dovetail::stability {
 
 using contact::SampleState;
+
+inline constexpr double kPeriod = 2 * std::numbers::pi;  ///< of tau
 
 /// A change of contact state of one node at tau in [0, 2 pi).
 struct ContactEvent {

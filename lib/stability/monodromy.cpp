@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "numerics/dense_lu.hpp"
@@ -9,8 +8,6 @@
 
 namespace dovetail::stability {
 namespace {
-
-constexpr double kPeriod = 2 * std::numbers::pi;
 
 // What a node does now. `touching`: it closes just now, d lambda_T = ratio d lambda_N.
 enum class Now { open, stuck, slipping, touching };

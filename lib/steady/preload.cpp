@@ -12,7 +12,7 @@ namespace dovetail::steady {
 namespace {
 
 constexpr contact::PenaltyParams kPenalty;
-constexpr PreloadParams kParams;
+constexpr PreloadParams kPreload;
 
 // The contact problem of harmonic 0 at one load level, with the slip of the level before.
 Attempt solve_level(const Joint& joint, double scale, const Eigen::MatrixXd& start) {
@@ -39,7 +39,7 @@ Attempt solve_level(const Joint& joint, double scale, const Eigen::MatrixXd& sta
   }
   const Eigen::MatrixXd anchor = start.size() > 0 ? start : problem.closed_start();
   Eigen::MatrixXd from = anchor;
-  for (const double share : kParams.springs) {
+  for (const double share : kPreload.springs) {
     const double spring = share * joint.model->local_stiffness().maxCoeff();
     auto leaned = std::make_shared<dynamics::HarmonicSystem>(*system);
     leaned->harmonics.front().stiffness.diagonal().array() += spring;
@@ -76,7 +76,7 @@ Preload quasi_static(const std::shared_ptr<const dynamics::CondensedModel>& mode
   bool at_zero = pressed;
   while (at_zero || reached < 1) {
     double scale = at_zero ? 0 : reached + step;
-    if (scale > 1 - kParams.whole) scale = 1;
+    if (scale > 1 - kPreload.whole) scale = 1;
     Attempt level = solve_level(joint, scale, point.displacement);
     preload.iterations += level.iterations;
     preload.status = within(options.budget, level.status);

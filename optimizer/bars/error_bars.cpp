@@ -21,7 +21,7 @@ namespace dovetail::optimizer {
 
 namespace {
 
-constexpr CompanionParams kParams;
+constexpr CompanionParams kCompanion;
 
 /// Hardly anything bears, and on other nodes nothing does: that is no worn state.
 void refuse_worn_state(const std::string& status, Evaluation& evaluation) {
@@ -50,7 +50,7 @@ class ErrorBarSources {
 
   void run() {
     ask_meshes();
-    const Evaluation longer = on_nodes(kParams.longer_nodes);
+    const Evaluation longer = on_nodes(kCompanion.longer_nodes);
     const std::string slides = "asymptote: " + std::string(to_string(Status::gross_sliding));
     const auto does = [&slides](const Evaluation& answer) { return answer.status == slides; };
     if (result_.asymptote->bearing.doubtful() && (does(longer) || std::ranges::any_of(answers_, does)))
@@ -90,7 +90,7 @@ class ErrorBarSources {
     }
     bars_.add("mesh", meshes, result_.evaluation);
     if (const ModelBuilder* on_it = others_.finer_section()) {
-      constexpr double kRatio = kParams.section_ratio;
+      constexpr double kRatio = kCompanion.section_ratio;
       Computation how;
       how.wear = false;
       const Evaluation finer = companion(scene_, on_it->build(resized_section(scene_, kRatio)), how);
@@ -115,9 +115,9 @@ class ErrorBarSources {
 
   /// A finer mesh has shorter nodes, too: a part of what longer ones change remains beside it.
   void add_contact_grid(const Evaluation& longer) {
-    constexpr double kAgain = kParams.nodes_again;
+    constexpr double kAgain = kCompanion.nodes_again;
     const Factor factor = [again = finer_ ? kAgain : 1](const Response& response) {
-      return again * left_over(response.grid_order, kParams.longer_nodes);
+      return again * left_over(response.grid_order, kCompanion.longer_nodes);
     };
     bars_.add("contact_grid", {{&longer, factor}}, result_.evaluation);
     if (!finer_) return;
@@ -132,8 +132,8 @@ class ErrorBarSources {
   void add_slip() {
     double left_open = slip_at_zone_ends(result_);  // J per cycle
     if (result_.asymptote->worn_volume == 0 && worn_per_energy(result_.model) > 0) {
-      const Evaluation shorter = on_nodes(kParams.shorter_nodes);
-      bars_.add("contact_grid", {{&shorter, same_for_all(kParams.shorter_factor)}}, result_.evaluation);
+      const Evaluation shorter = on_nodes(kCompanion.shorter_nodes);
+      bars_.add("contact_grid", {{&shorter, same_for_all(kCompanion.shorter_factor)}}, result_.evaluation);
       left_open += add_unseen_zones(scene_, result_, bars_);
     }
     bars_.add("contact_grid", LeftOpen{.slip_energy = left_open});
@@ -156,10 +156,10 @@ class ErrorBarSources {
         }});
     ask(bases, "samples", factors.samples, {[](Scene& changed, Computation&) { changed.solver.samples *= 2; }});
     ask(bases, "pseudo_penalty", factors.penalty,
-        {[](Scene&, Computation& how) { how.penalty_scale = kParams.softer; },
-         [](Scene&, Computation& how) { how.penalty_scale = kParams.harder; }});
-    ask(bases, "modes", kParams.modes_factor, {[](Scene& changed, Computation&) {
-          changed.solver.modes = std::max(2 * changed.solver.modes, changed.solver.modes + kParams.more_modes);
+        {[](Scene&, Computation& how) { how.penalty_scale = kCompanion.softer; },
+         [](Scene&, Computation& how) { how.penalty_scale = kCompanion.harder; }});
+    ask(bases, "modes", kCompanion.modes_factor, {[](Scene& changed, Computation&) {
+          changed.solver.modes = std::max(2 * changed.solver.modes, changed.solver.modes + kCompanion.more_modes);
         }});
   }
 

@@ -11,7 +11,7 @@ namespace dovetail::optimizer {
 
 namespace {
 
-constexpr EdgeSearchParams kParams;
+constexpr EdgeSearchParams kEdgeSearch;
 
 }  // namespace
 
@@ -40,7 +40,7 @@ std::vector<std::vector<Edge>> edge_places(const fem::ContactCells& cells, const
 
 void widen_narrow(const EdgeLengths& edge_lengths, const CellLengths& lengths, std::vector<double>& edges) {
   const auto narrowest = [&](double at) {
-    return kParams.narrowest * lengths.finest * edge_lengths.at(std::clamp(at, 0.0, 1.0));
+    return kEdgeSearch.narrowest * lengths.finest * edge_lengths.at(std::clamp(at, 0.0, 1.0));
   };
   for (double& edge : edges) edge = std::clamp(edge, narrowest(0), 1 - narrowest(1));
   for (std::size_t k = 0; k + 1 < edges.size();)
@@ -55,7 +55,7 @@ void Misfit::add(const std::vector<Edge>& edges_now, const std::vector<double>& 
   bool own = true;
   double beside = 0;  // how far edges are from the ends of their cells
   for (std::size_t k = 0; k < edges_now.size(); ++k) {
-    const auto here = [&](double place) { return std::abs(place - edges_now[k].end) < kParams.rounding; };
+    const auto here = [&](double place) { return std::abs(place - edges_now[k].end) < kEdgeSearch.rounding; };
     own = own && std::ranges::any_of(laid, here);
     beside = std::max(beside, std::abs(held[k] - edges_now[k].end));
   }
@@ -82,7 +82,7 @@ EdgeSearch::Places EdgeSearch::hold(const std::vector<std::vector<Edge>>& edges,
       double place = edge.place;
       if (held.grown > 0) place = edge.outwards > 0 ? std::max(place, held.place) : std::min(place, held.place);
       if (edge.grown) {
-        place += edge.outwards * std::ldexp(kParams.beyond, held.grown++) * lengths[l].at(edge.place);
+        place += edge.outwards * std::ldexp(kEdgeSearch.beyond, held.grown++) * lengths[l].at(edge.place);
         held.place = place;
       }
       places[l].push_back(place);
@@ -107,7 +107,7 @@ EdgeSearch::Places EdgeSearch::next(const Places& found, const Places& laid) {
     for (std::size_t k = 0; k < found[l].size(); ++k) {
       const double step = laid[l][k] - laid_[l][k];
       const double slope = step == 0 ? 0 : (miss(found, laid, l, k) - miss(found_, laid_, l, k)) / step;
-      if (slope < kParams.flattest && slope > kParams.steepest)
+      if (slope < kEdgeSearch.flattest && slope > kEdgeSearch.steepest)
         places[l][k] = laid[l][k] - miss(found, laid, l, k) / slope;
     }
   }

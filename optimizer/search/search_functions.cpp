@@ -10,7 +10,7 @@
 namespace dovetail::optimizer {
 
 namespace {
-constexpr SubstituteParams kParams;
+constexpr SubstituteParams kSubstitute;
 }  // namespace
 
 SearchFunctions::SearchFunctions(EvaluationSession& session, std::string phase)
@@ -60,12 +60,13 @@ SearchValue SearchFunctions::seen(const Candidate& candidate) const {
   if (judgement.computed) {
     value.objective = judgement.objective / scale_;
     for (std::size_t j = 0; j < value.constraints.size(); ++j) value.constraints[j] = aimed(judgement, j);
-    value.constraints.push_back(std::min(judgement.rules.value_or(kParams.unknown_rules), kParams.most_violation));
+    value.constraints.push_back(
+        std::min(judgement.rules.value_or(kSubstitute.unknown_rules), kSubstitute.most_violation));
   } else if (candidate.evaluation.status == "infeasible") {
-    value.objective = level_ + std::min(judgement.violation, kParams.most_violation);
-    value.constraints.push_back(std::min(judgement.rules.value_or(1.0), kParams.most_violation));
+    value.objective = level_ + std::min(judgement.violation, kSubstitute.most_violation);
+    value.constraints.push_back(std::min(judgement.rules.value_or(1.0), kSubstitute.most_violation));
   } else {
-    value.objective = level_ + kParams.failed;
+    value.objective = level_ + kSubstitute.failed;
     value.constraints.push_back(1.0);
   }
   return value;
