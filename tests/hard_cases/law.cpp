@@ -42,7 +42,7 @@ class Follower {
  private:
   // Touches down where the prediction, a straight line from the sample before, starts to press.
   void touch(const Vector& before, const Vector& prediction) {
-    if (!law_.second_order || !memory_.open || before[0] > 0 || prediction[0] <= 0) return;
+    if (!law_.touches_between || !memory_.open || before[0] > 0 || prediction[0] <= 0) return;
     const double open_share = -before[0] / (prediction[0] - before[0]);
     for (std::size_t r = 1; r < 3; ++r) memory_.slip[r] = before[r] + open_share * (prediction[r] - before[r]);
   }

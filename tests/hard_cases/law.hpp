@@ -8,12 +8,12 @@ namespace dovetail::hard_cases {
 /// Normal component first, then one or two tangential ones (the last is zero with one).
 using Vector = std::array<double, 3>;
 
-/// How a node is followed from sample to sample. `second_order`: a slip that goes on turns by the exact angle of a slip
-/// direction that follows a straight path, instead of jumping to the closest point, and contact begins where the normal
-/// prediction passes zero between two samples.
+/// How a node is followed from sample to sample.
 struct Law {
   double friction = 0;
-  bool second_order = false;
+  bool second_order = false;     ///< a slip that goes on turns by the exact angle of a slip direction that follows a
+                                 ///< straight path, instead of jumping to the closest point
+  bool touches_between = false;  ///< contact begins where the normal prediction passes zero between two samples
 };
 
 /// What a node remembers, and what the last sample did to it.
