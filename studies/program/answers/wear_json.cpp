@@ -125,7 +125,7 @@ void add_verdict(const wear::Asymptote& asymptote, Json& json) {
   if (asymptote.verdict != wear::Verdict::not_converged) json["decided_by"] = json_of(asymptote.decided_by);
   json["doubt"] = json_of(asymptote.doubt);
   json["confirmed_by_history"] = asymptote.confirmed_by_history;
-  json["other_states"] = json_of(asymptote.other_states);  // at rest where the history does not go
+  json["other_states"] = json_of(asymptote.other_states);  // at rest, but did not decide
 }
 
 }  // namespace
