@@ -22,8 +22,6 @@ using optimizer::CandidateModel;
 using optimizer::CandidateResult;
 using optimizer::Scene;
 
-constexpr double kTwoPi = 2 * std::numbers::pi;
-
 Numbers list(const Eigen::Ref<const Eigen::VectorXd>& values) {
   return {values.data(), values.data() + values.size()};
 }
@@ -135,7 +133,7 @@ void add_history(const Scene& scene, const CandidateResult& result, const Design
                     .worn_volume_m3 = list(history.worn_volume),
                     .depth_max_m = {},
                     .amplitude_m = list(history.amplitude),
-                    .frequency_hz = list(history.frequency / kTwoPi),
+                    .frequency_hz = list(history.frequency / (2 * std::numbers::pi)),
                     .profile_states = chosen_states(history.cycles.size(), options.history_profiles),
                     .profile_depth_m = {}};
   for (Eigen::Index s = 0; s < history.depth.rows(); ++s) out.depth_max_m.push_back(history.depth.row(s).maxCoeff());
