@@ -1,8 +1,7 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
-
-#include "reduction/reduced_model.hpp"
 
 namespace dovetail::wear {
 
@@ -14,10 +13,5 @@ struct NodeLine {
   [[nodiscard]] std::size_t count() const { return nodes.size(); }
   [[nodiscard]] double length(std::size_t k) const { return ends[k + 1] - ends[k]; }
 };
-
-/// A line for each flank of a plane model, in the order of its nodes along its longer extent; nodes are as long as
-/// their areas. None where positions or flanks are not known, and none in space: there the nodes of a flank cover a
-/// surface, and which of them follow one another across the slot is not in the model.
-[[nodiscard]] std::vector<NodeLine> flank_lines(const reduction::ContactNodes& contact);
 
 }  // namespace dovetail::wear

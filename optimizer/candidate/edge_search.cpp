@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "optimizer/candidate/node_lines.hpp"
-
 #include "optimizer/candidate/params.hpp"
 
 namespace dovetail::optimizer {

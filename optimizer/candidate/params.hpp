@@ -2,8 +2,8 @@
 
 namespace dovetail::optimizer {
 
-// The numbers that steer where contact nodes are laid. They were tuned on dovetail
-// sections of 16 to 48 edges per flank.
+// The numbers that steer where contact nodes are laid. They were tuned on dovetail sections of 16 to 48 edges per
+// flank.
 
 /// How a piece of a flank is divided into contact cells.
 struct CellGridParams {

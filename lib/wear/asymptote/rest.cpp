@@ -72,7 +72,7 @@ class Rule {
       return;
     }
     Ends ends;
-    if (history.decided_by == FoundBy::history && direct.decided_by == FoundBy::release &&
+    if (!options_.lines.empty() && history.decided_by == FoundBy::history && direct.decided_by == FoundBy::release &&
         history.verdict == Verdict::asymptote)
       ends = compared(history, direct, unworn);
     if (ends.direct_stays) {

@@ -14,7 +14,8 @@ struct RestOptions {
   AsymptoteOptions asymptote = {};  ///< its arbitration is what comes_to_rest decides
   bool follow = false;              ///< the resonance of the joint as worn, see followed_asymptote
   bool history = true;  ///< asks the history where the direct answer is in doubt, not only where there is none
-  std::vector<NodeLine> lines = {};  ///< neighbours; without, no two states are a node apart
+  /// Neighbours, of contact nodes that end where worn zones do; of other nodes none.
+  std::vector<NodeLine> lines = {};
   /// A budget of its own for each history that is asked, at the settings given; empty: that of the joint.
   std::function<SharedBudget(const steady::Options&)> budget = {};
 };
@@ -45,8 +46,8 @@ struct Rest {
 ///     one. Which nodes lift off first may hang on harmonics and samples: then histories of neighbouring designs and
 ///     meshes end far from one another, and more of both tell where wear goes. Where that one comes to no end, the
 ///     first history decides.
-/// What did not decide is in other_states. Without lines, states that differ by a node are told apart by their volumes
-/// alone: the history decides unless they are far apart.
+/// What did not decide is in other_states. Without lines only the first of them holds: on nodes that are laid without
+/// regard to worn zones the direct answer wears off whole nodes as well, and nothing speaks for it against the history.
 ///
 /// @param unworn  steady state of `joint` at omega, or null
 /// Cost: two direct answers, and up to two histories, the second at twice the harmonics and samples. Throws as

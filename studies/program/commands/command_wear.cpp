@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <ostream>
@@ -34,7 +35,11 @@ std::string certificate_words(const wear::Asymptote& asymptote) {
   text += "\n";
   if (asymptote.doubt == wear::Doubt::none) return text;
   text += fmt::format("doubt           {}: {}", to_string(asymptote.doubt), entry(asymptote.doubt).meaning);
-  if (asymptote.confirmed_by_history && asymptote.holds_finer) text += ", settled by the history at these settings";
+  const auto by_history = [](const wear::OtherState& other) { return other.found_by == wear::FoundBy::history; };
+  if (std::ranges::any_of(asymptote.other_states, by_history))
+    text += ", and the direct answer stands against the history";
+  else if (asymptote.confirmed_by_history && asymptote.holds_finer)
+    text += ", settled by the history at these settings";
   for (const auto& [way, name] :
        {std::pair{wear::FoundBy::release, "the direct method"}, std::pair{wear::FoundBy::history, "the history"},
         std::pair{wear::FoundBy::finer_history, "one with more harmonics and samples"}})

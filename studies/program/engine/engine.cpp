@@ -181,7 +181,6 @@ LoadedModel from_model(const std::string& file, reduction::ReducedModel model, s
   LoadedModel loaded;
   loaded.joint.options = steady;
   loaded.model = std::move(model);
-  loaded.lines = wear::flank_lines(loaded.model.contact);
   loaded.joint.model = std::make_shared<const dynamics::CondensedModel>(loaded.model);
   // Ascending; those of free motion are no resonance to start from.
   constexpr double kFree = 1e-6;

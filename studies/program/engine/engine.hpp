@@ -34,7 +34,7 @@ inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();  //
 struct LoadedModel {
   reduction::ReducedModel model;
   steady::Joint joint;                ///< of that model, unworn
-  std::vector<wear::NodeLine> lines;  ///< of its contact nodes: strips of cells, of a file what its positions tell
+  std::vector<wear::NodeLine> lines;  ///< of its contact nodes: a study's strips of cells
   double glued_omega = 0;             ///< rad/s, of the followed mode (a file: the lowest); 0 when the model has none
   std::string follow = "fixed";       ///< the study's choice of what drives the wear
   std::string failure;                ///< not empty: the candidate's model did not converge, and why

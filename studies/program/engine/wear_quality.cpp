@@ -1,5 +1,6 @@
 #include "studies/program/engine/wear_quality.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -18,6 +19,18 @@ struct WornState {
 
 WornState worn_state(const WearAnswer& answer) {
   return answer.worn_out() ? WornState{.volume = answer.volume, .depth = answer.largest_depth()} : WornState{};
+}
+
+/// By how much histories end away from a direct answer that stands against them.
+WornState history_apart(const WearAnswer& answer) {
+  WornState apart{.volume = 0, .depth = 0};
+  if (!answer.asymptote || answer.asymptote->decided_by != wear::FoundBy::release) return apart;
+  for (const wear::OtherState& other : answer.asymptote->other_states) {
+    if (other.found_by != wear::FoundBy::history && other.found_by != wear::FoundBy::finer_history) continue;
+    apart.volume = std::max(apart.volume, std::abs(other.worn_volume - answer.volume));
+    apart.depth = std::max(apart.depth, std::abs(other.largest_depth - answer.largest_depth()));
+  }
+  return apart;
 }
 
 wear::WornEnd worn_end(const WearAnswer& answer) {
@@ -47,17 +60,17 @@ WearBars worn_bars(const WearOptions& options, const LoadedModel& loaded, const 
   const WornState nominal = worn_state(answer);
   const WornState harmonics = changed(quality::more_harmonics(loaded.joint.options));
   const WornState samples = changed(quality::more_samples(loaded.joint.options));
-  const WornState softer = scaled(0.5), stiffer = scaled(2);
+  const WornState softer = scaled(0.5), stiffer = scaled(2), histories = history_apart(answer);
   const auto bar = [&](double WornState::*value) {
     const auto change = [&](const WornState& other) {
       const double difference = std::abs(other.*value - nominal.*value);
       return std::isnan(difference) ? kInfinity : difference;  // not computed: unknown
     };
-    return quality::bar_from({.harmonics = change(harmonics),
-                              .samples = change(samples),
-                              .softer = change(softer),
-                              .stiffer = change(stiffer)},
-                             loaded.joint.model->massless_contact());
+    return histories.*value + quality::bar_from({.harmonics = change(harmonics),
+                                                 .samples = change(samples),
+                                                 .softer = change(softer),
+                                                 .stiffer = change(stiffer)},
+                                                loaded.joint.model->massless_contact());
   };
   return {.worn_volume = bar(&WornState::volume), .largest_depth = bar(&WornState::depth)};
 }

@@ -63,23 +63,6 @@ TEST(WornZones, WithoutNeighboursAreNeverANodeApart) {
   EXPECT_FALSE(far_apart(kArea, zone(9), zone(8.5)));
 }
 
-TEST(FlankLines, FollowTheNodesAlongEachFlankOfAPlaneModel) {
-  reduction::ContactNodes contact;
-  contact.normal = Eigen::VectorXi::LinSpaced(5, 0, 4);
-  contact.tangential = Eigen::VectorXi::LinSpaced(5, 5, 9);
-  contact.area = Eigen::VectorXd{{1, 2, 3, 4, 5}};
-  contact.position = Eigen::MatrixX3d{{3, 0.1, 0}, {1, 0.1, 0}, {2, 0.2, 0}, {0.2, 5, 0}, {0.1, 4, 0}};
-  EXPECT_TRUE(flank_lines(contact).empty());
-  contact.group = Eigen::VectorXi{{0, 0, 0, 1, 1}};
-  const std::vector<NodeLine> lines = flank_lines(contact);
-  ASSERT_EQ(lines.size(), 2U);
-  EXPECT_EQ(lines[0].nodes, (std::vector<int>{1, 2, 0}));
-  EXPECT_EQ(lines[0].ends, (std::vector<double>{0, 2, 5, 6}));
-  EXPECT_EQ(lines[1].nodes, (std::vector<int>{4, 3}));
-  contact.tangential = Eigen::MatrixXi::Zero(5, 2);
-  EXPECT_TRUE(flank_lines(contact).empty());
-}
-
 TEST(WornZones, EnergyIsOpenWhereASlippingZoneIsANodeOrTwoWide) {
   const std::vector<NodeLine> lines = ten_nodes();
   const std::vector<bool> loaded(10, true);
