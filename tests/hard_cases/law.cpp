@@ -6,53 +6,72 @@
 namespace dovetail::hard_cases {
 namespace {
 
+// Slip, in more digits than the forces it brings: where it dies out by 1e-4 per period, roundings of a double would add
+// up to 1e-9 of the prediction.
+using Slip = std::array<long double, 3>;
+
 class Follower {
  public:
-  Follower(const Law& law, const Memory& memory) : law_(law), memory_(memory) {}
+  Follower(const Law& law, const Memory& memory)
+      : law_(law), memory_(memory), slip_{memory.slip[0], memory.slip[1], memory.slip[2]} {}
 
   Vector advance(const Vector& before, const Vector& prediction) {
     touch(before, prediction);
     const double normal = std::max(0.0, prediction[0]);
-    const double limit = law_.friction * normal;
-    const double trial_y = prediction[1] - memory_.slip[1], trial_z = prediction[2] - memory_.slip[2];
-    const double size = std::hypot(trial_y, trial_z);
-    Vector force{normal, trial_y, trial_z};
+    const long double limit = static_cast<long double>(law_.friction) * normal;
+    const long double trial_y = prediction[1] - slip_[1], trial_z = prediction[2] - slip_[2];
+    const long double size = std::hypot(trial_y, trial_z);
+    Slip force{normal, trial_y, trial_z};
     const bool slides = normal > 0 && (size > limit || law_.friction == 0);
     if (normal <= 0) {
       force = {0, 0, 0};
     } else if (slides) {
-      double angle = size > 0 ? std::atan2(trial_z, trial_y) : 0;
-      const double turn = std::remainder(angle - memory_.angle, 8 * std::atan(1.0));
+      long double angle = size > 0 ? std::atan2(trial_z, trial_y) : 0;
+      const long double turn = std::remainder(angle - angle_, 8 * std::atan(1.0L));
       // On a straight path at constant limit b, tan(phi / 2) = |pre| sin(turn) / (b + |pre| cos(turn)).
       if (law_.second_order && memory_.slid && std::cos(turn) > 0)
-        angle = memory_.angle + 2 * std::atan2(size * std::sin(turn), limit + size * std::cos(turn));
+        angle = angle_ + 2 * std::atan2(size * std::sin(turn), limit + size * std::cos(turn));
       force[1] = limit * std::cos(angle);
       force[2] = limit * std::sin(angle);
-      memory_.angle = angle;
+      angle_ = angle;
     }
     memory_.slid = slides;
     memory_.open = normal <= 0;
-    memory_.stretch = slides ? std::max(1.0, size / std::max(limit, 1e-300)) : 1;
+    memory_.stretch = slides ? static_cast<double>(std::max(1.0L, size / std::max(limit, 1e-300L))) : 1;
     for (std::size_t r = 0; r < 3; ++r)
-      if (r == 0 || normal <= 0 || slides) memory_.slip[r] = prediction[r] - force[r];
-    return force;
+      if (r == 0 || normal <= 0 || slides) slip_[r] = prediction[r] - force[r];
+    return rounded(force);
   }
-  [[nodiscard]] const Memory& memory() const { return memory_; }
+  [[nodiscard]] Memory memory() const {
+    Memory memory = memory_;
+    memory.slip = rounded(slip_);
+    memory.angle = static_cast<double>(angle_);
+    return memory;
+  }
+  [[nodiscard]] const Slip& slip() const { return slip_; }
 
  private:
+  static Vector rounded(const Slip& v) {
+    return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
+  }
+
   // Touches down where the prediction, a straight line from the sample before, starts to press.
   void touch(const Vector& before, const Vector& prediction) {
     if (!law_.touches_between || !memory_.open || before[0] > 0 || prediction[0] <= 0) return;
-    const double open_share = -before[0] / (prediction[0] - before[0]);
-    for (std::size_t r = 1; r < 3; ++r) memory_.slip[r] = before[r] + open_share * (prediction[r] - before[r]);
+    const long double open_share = -before[0] / (static_cast<long double>(prediction[0]) - before[0]);
+    for (std::size_t r = 1; r < 3; ++r)
+      slip_[r] = before[r] + open_share * (static_cast<long double>(prediction[r]) - before[r]);
   }
 
   Law law_;
   Memory memory_;
+  Slip slip_;
+  long double angle_ = memory_.angle;
 };
 
-double distance(const Vector& a, const Vector& b) {
-  return std::hypot(a[1] - b[1], a[2] - b[2]);
+template <class V>
+double distance(const V& a, const V& b) {
+  return static_cast<double>(std::hypot(a[1] - b[1], a[2] - b[2]));
 }
 
 // What is left of a difference between two slips after one sample that led to these states.
@@ -66,8 +85,8 @@ double kept(const Memory& a, const Memory& b, bool in_plane) {
 }  // namespace
 
 Orbit periodic_orbit(const std::vector<Vector>& prediction, const Law& law, const Memory& start, double resolution) {
-  constexpr int kMaxPeriods = 100000;
-  constexpr double kRounding = 1e-16, kResolved = 1e-12;
+  constexpr int kMaxPeriods = 1000000;
+  constexpr double kRounding = 1e-19, kResolved = 1e-15;
   double largest = 0;
   for (const Vector& p : prediction) largest = std::max({largest, std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
   Follower follower(law, start);
@@ -76,12 +95,12 @@ Orbit periodic_orbit(const std::vector<Vector>& prediction, const Law& law, cons
   orbit.memory.resize(prediction.size());
   double previous = 0, ratio = 0;
   for (int period = 0; period < kMaxPeriods && !orbit.periodic; ++period) {
-    const Vector before = follower.memory().slip;
+    const Slip before = follower.slip();
     for (std::size_t n = 0; n < prediction.size(); ++n) {
       orbit.force[n] = follower.advance(prediction[(n + prediction.size() - 1) % prediction.size()], prediction[n]);
       orbit.memory[n] = follower.memory();
     }
-    const double change = distance(follower.memory().slip, before);
+    const double change = distance(follower.slip(), before);
     if (change > kResolved * largest && previous > 0) ratio = std::min(change / previous, 1 - 1e-6);
     orbit.periodic = change <= kRounding * largest || (change <= kResolved * largest && change >= previous);
     orbit.uncertainty = (change + kRounding * largest) / (1 - ratio);

@@ -160,7 +160,8 @@ class Node {
     for (std::size_t n = 0; n < samples_; ++n) prediction_.push_back(fine_prediction_[n * kFiner]);
     const bool second_order = problem.options.slip_return == "second_order";
     const Law law{.friction = mu_, .second_order = second_order, .touches_between = second_order};
-    orbit_ = released_ ? free_orbit(prediction_) : periodic_orbit(prediction_, law, start);
+    constexpr double kOrbit = 1e-13;  // far below a tolerance
+    orbit_ = released_ ? free_orbit(prediction_) : periodic_orbit(prediction_, law, start, kOrbit);
     // The closest points, whichever rule the claim was solved with: from one sample to the next they bring states that
     // differ no farther apart (march_error). The rule of second order remembers a direction besides, which rings.
     const Law finest{.friction = mu_, .touches_between = true};
