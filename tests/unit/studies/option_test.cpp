@@ -79,6 +79,25 @@ TEST(CommandOptions, SomeNeedEachOther) {
   EXPECT_THAT(said(options), HasSubstr("--curve-from = 1: only has a meaning with --curve-to"));
 }
 
+TEST(CommandOptions, ABackboneNeedsAForceButNoWear) {
+  BackboneOptions options;
+  EXPECT_THAT(said(options), AllOf(HasSubstr("--from = 0: must be > 0 with --over force"),
+                                   HasSubstr("--to = 0: must be > 0 with --over force")));
+  options.over = "wear";
+  options.to = 1e-6;
+  options.points = 100000;
+  EXPECT_EQ(said(options), "");
+  options.logarithmic = true;
+  EXPECT_THAT(said(options), HasSubstr("--logarithmic: needs --from > 0 and --to > 0"));
+  options.from = 1e-9;
+  EXPECT_EQ(said(options), "");
+  options.to = -1;
+  options.points = 0;
+  options.frequency_hz = 2e9;
+  EXPECT_THAT(said(options), AllOf(HasSubstr("--to = -1: must be >= 0"), HasSubstr("--points = 0: must be >= 1"),
+                                   HasSubstr("--frequency = 2e+09: must be > 0 and <= 1e+09")));
+}
+
 /// Every option of the commands on a model.
 template <class Options>
 void expect_in(const std::string& text) {
