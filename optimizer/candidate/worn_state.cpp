@@ -32,7 +32,7 @@ wear::Rest worn_state(const Scene& scene, const CandidateModel& model, const ste
   options.follow = scene.loading.follow == "resonance";
   options.history = history;
   options.lines = node_lines(model.cells);
-  options.budget = [&](const steady::Options& settings) {
+  options.asymptote.history_budget = [&](const steady::Options& settings) {
     SolverSettings solver = scene.solver;
     solver.harmonics = settings.harmonics;
     solver.samples = settings.samples;

@@ -170,7 +170,9 @@ class WornStateSearch {
     options.tolerance = options_.history_tolerance;
     options.rate_fraction = options_.relative_threshold;
     options.rate_threshold = rates_.none;
-    const History past = history(joint_, {.omega = result_.unworn.omega, .unworn = &result_.unworn}, options, watcher_);
+    steady::Joint joint = joint_;
+    if (options_.history_budget) joint.options.budget = options_.history_budget(joint.options);
+    const History past = history(joint, {.omega = result_.unworn.omega, .unworn = &result_.unworn}, options, watcher_);
     wearing_.count(past.solves, past.jacobians);
     const bool certified = settled_ && rests();
     if (past.end != HistoryEnd::worn_out && past.end != HistoryEnd::steady_rate) return keep_direct(past, certified);
@@ -201,9 +203,10 @@ class WornStateSearch {
 
   /// What is left where the history came to no end.
   void keep_direct(const History& past, bool certified) {
+    const Status status = past.end == HistoryEnd::steps ? Status::iteration_limit : past.status;
+    result_.history = status;
     if (past.end == HistoryEnd::interrupted || !certified) {
       result_.verdict = Verdict::not_converged;
-      const Status status = past.end == HistoryEnd::steps ? Status::iteration_limit : past.status;
       if (result_.status == Status::converged || cut_short(status)) result_.status = status;
     }
     // However it went on: it has worn more than any state of the joint has.

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/budget.hpp"
 #include "core/options.hpp"
 #include "core/status.hpp"
 #include "steady/state.hpp"
@@ -53,6 +55,8 @@ struct AsymptoteOptions {
   // Check the certificate at 2H+1 harmonics and 2N samples, too. Above its limit there the worn state rests at these
   // settings only: `doubt` says so.
   bool certify_finer = true;
+  // A budget of its own for each history, at the settings given; empty: that of the joint.
+  std::function<SharedBudget(const steady::Options&)> history_budget = {};
 };
 
 /// Another state in which nothing wears.
@@ -87,6 +91,7 @@ struct Asymptote {
   Doubt doubt = Doubt::none;              ///< of the direct answer
   FoundBy decided_by = FoundBy::release;  ///< release | history: what `depth` and `verdict` are from
   bool confirmed_by_history = false;      ///< the history was run to an end and has decided
+  Status history = Status::converged;     ///< of the history, where one was asked and came to no end
   std::vector<OtherState> other_states;   ///< states at rest where the history does not go
   steady::State unworn;                   ///< steady state before wear
   steady::State steady;                   ///< at the limit (no asymptote: the last one computed)

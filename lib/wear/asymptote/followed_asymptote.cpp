@@ -20,6 +20,7 @@ void keep_doubt(const Asymptote& earlier, Asymptote& last) {
   last.doubt = earlier.doubt;
   last.decided_by = earlier.decided_by;
   last.confirmed_by_history = earlier.confirmed_by_history;
+  last.history = earlier.history;
   // As far from the last state as they were from the earlier one.
   last.other_states = earlier.other_states;
   for (OtherState& other : last.other_states) {

@@ -25,8 +25,8 @@ class Rule {
       : joint_(joint), omega_(omega), options_(options), watcher_(watcher) {}
 
   [[nodiscard]] Rest apply(const steady::State* unworn) {
-    Rest rest = found(joint_, "unsettled", unworn);
-    if (options_.history && rest.asymptote.verdict == Verdict::asymptote) settle(rest);
+    Rest rest = found(joint_, options_.history ? "auto" : "unsettled", unworn);
+    if (options_.history) weigh(rest);
     if (options_.asymptote.certify_finer && !watcher_.stopped()) certify(rest);
     rest.solves = solves_;
     rest.jacobians = jacobians_;
@@ -54,37 +54,41 @@ class Rule {
     return rest;
   }
 
-  [[nodiscard]] steady::Joint with_own_budget(steady::Joint joint) const {
-    if (options_.budget) joint.options.budget = options_.budget(joint.options);
-    return joint;
-  }
-
-  /// Looks for doubt in a direct answer and asks the history.
-  void settle(Rest& rest) {
-    const steady::State unworn = rest.held ? rest.held->unworn : rest.asymptote.unworn;
-    const steady::Joint joint = with_own_budget(joint_);
-    Rest asked = found(joint, "auto", &unworn);
-    Asymptote &history = asked.asymptote, &direct = rest.asymptote;
-    const Unfinished unfinished = spent(joint.options.budget) ? Unfinished::history_budget : Unfinished::history;
-    if (history.verdict == Verdict::not_converged && history.status != Status::interrupted) {
+  /// Holds what the history says against the direct answer, which is found again without it: most often it is not
+  /// needed.
+  void weigh(Rest& asked) {
+    const Asymptote& history = asked.asymptote;
+    if (history.doubt != Doubt::none && !history.confirmed_by_history) asked.unfinished = unfinished(history);
+    const bool decides = history.decided_by == FoundBy::history && history.verdict == Verdict::asymptote;
+    // On the way along resonances the history may have led astray.
+    const bool fails =
+        options_.follow && history.verdict == Verdict::not_converged && history.status != Status::interrupted;
+    if (!fails && (!decides || options_.lines.empty())) return;
+    const steady::State unworn = asked.held ? asked.held->unworn : history.unworn;
+    Rest rest = found(joint_, "unsettled", &unworn);
+    Asymptote& direct = rest.asymptote;
+    if (direct.verdict != Verdict::asymptote) return;
+    if (fails) {
       direct.doubt = history.doubt == Doubt::none ? Doubt::unfinished : history.doubt;
-      rest.unfinished = unfinished;
+      rest.unfinished = unfinished(history);
+      asked = std::move(rest);
       return;
     }
-    Ends ends;
-    if (!options_.lines.empty() && history.decided_by == FoundBy::history && direct.decided_by == FoundBy::release &&
-        history.verdict == Verdict::asymptote)
-      ends = compared(history, direct, unworn);
+    if (direct.decided_by != FoundBy::release) return;
+    Ends ends = compared(history, direct, unworn);
     if (ends.direct_stays) {
       direct.doubt = history.doubt;
       direct.confirmed_by_history = true;
       direct.other_states = {other_state(FoundBy::history, contact(), history.depth)};
+      asked = std::move(rest);
     } else {
-      rest = std::move(asked);
-      const bool undecided = direct.doubt != Doubt::none && !direct.confirmed_by_history;
-      rest.unfinished = undecided ? unfinished : ends.unfinished;
+      asked.unfinished = ends.unfinished;
     }
-    if (ends.finer) direct.other_states.push_back(std::move(*ends.finer));
+    if (ends.finer) asked.asymptote.other_states.push_back(std::move(*ends.finer));
+  }
+
+  static Unfinished unfinished(const Asymptote& answer) {
+    return answer.history == Status::budget_spent ? Unfinished::history_budget : Unfinished::history;
   }
 
   [[nodiscard]] Ends compared(const Asymptote& history, const Asymptote& direct, const steady::State& unworn) {
@@ -102,7 +106,8 @@ class Rule {
 
   /// Where the history ends with more harmonics and samples; nothing where it comes to no end.
   [[nodiscard]] std::optional<OtherState> finer_history(const steady::State& unworn) {
-    const steady::Joint joint = with_own_budget(joint_.with(finer_settings(joint_.options)));
+    steady::Joint joint = joint_.with(finer_settings(joint_.options));
+    if (options_.asymptote.history_budget) joint.options.budget = options_.asymptote.history_budget(joint.options);
     const steady::State start =
         paths::steady_state(joint, unworn.omega, paths::padded(unworn.displacement, joint.options.harmonics));
     ++solves_;

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <vector>
 
-#include "core/budget.hpp"
 #include "wear/asymptote/asymptote.hpp"
 #include "wear/node_line.hpp"
 
@@ -16,8 +14,6 @@ struct RestOptions {
   bool history = true;  ///< asks the history where the direct answer is in doubt, not only where there is none
   /// Neighbours, of contact nodes that end where worn zones do; of other nodes none.
   std::vector<NodeLine> lines = {};
-  /// A budget of its own for each history that is asked, at the settings given; empty: that of the joint.
-  std::function<SharedBudget(const steady::Options&)> budget = {};
 };
 
 /// A history that was asked and came to no end.
@@ -50,7 +46,8 @@ struct Rest {
 /// regard to worn zones the direct answer wears off whole nodes as well, and nothing speaks for it against the history.
 ///
 /// @param unworn  steady state of `joint` at omega, or null
-/// Cost: two direct answers, and up to two histories, the second at twice the harmonics and samples. Throws as
+/// Cost: a direct answer; in doubt a history besides, and where that ends elsewhere the direct answer once more and a
+/// second history at twice the harmonics and samples. Throws as
 /// asymptote() does.
 [[nodiscard]] Rest comes_to_rest(const steady::Joint& joint, double omega, const RestOptions& options,
                                  const steady::State* unworn = nullptr, const Watcher& watcher = {});

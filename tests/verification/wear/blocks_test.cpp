@@ -12,8 +12,8 @@
 namespace dovetail::wear {
 namespace {
 
-const steady::Options kSteady{.harmonics = 3, .samples = 64};
-constexpr AsymptoteOptions kOptions{.rate_threshold = 0.0};
+const steady::Options kBlock{.harmonics = 3, .samples = 64};
+const AsymptoteOptions kEveryRate{.rate_threshold = 0.0};
 
 std::shared_ptr<const dynamics::CondensedModel> condensed(const scenes::Block& data) {
   return std::make_shared<const dynamics::CondensedModel>(scenes::block(data));
@@ -24,7 +24,7 @@ class RandomBlock : public testing::TestWithParam<unsigned> {};
 // Ever finer histories converge to the direct answer, first order in the largest increment.
 TEST_P(RandomBlock, HistoriesConvergeToTheAsymptote) {
   const auto model = condensed(scenes::random_block(GetParam()));
-  const Asymptote worn = asymptote({model, {}, kSteady}, 1.0, kOptions);
+  const Asymptote worn = asymptote({model, {}, kBlock}, 1.0, kEveryRate);
   ASSERT_EQ(worn.verdict, Verdict::asymptote) << to_string(worn.status);
   ASSERT_GT(worn.largest_depth, 0.0);
   RecordProperty("released", static_cast<int>(std::count(worn.released.begin(), worn.released.end(), true)));
@@ -35,7 +35,7 @@ TEST_P(RandomBlock, HistoriesConvergeToTheAsymptote) {
   double error = 0.0;
   for (double fraction : {0.1, 0.02, 0.005}) {
     const History run = history(
-        {model, {}, kSteady}, {.omega = 1.0},
+        {model, {}, kBlock}, {.omega = 1.0},
         {.increment = fraction * worn.largest_depth, .steps = 3000, .rate_fraction = 1e-4, .rate_threshold = 0.0});
     EXPECT_EQ(run.end, HistoryEnd::worn_out) << to_string(run.end) << " " << to_string(run.status);
     const Eigen::VectorXd depth = run.depth.bottomRows(1).transpose();
@@ -53,16 +53,16 @@ INSTANTIATE_TEST_SUITE_P(Six, RandomBlock, testing::Values(1u, 2u, 3u, 4u, 5u, 7
 // the limit would not have needed, and histories converge to a deeper state than the direct answer. Both are at rest.
 TEST(Block, HistoryCanEndDeeperThanTheAsymptote) {
   const auto model = condensed(scenes::random_block(0));
-  AsymptoteOptions unasked = kOptions;
+  AsymptoteOptions unasked = kEveryRate;
   unasked.arbitration = "never";
-  const Asymptote worn = asymptote({model, {}, kSteady}, 1.0, unasked);
+  const Asymptote worn = asymptote({model, {}, kBlock}, 1.0, unasked);
   ASSERT_EQ(worn.verdict, Verdict::asymptote);
   EXPECT_EQ(worn.doubt, Doubt::reload);
   EXPECT_LT(worn.certificate, 1e-6);
   std::vector<double> volumes;
   for (double fraction : {0.08, 0.04, 0.02}) {
     const History run = history(
-        {model, {}, kSteady}, {.omega = 1.0},
+        {model, {}, kBlock}, {.omega = 1.0},
         {.increment = fraction * worn.largest_depth, .steps = 3000, .rate_fraction = 1e-4, .rate_threshold = 0.0});
     ASSERT_EQ(run.end, HistoryEnd::worn_out);
     volumes.push_back(run.worn_volume[run.worn_volume.size() - 1] / worn.worn_volume);
@@ -78,12 +78,12 @@ scenes::Block stuck_block() {
 }
 
 TEST(Block, WithoutSlipDoesNotWear) {
-  const Asymptote worn = asymptote({condensed(stuck_block()), {}, kSteady}, 1.0, kOptions);
+  const Asymptote worn = asymptote({condensed(stuck_block()), {}, kBlock}, 1.0, kEveryRate);
   EXPECT_EQ(worn.verdict, Verdict::asymptote);
   EXPECT_EQ(worn.depth.maxCoeff(), 0.0);
   EXPECT_EQ(worn.unworn_rate.maxCoeff(), 0.0);
   EXPECT_EQ(worn.passes, 0);
-  const History run = history({condensed(stuck_block()), {}, kSteady}, {.omega = 1.0}, {.rate_threshold = 0.0});
+  const History run = history({condensed(stuck_block()), {}, kBlock}, {.omega = 1.0}, {.rate_threshold = 0.0});
   EXPECT_EQ(run.end, HistoryEnd::worn_out);
   EXPECT_EQ(run.worn_volume.size(), 1);
 }
@@ -92,7 +92,7 @@ TEST(Block, SlidingUnderDeadLoadHasNoAsymptote) {
   scenes::Block data = stuck_block();
   data.tangential_load = 2.0 * data.friction * data.normal_load;
   data.tangential_spring = 1.0;
-  const Asymptote worn = asymptote({condensed(data), {}, kSteady}, 1.0, kOptions);
+  const Asymptote worn = asymptote({condensed(data), {}, kBlock}, 1.0, kEveryRate);
   EXPECT_EQ(worn.verdict, Verdict::no_asymptote) << to_string(worn.status);
   EXPECT_TRUE(worn.confirmed_by_history);
   EXPECT_GT(worn.rate.maxCoeff(), 0.0);
@@ -101,13 +101,13 @@ TEST(Block, SlidingUnderDeadLoadHasNoAsymptote) {
 TEST(Block, GapAndInterferenceShiftTheFloorOnly) {
   // The block floats: raising the floor by a constant moves it as a rigid body, and nothing else changes.
   const scenes::Block data = scenes::random_block(1);
-  const Asymptote worn = asymptote({condensed(data), {}, kSteady}, 1.0, kOptions);
+  const Asymptote worn = asymptote({condensed(data), {}, kBlock}, 1.0, kEveryRate);
   ASSERT_GT(worn.worn_volume, 0.0);
   for (double shift : {-2e-3, 2e-3}) {
     reduction::ReducedModel model = scenes::block(data);
     model.contact.gap.array() += shift;
     const Asymptote moved =
-        asymptote({std::make_shared<const dynamics::CondensedModel>(model), {}, kSteady}, 1.0, kOptions);
+        asymptote({std::make_shared<const dynamics::CondensedModel>(model), {}, kBlock}, 1.0, kEveryRate);
     ASSERT_EQ(moved.verdict, Verdict::asymptote);
     // The steady states are solved to 1e-9 of the excitation.
     EXPECT_NEAR(moved.worn_volume, worn.worn_volume, 1e-6 * worn.worn_volume);
@@ -117,21 +117,21 @@ TEST(Block, GapAndInterferenceShiftTheFloorOnly) {
 TEST(Block, IsNotAskedWithNodesReleasedAlready) {
   steady::Condition start;
   start.released.assign(static_cast<std::size_t>(condensed(stuck_block())->nodes()), 0);
-  EXPECT_NO_THROW((void)asymptote({condensed(stuck_block()), start, kSteady}, 1.0, kOptions));
+  EXPECT_NO_THROW((void)asymptote({condensed(stuck_block()), start, kBlock}, 1.0, kEveryRate));
   start.released[0] = 1;
-  EXPECT_THROW((void)asymptote({condensed(stuck_block()), start, kSteady}, 1.0, kOptions), InputError);
+  EXPECT_THROW((void)asymptote({condensed(stuck_block()), start, kBlock}, 1.0, kEveryRate), InputError);
 }
 
 TEST(Block, HalvesAndReportsStepsThatFail) {
   // With no iterations to speak of, nothing converges: the history says so and invents no state.
-  steady::Options hasty = kSteady;
+  steady::Options hasty = kBlock;
   hasty.max_iterations = 1;
   hasty.penalty_cascade = false;
   const History run = history({condensed(scenes::random_block(1)), {}, hasty}, {.omega = 1.0}, {.rate_threshold = 0.0});
   EXPECT_EQ(run.end, HistoryEnd::failed);
   EXPECT_NE(run.status, Status::converged);
   EXPECT_EQ(run.cycles.size(), 0);
-  const Asymptote worn = asymptote({condensed(scenes::random_block(1)), {}, hasty}, 1.0, kOptions);
+  const Asymptote worn = asymptote({condensed(scenes::random_block(1)), {}, hasty}, 1.0, kEveryRate);
   EXPECT_EQ(worn.verdict, Verdict::not_converged);
   EXPECT_NE(worn.status, Status::converged);
 }
@@ -139,7 +139,7 @@ TEST(Block, HalvesAndReportsStepsThatFail) {
 TEST(Block, StopsWhenAsked) {
   int asked = 0;
   const Watcher watcher{.stop = [&asked] { return ++asked > 4; }};
-  const History run = history({condensed(scenes::random_block(1)), {}, kSteady}, {.omega = 1.0},
+  const History run = history({condensed(scenes::random_block(1)), {}, kBlock}, {.omega = 1.0},
                               {.increment = 1e-6, .rate_threshold = 0.0}, watcher);
   EXPECT_EQ(run.status, Status::interrupted);
   EXPECT_EQ(run.cycles.size(), 4);  // four states were allowed and are kept

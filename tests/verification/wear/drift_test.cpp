@@ -17,7 +17,7 @@ constexpr double kLoad = 0.5;
 constexpr double kNormal = 2.0;
 constexpr double kTangential = 0.3;
 constexpr double kDamping = 0.1;
-const steady::Options kSteady{.harmonics = 5, .samples = 128};
+const steady::Options kDrifting{.harmonics = 5, .samples = 128};
 const paths::ResonanceOptions kResonance{};
 
 std::shared_ptr<const dynamics::CondensedModel> oscillator() {
@@ -26,7 +26,7 @@ std::shared_ptr<const dynamics::CondensedModel> oscillator() {
 }
 
 TEST(Drift, EndsAtTheFreeOscillator) {
-  const steady::Joint joint{oscillator(), {}, kSteady};
+  const steady::Joint joint{oscillator(), {}, kDrifting};
   const paths::Resonance unworn = paths::resonance(joint, 1.05, kResonance);
   ASSERT_EQ(unworn.status, Status::converged);
   const Asymptote worn = asymptote(joint, unworn.omega, {.rate_threshold = 0.0}, &unworn.state);
@@ -43,7 +43,7 @@ TEST(Drift, EndsAtTheFreeOscillator) {
 }
 
 TEST(Drift, IsFollowedByTheHistory) {
-  const steady::Joint joint{oscillator(), {}, kSteady};
+  const steady::Joint joint{oscillator(), {}, kDrifting};
   const paths::Resonance unworn = paths::resonance(joint, 1.05, kResonance);
   ASSERT_EQ(unworn.status, Status::converged);
   const HistoryOptions options{

@@ -41,7 +41,7 @@ struct Limit {
 
 // The direct answer: histories of the discrete punch wear one node more where the last one that sticks has little to
 // spare, which the continuum, whose c stays, does not.
-constexpr AsymptoteOptions kOptions{.rate_threshold = 0.0, .arbitration = "unsettled"};
+const AsymptoteOptions kDirect{.rate_threshold = 0.0, .arbitration = "unsettled"};
 
 TEST(Punch, SticksInTheMiddle) {
   const scenes::Punch data{.nodes = 121};
@@ -79,7 +79,7 @@ TEST(Punch, WearsToTheClosedProfile) {
     const reduction::ReducedModel reduced = scenes::punch(data);
     const auto model = std::make_shared<const dynamics::CondensedModel>(reduced);
     const Limit limit(data);
-    const Asymptote worn = asymptote({model, {}, {.harmonics = 3, .samples = 64}}, 1.0, kOptions);
+    const Asymptote worn = asymptote({model, {}, {.harmonics = 3, .samples = 64}}, 1.0, kDirect);
     ASSERT_EQ(worn.verdict, Verdict::asymptote) << to_string(worn.status);
     EXPECT_LT(worn.certificate, 1e-9);
     double shape = 0.0;
@@ -107,7 +107,7 @@ TEST(Punch, EdgesLieBetweenTheNodesWhereStickEnds) {
     const scenes::Punch data{.nodes = 61, .tangential_load = 0.17 + 0.004 * i};
     const reduction::ReducedModel reduced = scenes::punch(data);
     const auto model = std::make_shared<const dynamics::CondensedModel>(reduced);
-    const Asymptote worn = asymptote({model, {}, {.harmonics = 9, .samples = 256}}, 1.0, kOptions);
+    const Asymptote worn = asymptote({model, {}, {.harmonics = 9, .samples = 256}}, 1.0, kDirect);
     ASSERT_EQ(worn.verdict, Verdict::asymptote);
     std::vector<NodeLine> line(1);
     for (int node = 0; node < data.nodes; ++node) line[0].nodes.push_back(node);
@@ -129,7 +129,7 @@ TEST(Punch, HistoryEndsWhereTheAsymptoteIs) {
   const scenes::Punch data{.nodes = 41};
   const auto model = std::make_shared<const dynamics::CondensedModel>(scenes::punch(data));
   const steady::Options steady{.harmonics = 3, .samples = 64};
-  const Asymptote worn = asymptote({model, {}, steady}, 1.0, kOptions);
+  const Asymptote worn = asymptote({model, {}, steady}, 1.0, kDirect);
   ASSERT_EQ(worn.verdict, Verdict::asymptote);
   double error = 0.0;
   for (double fraction : {0.1, 0.02}) {
