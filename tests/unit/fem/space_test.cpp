@@ -18,11 +18,11 @@ namespace dovetail::fem {
 namespace {
 
 const std::vector<Material> kTitanium{Material{}};
-constexpr double kLength = 0.6;
+constexpr double kHeight = 0.6;
 
 Mesh box(int columns, int rows, int layers, double shaken) {
-  Mesh mesh = testing::extrude(testing::make_grid(columns, rows, testing::rectangle(1, 1)).mesh, layers, kLength);
-  testing::shake(mesh, shaken, kLength, 11);
+  Mesh mesh = testing::extrude(testing::make_grid(columns, rows, testing::rectangle(1, 1)).mesh, layers, kHeight);
+  testing::shake(mesh, shaken, kHeight, 11);
   return mesh;
 }
 
@@ -30,7 +30,7 @@ std::vector<int> surface_dofs(const Mesh& mesh) {
   std::vector<int> dofs;
   for (int k = 0; k < mesh.node_count(); ++k) {
     const Eigen::Vector3d x = mesh.nodes.col(k);
-    if (x.minCoeff() < 1e-9 || x.x() > 1 - 1e-9 || x.y() > 1 - 1e-9 || x.z() > kLength - 1e-9)
+    if (x.minCoeff() < 1e-9 || x.x() > 1 - 1e-9 || x.y() > 1 - 1e-9 || x.z() > kHeight - 1e-9)
       for (int c = 0; c < 3; ++c) dofs.push_back(3 * k + c);
   }
   return dofs;
@@ -137,7 +137,7 @@ TEST(SpaceAssembler, SumsTheElementMatrices) {
 
 TEST(SpaceAssembler, KnowsMassAndCentreOfMass) {
   // Bent edges inside the box leave its volume alone, which is integrated exactly; first moments need straight edges.
-  const double mass = 4430 * kLength;
+  const double mass = 4430 * kHeight;
   EXPECT_NEAR(body_mass(box(3, 2, 2, 0.03), kTitanium, 0), mass, 1e-13 * mass);
   const Mesh mesh = box(3, 2, 2, 0);
   const FullMatrices full = Assembler(mesh).stiffness_and_mass(mesh, kTitanium);
@@ -211,13 +211,13 @@ TEST(SurfaceWeights, SumToTheAreaOfTheCylinder) {
   double previous = 0;
   for (int rows : {4, 8}) {
     const testing::Grid grid = testing::make_grid(1, rows, testing::annular_sector(0.1, 0.2, 6));
-    const Mesh mesh = testing::extrude(grid.mesh, 2, kLength);
+    const Mesh mesh = testing::extrude(grid.mesh, 2, kHeight);
     std::vector<int> nodes;
     for (int l = 0; l < 5; ++l)
       for (int j = 0; j <= 2 * rows; ++j) nodes.push_back(grid.node(2, j) + grid.mesh.node_count() * l);
     const Eigen::VectorXd weights = boundary_weights(mesh, nodes);
     EXPECT_GT(weights.minCoeff(), 0);
-    const double error = weights.sum() - 0.2 * 2 * std::numbers::pi / 6 * kLength;
+    const double error = weights.sum() - 0.2 * 2 * std::numbers::pi / 6 * kHeight;
     if (previous != 0) {
       EXPECT_LT(std::abs(error), std::abs(previous) / 12);
     }
@@ -229,7 +229,7 @@ TEST(SurfaceWeights, IntegrateQuadraticsOnTwistedFaces) {
   // The plane x = 1 of the box, its inner nodes shifted within it: the integral of a bilinear function of y and z
   // must not change. |dr x dr| times it is of degree 3 in each local coordinate, which Simpson's rule integrates.
   const testing::Grid grid = testing::make_grid(1, 2, testing::rectangle(1, 1));
-  Mesh mesh = testing::extrude(grid.mesh, 2, kLength, [](const Eigen::Vector2d& p, double z) {
+  Mesh mesh = testing::extrude(grid.mesh, 2, kHeight, [](const Eigen::Vector2d& p, double z) {
     return Eigen::Vector3d(p.x(), p.y() + 0.2 * z * p.y() * (1 - p.y()), z);
   });
   std::vector<int> nodes;
@@ -239,8 +239,8 @@ TEST(SurfaceWeights, IntegrateQuadraticsOnTwistedFaces) {
   const Eigen::VectorXd weights = boundary_weights(mesh, nodes);
   for (std::size_t k = 0; k < nodes.size(); ++k)
     integral += weights[static_cast<Eigen::Index>(k)] * (1 + mesh.nodes(1, nodes[k]) * mesh.nodes(2, nodes[k]));
-  EXPECT_NEAR(integral, kLength + kLength * kLength / 4, 1e-3 * integral);
-  EXPECT_NEAR(weights.sum(), kLength, 1e-13);
+  EXPECT_NEAR(integral, kHeight + kHeight * kHeight / 4, 1e-3 * integral);
+  EXPECT_NEAR(weights.sum(), kHeight, 1e-13);
 }
 
 TEST(NeckTensionInSpace, IsTheCentrifugalPullOfWhatIsAbove) {

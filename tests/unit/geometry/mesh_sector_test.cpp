@@ -18,12 +18,12 @@ namespace dovetail::geometry {
 namespace {
 
 using Eigen::Vector2d;
-constexpr double kRadian = std::numbers::pi / 180;
+constexpr double kDegree = std::numbers::pi / 180;
 
 ProfileParameters lopsided() {
   ProfileParameters p;
-  p.flank("left").angle = 47 * kRadian;
-  p.flank("right").angle = 53 * kRadian;
+  p.flank("left").angle = 47 * kDegree;
+  p.flank("right").angle = 53 * kDegree;
   p.flank("left").length = 5.0e-3;
   p.flank("right").length = 6.0e-3;
   return p;
@@ -64,8 +64,8 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_P(SectorMeshOf, HasWellShapedElements) {
   EXPECT_EQ(meshed_.quality.inverted_elements, 0);
   EXPECT_GT(meshed_.quality.minimum_scaled_jacobian, 0.3);
-  EXPECT_GT(meshed_.quality.minimum_angle, 15 * kRadian);
-  EXPECT_LT(meshed_.quality.maximum_angle, 140 * kRadian);
+  EXPECT_GT(meshed_.quality.minimum_angle, 15 * kDegree);
+  EXPECT_LT(meshed_.quality.maximum_angle, 140 * kDegree);
   EXPECT_FALSE(meshed_.remeshed);
 }
 

@@ -13,7 +13,7 @@ namespace dovetail::geometry {
 namespace {
 
 using Eigen::Vector2d;
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurn = std::numbers::pi;
 
 /// The chain with each arc replaced by `pieces` chords.
 Chain polygon(const Chain& chain, int pieces) {
@@ -30,15 +30,15 @@ TEST(Measures, KnowTheAreaAndTheBoxOfADiskAndAHalfDisk) {
   const double r = 2e-3;
   const Vector2d at(0.1, 0.2);
   const auto place = [&](double angle) { return Vector2d(at + r * Vector2d(std::cos(angle), std::sin(angle))); };
-  const Chain half{arc("arc", place(0), place(kPi), at, kPi), line("chord", place(kPi), place(0))};
-  EXPECT_NEAR(area(half), kPi * r * r / 2, 1e-15 * r);
+  const Chain half{arc("arc", place(0), place(kHalfTurn), at, kHalfTurn), line("chord", place(kHalfTurn), place(0))};
+  EXPECT_NEAR(area(half), kHalfTurn * r * r / 2, 1e-15 * r);
   const Eigen::AlignedBox2d box = bounding_box(half);
   EXPECT_NEAR((box.min() - at - Vector2d(-r, 0)).norm(), 0, 1e-15);
   EXPECT_NEAR((box.max() - at - Vector2d(r, r)).norm(), 0, 1e-15);
 
-  const Chain quarters{arc("a", place(0), place(-kPi / 2), at, -kPi / 2),
-                       arc("b", place(-kPi / 2), place(0), at, -1.5 * kPi)};
-  EXPECT_NEAR(area(quarters), -kPi * r * r, 1e-15 * r) << "clockwise is negative";
+  const Chain quarters{arc("a", place(0), place(-kHalfTurn / 2), at, -kHalfTurn / 2),
+                       arc("b", place(-kHalfTurn / 2), place(0), at, -1.5 * kHalfTurn)};
+  EXPECT_NEAR(area(quarters), -kHalfTurn * r * r, 1e-15 * r) << "clockwise is negative";
 }
 
 TEST(Measures, AgreeWithRefinedPolygonsAtSecondOrder) {
@@ -72,7 +72,7 @@ TEST(Measures, FindTheNarrowestPostByBruteForce) {
     const ProfileParameters p = random_design(generator);
     const Profile profile = build_profile(p);
     const Measures m = measure(profile, p);
-    const double angle = kPi / p.sectors;
+    const double angle = kHalfTurn / p.sectors;
     for (int side : {0, 1}) {
       const Edge& fillet = edge(profile.disk, side == 0 ? "slot_fillet_left" : "slot_fillet_right");
       double nearest = 1;

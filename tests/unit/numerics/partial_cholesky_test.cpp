@@ -45,7 +45,7 @@ Eigen::MatrixXd some(Eigen::Index rows, Eigen::Index columns) {
 }
 
 // Interiors have condition numbers below 1e3: rounding of 1e-16 times that, with room for sums.
-constexpr double kRounding = 1e-12;
+constexpr double kSmall = 1e-12;
 
 /// Held, floating, and pushed away so little that it is indefinite, but positive definite with a column of points held.
 class PartialCholeskyOf : public testing::TestWithParam<double> {};
@@ -59,7 +59,7 @@ TEST_P(PartialCholeskyOf, LeavesTheSchurComplementOfTheDenseFormula) {
     EXPECT_EQ(cholesky.size(), 256);
     EXPECT_EQ(cholesky.border(), border);
     const Eigen::MatrixXd exact = dense_schur(a, border);
-    EXPECT_LT((cholesky.schur() - exact).norm(), kRounding * exact.norm()) << border;
+    EXPECT_LT((cholesky.schur() - exact).norm(), kSmall * exact.norm()) << border;
     EXPECT_EQ(cholesky.schur(), Eigen::MatrixXd(cholesky.schur().transpose()));
   }
 }
@@ -77,22 +77,22 @@ TEST_P(PartialCholeskyOf, SolvesWithTheBorderHeldMovedAndFree) {
     held.bottomRows(border).setZero();
     held = cholesky.substitute(held);
     EXPECT_EQ(held.bottomRows(border).norm(), 0);
-    EXPECT_LT(((a * held - b).topRows(interior)).norm(), kRounding * b.norm());
+    EXPECT_LT(((a * held - b).topRows(interior)).norm(), kSmall * b.norm());
     // What the border carries is the load condensed onto it.
-    EXPECT_LT(((b - a * held) - eliminated).bottomRows(border).norm(), kRounding * b.norm());
+    EXPECT_LT(((b - a * held) - eliminated).bottomRows(border).norm(), kSmall * b.norm());
 
     Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(256, columns);
     moved.bottomRows(border) = b.bottomRows(border);
     moved = cholesky.substitute(moved);
     EXPECT_EQ(moved.bottomRows(border), b.bottomRows(border));
-    EXPECT_LT((a * moved).topRows(interior).norm(), kRounding * b.norm());
-    EXPECT_LT(((a * moved).bottomRows(border) - cholesky.schur() * b.bottomRows(border)).norm(), kRounding * b.norm());
+    EXPECT_LT((a * moved).topRows(interior).norm(), kSmall * b.norm());
+    EXPECT_LT(((a * moved).bottomRows(border) - cholesky.schur() * b.bottomRows(border)).norm(), kSmall * b.norm());
 
     if (GetParam() == 0.0) continue;  // S is singular
     Eigen::MatrixXd x = eliminated;
     x.bottomRows(border) = cholesky.schur().partialPivLu().solve(eliminated.bottomRows(border));
     x = cholesky.substitute(x);
-    EXPECT_LT((a * x - b).norm(), 100 * kRounding * b.norm());  // S adds its own condition
+    EXPECT_LT((a * x - b).norm(), 100 * kSmall * b.norm());  // S adds its own condition
   }
 }
 
@@ -112,7 +112,7 @@ TEST(PartialCholesky, TakesABorderFarBelowZero) {
   PartialCholesky cholesky;
   ASSERT_EQ(cholesky.factorise(a, 37), Status::converged);
   const Eigen::MatrixXd exact = dense_schur(a, 37);
-  EXPECT_LT((cholesky.schur() - exact).norm(), kRounding * exact.norm());
+  EXPECT_LT((cholesky.schur() - exact).norm(), kSmall * exact.norm());
 }
 
 TEST(PartialCholesky, TakesBordersOfUnconnectedBodiesAndNone) {
@@ -128,10 +128,10 @@ TEST(PartialCholesky, TakesBordersOfUnconnectedBodiesAndNone) {
     PartialCholesky cholesky;
     ASSERT_EQ(cholesky.factorise(a, border), Status::converged);
     const Eigen::MatrixXd exact = dense_schur(a, border);
-    EXPECT_LE((cholesky.schur() - exact).norm(), kRounding * exact.norm());
+    EXPECT_LE((cholesky.schur() - exact).norm(), kSmall * exact.norm());
     if (border > 0) continue;
     const Eigen::MatrixXd b = some(n, 3);
-    EXPECT_LT((a * cholesky.substitute(cholesky.eliminate(b)) - b).norm(), kRounding * b.norm());
+    EXPECT_LT((a * cholesky.substitute(cholesky.eliminate(b)) - b).norm(), kSmall * b.norm());
   }
 }
 
@@ -142,7 +142,7 @@ TEST(PartialCholesky, MovesWithItsFactors) {
   const PartialCholesky second = std::move(first);
   Eigen::MatrixXd r = Eigen::MatrixXd::Zero(36, 1);
   r.bottomRows(6).setOnes();
-  EXPECT_LT((a * second.substitute(r)).topRows(30).norm(), kRounding);
+  EXPECT_LT((a * second.substitute(r)).topRows(30).norm(), kSmall);
 }
 
 }  // namespace

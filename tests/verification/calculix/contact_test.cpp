@@ -14,7 +14,6 @@
 namespace dovetail::calculix {
 namespace {
 
-constexpr double kSpeed = 1047.1975511965977;  // 10 000 rpm
 constexpr double kFriction = 0.5;
 
 /// Our spin-up with the stiffness at rest, as the geometrically linear step of the deck has it.
@@ -64,7 +63,7 @@ FlankForces forces_on(const GluedJoint& joint, const steady::Preload& preload, i
   return sum;
 }
 
-fem::SectorMesh section() {
+fem::SectorMesh fine_section() {
   return geometry::mesh_sector(
              {}, {.flank_elements = 24, .fillet_fraction = 0.2, .bulk_size = 4e-3, .aerofoil_elements = 8})
       .sector;
@@ -137,7 +136,7 @@ void compare(const fem::SectorMesh& sector, int increments, double margin, doubl
 // Pressures: ours are linear between contact nodes, CalculiX's are extrapolated from points inside the faces to nodes;
 // the peak at the end of the contact converges in neither, so the outer 15 % of a flank are left out.
 TEST_F(ContactInCalculiX, CarriesOurForcesAndPressures) {
-  compare(section(), 10, 0.15, 9e-3);
+  compare(fine_section(), 10, 0.15, 9e-3);
 }
 
 /// Coarse: contact in space takes CalculiX a hundred times as long as in the plane.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -9,6 +10,9 @@
 #include "tests/verification/calculix/calculix.hpp"
 
 namespace dovetail::calculix {
+
+constexpr double kSpeed = 1047.1975511965977;  // 10 000 rpm
+constexpr std::array<int, 4> kDiameters{0, 1, 5, 23};
 
 /// Our own answer for a glued sector.
 struct GluedJoint {

@@ -12,8 +12,6 @@
 namespace dovetail::calculix {
 namespace {
 
-constexpr double kSpeed = 1047.1975511965977;  // 10 000 rpm
-constexpr std::array<int, 4> kDiameters{0, 1, 5, 23};
 constexpr int kModes = 3;
 
 geometry::MeshSizes coarse() {

@@ -15,7 +15,7 @@
 namespace dovetail::fem {
 namespace {
 
-constexpr int kSectors = 9;
+constexpr int kSectorsOfSection = 9;
 constexpr double kLength = 0.03;
 
 /// A plane section of one thickness and the same extruded with every node held axially: the same structure.
@@ -30,7 +30,7 @@ class ExtrudedSection : public ::testing::Test {
     solid = testing::extrude(plane, 2, kLength, 1);
     testing::hold_axially(solid);
   }
-  SectorMesh plane = testing::toothed_sector(4, 3, 4, kSectors, false), solid;
+  SectorMesh plane = testing::toothed_sector(4, 3, 4, kSectorsOfSection, false), solid;
   const std::vector<Material> materials{{.density = 4430},
                                         {.youngs_modulus = 2e11, .poisson_ratio = 0.3, .density = 7800}};
 };

@@ -14,7 +14,7 @@ namespace {
 
 // Both searches stop when the correction left is 0.2 of this: their answers differ by less than 1e-7.
 const paths::BackboneOptions kTight{.resonance = {.frequency_tolerance = 2e-8}};
-const steady::Options kSteady{.harmonics = 5, .samples = 256, .tolerance = 1e-11};
+const steady::Options kOnPeaks{.harmonics = 5, .samples = 256, .tolerance = 1e-11};
 
 // Every point against paths::resonance() started anew beside it; returns the Jacobians paths::resonance() took.
 int expect_resonances(const paths::Backbone& backbone, const paths::BackboneFamily& family) {
@@ -72,14 +72,14 @@ void expect_tracked(const paths::Backbone& backbone, int searching) {
 }
 
 TEST(Backbone, OfExcitationLevelsIsItsResonances) {
-  const paths::BackboneFamily family = paths::excitation_levels({condensed(sliding_orbit()), {}, kSteady});
+  const paths::BackboneFamily family = paths::excitation_levels({condensed(sliding_orbit()), {}, kOnPeaks});
   const paths::Backbone found = paths::backbone(family, levels(1, 3, 17), 1.05, kTight);
   expect_tracked(found, expect_resonances(found, family));
 }
 
 TEST(Backbone, OfWearIsItsResonances) {
   const paths::BackboneFamily family =
-      paths::wear_levels({condensed(sliding_orbit()), {}, kSteady}, Eigen::VectorXd::Constant(1, 0.6));
+      paths::wear_levels({condensed(sliding_orbit()), {}, kOnPeaks}, Eigen::VectorXd::Constant(1, 0.6));
   const paths::Backbone found = paths::backbone(family, levels(0, 1, 13), 1.05, kTight);
   expect_tracked(found, expect_resonances(found, family));
   // The normal force falls: less friction, a higher peak.
@@ -92,7 +92,7 @@ TEST(Backbone, OfSpeedGoesThroughAModelOfItsOwn) {
     reduction::ReducedModel model = sliding_orbit();
     model.stiffness.topLeftCorner<2, 2>() += 0.2 * speed * speed * Eigen::Matrix2d::Identity();
     model.static_force(4) = 1 + 0.5 * speed * speed;
-    return steady::Joint{condensed(model), {}, kSteady};
+    return steady::Joint{condensed(model), {}, kOnPeaks};
   };
   const paths::Backbone found = paths::backbone(family, levels(0, 1, 11), 1.05, kTight);
   expect_tracked(found, expect_resonances(found, family));
@@ -119,7 +119,7 @@ void expect_maxima(const paths::Backbone& backbone, const paths::BackboneFamily&
 }
 
 TEST(Backbone, OfAHardeningGapIsMadeOfMaxima) {
-  const paths::BackboneFamily family = paths::excitation_levels({condensed(gap_oscillator(1, 0.02, 1)), {}, kSteady});
+  const paths::BackboneFamily family = paths::excitation_levels({condensed(gap_oscillator(1, 0.02, 1)), {}, kOnPeaks});
   const paths::Backbone found = paths::backbone(family, levels(0.03, 0.12, 12), 1.0, kTight);
   expect_maxima(found, family);
   // Linear until the gap closes at F = 2 zeta = 0.04, then the peak moves up.
@@ -129,7 +129,7 @@ TEST(Backbone, OfAHardeningGapIsMadeOfMaxima) {
 
 TEST(Backbone, OfARodThatWearsIsMadeOfMaxima) {
   const paths::BackboneFamily family =
-      paths::wear_levels({condensed(rod(5)), {}, kSteady}, Eigen::VectorXd::LinSpaced(5, 0.5, 0.1));
+      paths::wear_levels({condensed(rod(5)), {}, kOnPeaks}, Eigen::VectorXd::LinSpaced(5, 0.5, 0.1));
   const paths::Backbone found = paths::backbone(family, levels(0, 1, 11), 3.0, kTight);
   expect_maxima(found, family);
 }
@@ -172,7 +172,7 @@ TEST(Backbone, SaysWhereItLeftThePeakItFollowed) {
 }
 
 TEST(Backbone, StopsWhenAsked) {
-  const paths::BackboneFamily family = paths::excitation_levels({condensed(sliding_orbit()), {}, kSteady});
+  const paths::BackboneFamily family = paths::excitation_levels({condensed(sliding_orbit()), {}, kOnPeaks});
   const paths::Backbone found = paths::backbone(
       family, levels(1, 2, 4), 1.05, kTight, [](const paths::BackbonePoint& point) { return point.parameter < 1.1; });
   EXPECT_EQ(found.status, Status::interrupted);
