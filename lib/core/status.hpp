@@ -15,7 +15,7 @@ enum class Status {
   not_periodic,     ///< the contact march did not become periodic
   no_bracket,       ///< a scalar search found no sign change / no extremum in its range
   interrupted,      ///< the caller asked to stop
-  gross_sliding,    ///< rest only with nearly the whole contact worn off (wear/gross_sliding.hpp)
+  gross_sliding,    ///< rest only with nearly the whole contact worn off (wear/asymptote/gross_sliding.hpp)
   budget_spent,     ///< the work allowed for the whole computation was used up (core/budget.hpp)
 };
 

@@ -81,15 +81,17 @@ class Tracker {
     const steady::Joint joint = family_(point.parameter);
     Resonance swept;
     for (const auto& [from, to] : ways) {
-      swept = peak_sweep(joint, from, to, backbone_.resonance);
-      point.checking += swept.jacobians;
-      if (swept.status == Status::converged) break;
+      Resonance found = peak_sweep(joint, from, to, backbone_.resonance);
+      point.checking += found.jacobians;
+      if (found.status == Status::converged && (swept.status != Status::converged || found.unresolved == 0))
+        swept = std::move(found);
+      if (swept.status == Status::converged && swept.unresolved == 0) break;
     }
     if (swept.status != Status::converged) return;
-    point.checked = true;
-    // Maxima of the sampled equations lie about one peak, that much different in height.
-    const double noise = 1.0 / joint.options.samples;
-    if (known && swept.amplitude <= point.amplitude * (1 + noise)) return;
+    const double level = 1 + noise_of_peaks(joint.options);
+    // What stands as high as the highest point of the branch has been held against all of it.
+    point.checked = swept.unresolved <= level * std::max(swept.amplitude, known ? point.amplitude : 0.0);
+    if (known && swept.amplitude <= level * point.amplitude) return;
     point.status = Status::converged;
     point.searched = point.jumped = true;
     adopt(std::move(swept), point);

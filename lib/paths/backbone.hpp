@@ -37,7 +37,7 @@ struct BackbonePoint {
   bool searched = false;  ///< found by resonance() or by the check instead of Newton on (U, omega)
   /// Not the peak followed from the point before (or next to omega_start), which was lost or lower than this one.
   bool jumped = false;
-  /// Held against the branch in check_range, which holds no higher peak. False: a maximum, perhaps not the largest.
+  /// Held against the branch in check_range, which holds no higher point. False: a maximum, perhaps not the largest.
   bool checked = false;
   int intermediate = 0;  ///< points between the one before and this that were needed and not reported
   int jacobians = 0;     ///< of this point and its intermediate ones

@@ -60,6 +60,13 @@ struct ClosingInParams {
   double beside = 1e-3, no_lower = 0.999;
 };
 
+/// Newton on (U, omega) towards a maximum near by.
+struct ClimbParams {
+  double height = 0.99;  ///< of where it began: a search that ends lower has run off to another maximum
+  int climbs = 8;        ///< where the branch turns away from where it led, the climb begins anew
+  double gain = 1e-3;    ///< as long as it gains so much
+};
+
 /// Peaks of a coarse sweep.
 struct PeakSweepParams {
   /// What counts is that no peak is stepped over, and the change of the outputs sees to that.
@@ -71,9 +78,6 @@ struct PeakSweepParams {
   std::size_t tried =
       3;  ///< summits that are climbed: one of coarse steps may be lower than the peak beside it is high
   double hopeless = 0.8;  ///< of the highest peak found: lower summits are not climbed
-  double height = 0.99;   ///< of the summit: a search that ends lower has run off to another maximum
-  int climbs = 8;         ///< where the branch turns away from where it led, the climb begins anew
-  double gain = 1e-3;     ///< as long as it gains so much
 };
 
 /// Following a peak over a parameter.
@@ -119,7 +123,7 @@ static_assert(PeakParams{}.part < 1 && ClosingInParams{}.part < 1, "the last ste
 static_assert(StationarityParams{}.overshoot * StationarityParams{}.one_sided < 0.5,
               "a step that overshoots stays nearer to its end than a bisection");
 static_assert(ClosingInParams{}.cautious < ClosingInParams{}.tries, "more tries where rescues help");
-static_assert(PeakSweepParams{}.hopeless < PeakSweepParams{}.height, "what is climbed may be lower than its summit");
+static_assert(PeakSweepParams{}.hopeless < ClimbParams{}.height, "what is climbed may be lower than its summit");
 static_assert(BackboneParams{}.moved < BackboneParams{}.elsewhere, "moved before it is another peak");
 static_assert(WidthParams{}.sharpest < ClosingInParams{}.beside, "beside a peak is outside the sharpest");
 static_assert(WayParams{}.shortest < WayParams{}.longest, "steps may be cut");

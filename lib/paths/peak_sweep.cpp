@@ -1,10 +1,13 @@
 #include "paths/peak_sweep.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
+#include "paths/amplitude.hpp"
 #include "paths/continuation.hpp"
 #include "paths/params.hpp"
-#include "paths/peak.hpp"
+#include "paths/peak_search.hpp"
 
 namespace dovetail::paths {
 namespace {
@@ -21,31 +24,29 @@ std::vector<std::size_t> summits(const branches::Branch& branch, Eigen::Index ou
 
 constexpr PeakSweepParams kPeakSweep;
 
-}  // namespace
-
-std::optional<steady::State> climb(const branches::Equations& equations, const steady::State& from, double width,
-                                   const ResonanceOptions& options, Resonance& work) {
-  const branches::ArcMetric metric = peak_metric(from, width);
-  branches::Vector start{.displacement = from.displacement, .parameter = from.omega};
-  double height = from.amplitudes(options.output);
-  Peak peak;
-  // Where the branch turns away from where it led at the start, the climb begins anew.
-  for (int i = 0; i < kPeakSweep.climbs; ++i) {
-    peak = find_peak(equations, start, metric,
-                     {.output = options.output, .frequency_tolerance = options.frequency_tolerance});
-    ++work.solves;
-    work.jacobians += peak.iterations;
-    const bool ended = peak.status != Status::stalled && peak.status != Status::iteration_limit;
-    if (ended || peak.amplitude < (1 + kPeakSweep.gain) * height) break;
-    height = peak.amplitude;
-    start = peak.at;
-  }
-  if (peak.status != Status::converged || peak.amplitude < kPeakSweep.height * from.amplitudes(options.output))
-    return {};
-  steady::State state = described(equations, peak, metric);
-  if (state.status != Status::converged || !state.tangent) return {};
-  return state;
+/// The maximum beside point `i` of the branch, which is higher than its neighbours. `joint` linearises. Counts its work
+/// in `work`.
+std::optional<steady::State> maximum_beside(const branches::Branch& branch, std::size_t i, const steady::Joint& joint,
+                                            const ResonanceOptions& options, Resonance& work) {
+  // The points of the sweep have no tangents, which the width of the peak needs.
+  const steady::State summit = refined_state(joint, branch.points[i].state);
+  ++work.solves;
+  work.jacobians += summit.iterations;
+  if (summit.status != Status::converged) return {};
+  const AmplitudeSlope at = amplitude_slope(summit, options.output);
+  const branches::Equations equations(joint, branch.penalty_ratio);
+  if (std::optional<steady::State> top = climb(equations, summit, at.width, options, work)) return top;
+  const auto away = [&](std::size_t j) { return std::abs(branch.points[j].state.omega / summit.omega - 1); };
+  ResonanceOptions between = options;
+  between.search_range = std::max(away(i - 1), away(i + 1));
+  Resonance found = search_peak(joint, summit.omega, between, summit.displacement);
+  work.solves += found.solves;
+  work.jacobians += found.jacobians;
+  if (found.status != Status::converged || found.amplitude < ClimbParams{}.height * at.amplitude) return {};
+  return std::move(found.state);
 }
+
+}  // namespace
 
 Resonance peak_sweep(const steady::Joint& joint, double omega_from, double omega_to,
                      const ResonanceOptions& resonance_options) {
@@ -54,24 +55,20 @@ Resonance peak_sweep(const steady::Joint& joint, double omega_from, double omega
   steady::Joint without = joint, with = joint;
   without.options.linearise = false;
   with.options.linearise = true;
-  branches::Branch branch = continuation(without, omega_from, omega_to, coarse);
+  const branches::Branch branch = continuation(without, omega_from, omega_to, coarse);
   Resonance result{.status = branch.status, .state = {}};
   result.solves = static_cast<int>(branch.points.size()) + branch.rejected;
   result.jacobians = branch.jacobians;
   const std::vector<std::size_t> candidates = summits(branch, resonance_options.output);
   if (branch.status == Status::converged) result.status = Status::no_bracket;
-  const branches::Equations equations(with, branch.penalty_ratio);
   for (std::size_t c = 0; c < std::min(candidates.size(), kPeakSweep.tried); ++c) {
-    const steady::State& summit = branch.points[candidates[c]].state;
-    if (summit.amplitudes(resonance_options.output) < kPeakSweep.hopeless * result.amplitude) break;
-    // The points of the sweep have no tangents, which the width of the peak needs.
-    const steady::State from = refined_state(with, summit);
-    ++result.solves;
-    result.jacobians += from.iterations;
-    if (from.status != Status::converged) continue;
-    std::optional<steady::State> state =
-        climb(equations, from, amplitude_slope(from, resonance_options.output).width, resonance_options, result);
-    if (!state) continue;
+    const double height = branch.points[candidates[c]].state.amplitudes(resonance_options.output);
+    if (height < kPeakSweep.hopeless * result.amplitude) break;
+    std::optional<steady::State> state = maximum_beside(branch, candidates[c], with, resonance_options, result);
+    if (!state) {
+      result.unresolved = std::max(result.unresolved, height);
+      continue;
+    }
     const AmplitudeSlope at = amplitude_slope(*state, resonance_options.output);
     if (at.amplitude <= result.amplitude) continue;
     result.status = Status::converged;
@@ -80,6 +77,7 @@ Resonance peak_sweep(const steady::Joint& joint, double omega_from, double omega
     result.slope = at.slope;
     result.state = std::move(*state);
   }
+  if (result.unresolved <= (1 + noise_of_peaks(joint.options)) * result.amplitude) result.unresolved = 0;
   return result;
 }
 

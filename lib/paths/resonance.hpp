@@ -21,9 +21,12 @@ struct Resonance {
   double omega = 0;      ///< rad/s, where the amplitude is largest
   double amplitude = 0;  ///< half peak-to-peak of the output
   double slope = 0;      ///< dA/dw at omega
-  int solves = 0;        ///< steady states computed
-  int jacobians = 0;     ///< Jacobians of all of them
-  steady::State state;   ///< at omega, with linearisation
+  /// Of the highest point that the branch was followed through, when it is higher than the maximum, of which none was
+  /// found beside it; else 0.
+  double unresolved = 0;
+  int solves = 0;       ///< steady states computed
+  int jacobians = 0;    ///< Jacobians of all of them
+  steady::State state;  ///< at omega, with linearisation
 };
 
 /// The maximum of the amplitude of one output on the response curve near `omega_start` (rad/s; the glued natural

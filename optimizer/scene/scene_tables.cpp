@@ -117,8 +117,9 @@ std::span<const Field<optimizer::SolverSettings>> option_table<optimizer::Solver
                .help = "relative residual at which a steady state counts as converged"},
       Field<S>{.key = "solver",
                .member = &S::solver,
-               .help = "algorithm for the nonlinear equations; auto: Newton, then other pseudo-penalties and Powell "
-                       "where it fails; powell: hybrid Powell with the exact Jacobian; powell_fd: with finite "
+               .help = "algorithm for the nonlinear equations; auto: Newton, then other pseudo-penalties and "
+                       "neighbouring problems where it fails; powell: hybrid Powell with the exact Jacobian; "
+                       "powell_fd: with finite "
                        "differences, for comparison",
                .choices = {"auto", "newton", "powell", "powell_fd"}},
       Field<S>{.key = "pseudo_penalty_n_per_m",

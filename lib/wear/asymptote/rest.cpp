@@ -59,7 +59,9 @@ class Rule {
   void weigh(Rest& asked) {
     const Asymptote& history = asked.asymptote;
     if (history.doubt != Doubt::none && !history.confirmed_by_history) asked.unfinished = unfinished(history);
-    const bool decides = history.decided_by == FoundBy::history && history.verdict == Verdict::asymptote;
+    // A direct answer that cannot stand without the history is none to be held against it.
+    const bool decides = history.decided_by == FoundBy::history && history.verdict == Verdict::asymptote &&
+                         entry(history.doubt).direct_stands;
     // On the way along resonances the history may have led astray.
     const bool fails =
         options_.follow && history.verdict == Verdict::not_converged && history.status != Status::interrupted;

@@ -77,7 +77,8 @@ std::string table(const BackboneOptions& options, const paths::Backbone& found) 
   for (const paths::BackbonePoint& point : found.points) {
     text += fmt::format("{:>16.9g} {:>16}", point.parameter, to_string(point.status));
     if (point.status == Status::converged)
-      text += fmt::format(" {:>16.10g} {:>16.8g}", point.omega / kTurn, point.amplitude);
+      text += fmt::format(" {:>16.10g} {:>16.8g}{}", point.omega / kTurn, point.amplitude,
+                          point.checked ? "" : "  a maximum, perhaps not the largest");
     text += "\n";
   }
   return text;

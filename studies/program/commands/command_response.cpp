@@ -23,6 +23,11 @@ std::vector<double> frequencies(const ResponseOptions& options) {
   return evenly_spaced(options.from_hz, options.to_hz, options.points);
 }
 
+/// Points that a branch may take.
+int most_points(int points) {
+  return std::max(branches::FollowOptions{}.max_points, 20 * points);
+}
+
 /// Computes the curve point by point, with what is asked for at each; shows progress and stops when asked to.
 class CurveRun {
  public:
@@ -58,7 +63,7 @@ class CurveRun {
     branches::FollowOptions follow;
     if (options_.points > 1)
       follow.largest_parameter_step = std::min(follow.largest_parameter_step, 1.0 / (options_.points - 1));
-    follow.max_points = std::max(follow.max_points, 20 * options_.points);
+    follow.max_points = most_points(options_.points);
     curve_.branch =
         paths::continuation({loaded_.joint.model, {}, steady}, kTurn * options_.from_hz, kTurn * options_.to_hz, follow,
                             [&](const branches::BranchPoint& point) { return take(point.state, interrupt, 0); });
@@ -123,6 +128,14 @@ std::string failures(const ResponseCurve& curve) {
   return text;
 }
 
+/// How a branch that was not followed to its end may be.
+std::string advice(const ResponseCurve& curve, const ResponseOptions& options) {
+  const int points = static_cast<int>(curve.states.size());
+  if (points < most_points(options.points)) return "more --samples make the branch smoother there";
+  return fmt::format("its {} points are as many as --points {} allows, --points {} allows {} and shorter steps", points,
+                     options.points, points / 10, most_points(points / 10));
+}
+
 /// Whether some node slips or separates in a state that converged.
 bool contact_changes(const ResponseCurve& curve) {
   return std::ranges::any_of(curve.states, [](const steady::State& state) {
@@ -157,10 +170,8 @@ int run_response(const ResponseOptions& options, const Streams& streams) {
   int status = kDone;
   if (const std::string failed = failures(curve); !failed.empty()) status = complain(failed);
   if (curve.branch && curve.branch->status != Status::converged && status == kDone)
-    status =
-        complain(fmt::format("the response was followed to {:.9g} Hz and not to its end: {}; more --samples make the "
-                             "branch smoother there",
-                             curve.frequency_hz.back(), to_string(curve.branch->status)));
+    status = complain(fmt::format("the response was followed to {:.9g} Hz and not to its end: {}; {}",
+                                  curve.frequency_hz.back(), to_string(curve.branch->status), advice(curve, options)));
   if (const std::string failed = analysis_failures(curve.analyses); !failed.empty()) status = complain(failed);
   if (automatic && *automatic != Status::converged && status == kDone)
     status = complain(truncation_complaint(*automatic, loaded.joint.options, options.solver));

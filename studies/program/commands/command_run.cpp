@@ -32,14 +32,17 @@ void require_runnable(const Study& study) {
   wrong.raise();
 }
 
-/// The directory of the results, created; an existing one is only touched to resume it.
-fs::path prepare_directory(const RunOptions& options, const Study& study) {
+/// The directory of the results, created; an existing one is only touched to resume it. Scripts that always say
+/// --resume begin where nothing is there, which whoever mistyped the directory hears.
+fs::path prepare_directory(const RunOptions& options, const Study& study, std::ostream& err) {
   fs::path directory = options.directory.empty() ? fs::path("results") / study.name : fs::path(options.directory);
   std::error_code error;
   if (fs::exists(directory, error)) {
     if (!fs::is_directory(directory, error)) refuse(directory.string(), "is not a directory");
     if (!options.resume && !fs::is_empty(directory, error))
       refuse(directory.string(), "exists already; give --resume to continue the run in it or -o another directory");
+  } else if (options.resume) {
+    err << "dovetail: " << directory.string() << ": nothing is there to resume; a new run begins" << std::endl;
   }
   fs::create_directories(directory, error);
   if (error) refuse(directory.string(), "cannot be created: " + error.message());
@@ -153,8 +156,10 @@ int run_study(const RunOptions& options, const Streams& streams, const RunEngine
   const RunEngine engine = make_engine(study);
   const std::string fingerprint = optimizer::fingerprint(
       study.problem, study.optimizer, std::string("dovetail ") + version() + "\n" + physics_text(study.scene));
-  const RunSite site{
-      .study = study, .engine = engine, .directory = prepare_directory(options, study), .err = streams.err};
+  const RunSite site{.study = study,
+                     .engine = engine,
+                     .directory = prepare_directory(options, study, streams.err),
+                     .err = streams.err};
   const OrderlyInterrupt interrupt;
   const OptimizationResult result = searched(site, options.resume, fingerprint, interrupt);
 

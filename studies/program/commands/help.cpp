@@ -65,7 +65,9 @@ CommandHelp backbone() {
           "Each resonance is found from the ones before, not by sampling response curves. JSON: {\"over\", "
           "\"output\",\n"
           "\"parameter\", \"status\", \"frequency_hz\", \"amplitude\", \"frequency_error\", \"dissipated_energy_j\",\n"
-          "\"searched\", \"jacobians\", \"settings\"}; one entry per parameter in each list."};
+          "\"searched\", \"jumped\", \"checked\", \"jacobians\", \"settings\"}; one entry per parameter in each list.\n"
+          "\"jumped\": not the peak of the level before; \"checked\": no point within 40 % of its frequency is "
+          "higher."};
 }
 
 CommandHelp wear() {

@@ -140,7 +140,7 @@ TEST(Backbone, IsTheLargestPeakWhicheverWayItIsFollowed) {
   const paths::BackboneFamily family = paths::excitation_levels({condensed(rod(10))});
   // Maxima of the sampled equations beside each other differ by 1 / samples, those of the sweep are points of a grid.
   const double noise = 2.0 / steady::Options{}.samples;
-  for (const auto& way : {levels(1, 2, 3), levels(2, 1, 3)}) {
+  for (const auto& way : {levels(1, 2, 11), levels(2, 1, 11)}) {
     const paths::Backbone found = paths::backbone(family, way, 2.8);
     ASSERT_EQ(found.status, Status::converged);
     for (const paths::BackbonePoint& point : found.points) {
