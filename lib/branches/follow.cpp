@@ -152,8 +152,10 @@ class Follower {
     const double by_iterations = std::exp2((kParams.wanted_corrections - next.iterations) / 2.0);
     const double factor =
         std::clamp(std::min(by_iterations, kParams.safety * shape_factor(next)), 1 / kParams.growth, kParams.growth);
-    return std::clamp(std::max(step, next.step / kParams.growth) * factor, follow_.smallest_step,
-                      follow_.largest_change);
+    // Outputs and turns limit the step already. What is left are the parameter, and the contact: its static part may
+    // creep by many times its vibration while nothing else changes.
+    const double longest = follow_.largest_change / std::max(std::abs(next.slope()), 1 / kParams.creep);
+    return std::clamp(std::max(step, next.step / kParams.growth) * factor, follow_.smallest_step, longest);
   }
 
   // The end of the interval behind which a parameter lies, if any.

@@ -8,11 +8,11 @@
 
 namespace dovetail::branches {
 
-/// How a branch of steady states is followed. One unit of arc length is a change of the vibration by its own size, so
-/// the steps adapt to a resonance of any width; see ArcMetric.
+/// How a branch of steady states is followed. One unit of arc length is a change of the contact's displacements, their
+/// static part included, by the size of their vibration, so the steps adapt to a resonance of any width; see ArcMetric.
 struct FollowOptions {
   double largest_parameter_step = 0.05;  ///< between points, fraction of the interval followed, (0, 1]
-  double largest_change = 0.3;           ///< of displacements and outputs between points, relative, > 0
+  double largest_change = 0.3;           ///< of outputs between points, relative, > 0; of the contact far more
   double largest_turn = 0.5;             ///< between the tangents of neighbouring points, rad, > 0
   double initial_step = 0.02;            ///< first step, arc length, > 0
   double smallest_step = 1e-8;           ///< arc length at which the branch is given up, > 0

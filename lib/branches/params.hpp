@@ -47,6 +47,7 @@ struct FollowParams {
   std::size_t places = 16;            ///< and how many of them say where the branch goes on the whole
   int zigzag = 24;                    ///< points without a new place before a leap is tried
   double leaps[3] = {0.1, 0.3, 1.0};  ///< its lengths, in parts of the largest change
+  double creep = 30;                  ///< largest change of the contact in one step, in parts of the largest change
   double onwards = 0.5;               ///< least cosine between a leap and where the branch went
   double bent = 0.95;      ///< cosine of tangents, and of chord and tangent, below which the other direction is tried
   double memory = 0.6;     ///< of the chord, from point to point

@@ -40,7 +40,7 @@ std::optional<Station> StationMaker::first(steady::State state, double parameter
   return now;
 }
 
-// One unit is a change of the contact's vibration by its own size, or the step of the parameter that counts as much.
+// One unit is a change of the contact by the size of its vibration, or the step of the parameter that counts as much.
 ArcMetric StationMaker::metric_at(const steady::State& state) {
   const double vibrating = vibrating_force(state);
   largest_forces_ = std::max({largest_forces_, vibrating, MetricParams{}.static_part * penalty_forces(state).norm()});

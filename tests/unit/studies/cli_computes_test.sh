@@ -51,6 +51,12 @@ worn = ("asymptotic", "resonance_drift", "worn")
 assert {name for name in whole if not name.startswith(worn)} == set(unworn)
 PYTHON
 fi
+# Through a resonance while the static part of the contact creeps by many times its vibration.
+expect 0 response full.toml --from 470 --to 490 --points 4 --arclength --json -; is_json; cp out curve.json
+if command -v python3 > /dev/null; then
+  python3 -c 'import json; assert len(json.load(open("curve.json"))["frequency_hz"]) < 300' ||
+    fail "a response curve takes more than twice the points its outputs need"
+fi
 # Without an answer a design is not feasible, whether or not the study has limits.
 awk '/^\[/ { terms = /^\[\[/ } !terms' s.toml > plain.toml
 for study in s plain; do
