@@ -111,7 +111,8 @@ std::string_view kind(const Outcome& outcome) {
 // States that each way led to, and what they took with all ways before it.
 std::string ways(const std::vector<Outcome>& outcomes) {
   std::map<steady::Way, std::vector<double>> iterations;
-  for (const Outcome& outcome : outcomes) iterations[outcome.way].push_back(outcome.iterations);
+  for (const Outcome& outcome : outcomes)
+    if (outcome.converged()) iterations[outcome.way].push_back(outcome.iterations);
   std::string text = fmt::format("\n{:<24}{:>9}{:>14}\n", "way", "states", "iterations");
   for (const auto& [way, taken] : iterations)
     if (way != steady::Way::none)
@@ -157,7 +158,7 @@ std::string marginal_table(const std::vector<Family>& families, const std::vecto
       const Outcome other = same ? outcome : attempt(*family, outcome.index, problem, {.left_out = way});
       const auto right = [](const Outcome& o) { return o.converged() && o.wrong.empty(); };
       Yield& yield = yields[{way, kind(outcome)}];
-      yield.earned += outcome.way == way ? 1 : 0;
+      yield.earned += right(outcome) && outcome.way == way ? 1 : 0;
       yield.lost += right(outcome) && !right(other) ? 1 : 0;
       yield.gained += right(other) && !right(outcome) ? 1 : 0;
       yield.with += outcome.iterations;

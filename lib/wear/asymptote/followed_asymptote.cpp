@@ -11,22 +11,20 @@ namespace dovetail::wear {
 
 namespace {
 
-/// What an earlier pass left in doubt, the way to the last one leaves in doubt, too.
-void keep_doubt(const Asymptote& earlier, Asymptote& last) {
+/// What an earlier pass left in doubt, the way to the last one leaves in doubt, too. Other states are as far from the
+/// last one as they were from the earlier one.
+void keep_doubt(const Asymptote& earlier, const reduction::ContactNodes& contact, Asymptote& last) {
   last.bearing.needed = last.bearing.needed || earlier.bearing.needed;
   last.bearing.share = std::min(last.bearing.share, earlier.bearing.share);
   last.bearing.closing = std::max(last.bearing.closing, earlier.bearing.closing);
-  if (last.doubt != Doubt::none || earlier.doubt == Doubt::none) return;
-  last.doubt = earlier.doubt;
-  last.decided_by = earlier.decided_by;
-  last.confirmed_by_history = earlier.confirmed_by_history;
-  last.history = earlier.history;
-  // As far from the last state as they were from the earlier one.
-  last.other_states = earlier.other_states;
-  for (OtherState& other : last.other_states) {
-    other.worn_volume += last.worn_volume - earlier.worn_volume;
-    other.largest_depth += last.largest_depth - earlier.largest_depth;
-  }
+  if (earlier.doubt == Doubt::none) return;
+  const bool alone = last.doubt == Doubt::none;
+  if (alone) last.doubt = earlier.doubt;
+  if (alone || earlier.decided_by == FoundBy::history) last.decided_by = earlier.decided_by;
+  last.confirmed_by_history = earlier.confirmed_by_history && (alone || last.confirmed_by_history);
+  if (last.history == Status::converged) last.history = earlier.history;
+  for (const OtherState& other : earlier.other_states)
+    last.other_states.push_back(other_state(other.found_by, contact, other.depth + last.depth - earlier.depth));
 }
 
 }  // namespace
@@ -64,7 +62,7 @@ Rest followed_asymptote(const steady::Joint& joint, double omega, const Asymptot
     if (stays) return result;
     const Asymptote earlier = std::move(last);
     last = asymptote(worn_joint, omega, onwards, nullptr, watcher);
-    if (last.verdict == Verdict::asymptote) keep_doubt(earlier, last);
+    if (last.verdict == Verdict::asymptote) keep_doubt(earlier, joint.model->contact(), last);
     result.omegas.push_back(omega);
     result.solves += last.solves;
     result.jacobians += last.jacobians;

@@ -62,12 +62,12 @@ CommandHelp backbone() {
       .name = "backbone",
       .what = "Resonance and its amplitude over the excitation's level or the wear",
       .footer =
-          "Each resonance is found from the ones before, not by sampling response curves. JSON: {\"over\", "
-          "\"output\",\n"
-          "\"parameter\", \"status\", \"frequency_hz\", \"amplitude\", \"frequency_error\", \"dissipated_energy_j\",\n"
-          "\"searched\", \"jumped\", \"checked\", \"jacobians\", \"settings\"}; one entry per parameter in each list.\n"
-          "\"jumped\": not the peak of the level before; \"checked\": no point within 40 % of its frequency is "
-          "higher."};
+          "Each resonance is found from the ones before, not by sampling response curves; --harmonics and --samples\n"
+          "are numbers here. JSON: {\"over\", \"output\", \"parameter\", \"status\", \"frequency_hz\", \"amplitude\",\n"
+          "\"frequency_error\", \"dissipated_energy_j\", \"searched\", \"jumped\", \"checked\", \"jacobians\", "
+          "\"settings\"};\n"
+          "one entry per parameter in each list. \"jumped\": not the peak of the level before; \"checked\": no point\n"
+          "within 40 % of its frequency is higher."};
 }
 
 CommandHelp wear() {

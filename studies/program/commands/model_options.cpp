@@ -72,7 +72,8 @@ std::span<const Option<AnalysisChoice>> command_options<AnalysisChoice>() {
       {"--traction-bounds",
        &C::traction_bounds,
        {},
-       "Least and largest result found over the admissible residual tractions of stuck nodes"}};
+       "Least and largest result found over the admissible residual tractions of stuck nodes, at up to three thousand "
+       "steady states per frequency"}};
   return table;
 }
 

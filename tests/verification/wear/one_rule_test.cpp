@@ -10,6 +10,7 @@
 #include "studies/program/engine/engine.hpp"
 #include "studies/program/engine/wear_methods.hpp"
 #include "studies/program/study_file/study.hpp"
+#include "wear/measures.hpp"
 
 namespace dovetail::studies {
 namespace {
@@ -73,6 +74,25 @@ TEST(WhereWearComesToRest, IsTheSameWhereTheHistoryEndsANodeApart) {
   const WearAnswer answer = asymptote(unknown, worn.unworn.omega / (2 * std::numbers::pi));
   EXPECT_EQ(answer.asymptote->decided_by, wear::FoundBy::history);
   EXPECT_NEAR(answer.volume, worn.other_states.front().worn_volume, 1e-4 * answer.volume);
+}
+
+// With rough flanks the history decides at the first frequency; on the way to the resonance of the worn joint nothing
+// is in doubt any more, yet what the first pass left open is still said, as far away as it was there.
+TEST(WhereWearComesToRest, KeepsOtherStatesAlongResonances) {
+  const LoadedModel loaded = load_model(QUICKSTART, {"contact.normal_stiffness_n_per_m3=1e14"}, {});
+  WearOptions options;
+  options.method = "asymptote";
+  options.follow = "resonance";
+  const WearAnswer answer = wear_answer(options, loaded, wear_start(options, loaded), {});
+  ASSERT_TRUE(answer.worn_out());
+  const wear::Asymptote& worn = *answer.asymptote;
+  EXPECT_EQ(worn.decided_by, wear::FoundBy::history);
+  ASSERT_FALSE(worn.other_states.empty());
+  for (const wear::OtherState& other : worn.other_states) {
+    EXPECT_NEAR(other.worn_volume, wear::worn_volume(loaded.joint.model->contact(), other.depth),
+                1e-12 * other.worn_volume);
+    EXPECT_NEAR(other.largest_depth, other.depth.maxCoeff(), 1e-12 * other.largest_depth);
+  }
 }
 
 }  // namespace
