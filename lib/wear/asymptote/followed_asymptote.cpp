@@ -29,9 +29,10 @@ void keep_doubt(const Asymptote& earlier, const reduction::ContactNodes& contact
 
 }  // namespace
 
-Rest followed_asymptote(const steady::Joint& joint, double omega, const AsymptoteOptions& options,
-                        const paths::ResonanceOptions& resonance, const steady::State* unworn, const Watcher& watcher) {
-  Rest result;
+FollowedAsymptote followed_asymptote(const steady::Joint& joint, double omega, const AsymptoteOptions& options,
+                                     const paths::ResonanceOptions& resonance, const steady::State* unworn,
+                                     const Watcher& watcher) {
+  FollowedAsymptote result;
   Asymptote& last = result.asymptote;
   last = asymptote(joint, omega, options, unworn, watcher);
   result.held = last;

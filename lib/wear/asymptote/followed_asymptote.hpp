@@ -1,9 +1,20 @@
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "paths/resonance.hpp"
-#include "wear/asymptote/rest.hpp"
+#include "wear/asymptote/asymptote.hpp"
 
 namespace dovetail::wear {
+
+/// An asymptote and the frequencies it was followed over.
+struct FollowedAsymptote {
+  Asymptote asymptote;
+  std::optional<Asymptote> held = {};  ///< where the resonance is followed: the first one, at the frequency given
+  std::vector<double> omegas = {};     ///< rad/s, of the successive asymptotes; the last is where wear came to rest
+  int solves = 0, jacobians = 0;       ///< over everything
+};
 
 /// Wear while the excitation tracks the resonance: the asymptote at `omega` held, then on from there at the resonance
 /// of the worn joint, until that stays to 1e-7; the verdict is not_converged when that one is lost. Each asymptote
@@ -12,8 +23,9 @@ namespace dovetail::wear {
 ///
 /// @param unworn  steady state of `joint` at omega, or null
 /// Cost: three to ten asymptotes and resonances. Throws InputError as asymptote() does.
-[[nodiscard]] Rest followed_asymptote(const steady::Joint& joint, double omega, const AsymptoteOptions& options = {},
-                                      const paths::ResonanceOptions& resonance = {},
-                                      const steady::State* unworn = nullptr, const Watcher& watcher = {});
+[[nodiscard]] FollowedAsymptote followed_asymptote(const steady::Joint& joint, double omega,
+                                                   const AsymptoteOptions& options = {},
+                                                   const paths::ResonanceOptions& resonance = {},
+                                                   const steady::State* unworn = nullptr, const Watcher& watcher = {});
 
 }  // namespace dovetail::wear

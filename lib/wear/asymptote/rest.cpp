@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "paths/steady_state.hpp"
-#include "wear/asymptote/followed_asymptote.hpp"
 #include "wear/asymptote/worn_zones.hpp"
 #include "wear/measures.hpp"
 
@@ -42,7 +41,7 @@ class Rule {
     settings.certify_finer = false;  // of the answer alone
     Rest rest;
     if (options_.follow) {
-      rest = followed_asymptote(joint, omega_, settings, {}, unworn, watcher_);
+      static_cast<FollowedAsymptote&>(rest) = followed_asymptote(joint, omega_, settings, {}, unworn, watcher_);
     } else {
       rest.asymptote = asymptote(joint, omega_, settings, unworn, watcher_);
       rest.omegas = {omega_};

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
-#include "wear/asymptote/asymptote.hpp"
+#include "wear/asymptote/followed_asymptote.hpp"
 #include "wear/node_line.hpp"
 
 namespace dovetail::wear {
@@ -25,12 +24,8 @@ enum class Unfinished {
 };
 
 /// Where wear comes to rest.
-struct Rest {
-  Asymptote asymptote;
-  std::optional<Asymptote> held = {};  ///< where the resonance is followed: the first one, at the frequency given
-  std::vector<double> omegas = {};     ///< rad/s, of the successive asymptotes; the last is where wear came to rest
+struct Rest : FollowedAsymptote {
   Unfinished unfinished = Unfinished::none;
-  int solves = 0, jacobians = 0;  ///< over everything
 };
 
 /// The rule for where wear comes to rest. The direct answer is looked for first, and by the history where there is

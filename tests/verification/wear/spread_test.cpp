@@ -106,7 +106,7 @@ TEST(FollowedAsymptote, EndsAtTheResonanceOfItsOwnWornState) {
   const Model model = std::make_shared<const dynamics::CondensedModel>(scenes::rubbing_oscillator(0.3, 1.0, 0.5, 0.02));
   const paths::Resonance unworn = paths::resonance({model, {}, settings()}, 1.2);
   ASSERT_EQ(unworn.status, Status::converged);
-  const Rest found = followed_asymptote({model, {}, settings()}, unworn.omega);
+  const FollowedAsymptote found = followed_asymptote({model, {}, settings()}, unworn.omega);
   ASSERT_EQ(found.held->verdict, Verdict::asymptote);
   ASSERT_EQ(found.asymptote.verdict, Verdict::asymptote);
   steady::Condition condition;
