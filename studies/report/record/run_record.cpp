@@ -97,7 +97,7 @@ RunRecord record_run(const optimizer::Problem& problem, const optimizer::Optimiz
 }
 
 std::string VerificationRecord::agreement() const {
-  if (status != "converged") return status;
+  if (!optimizer::converged(status)) return status;
   return search_bar_m3 < search_volume_m3 || search_volume_m3 == 0 ? "agree within their bars"
                                                                    : "cannot tell: the bar is larger than the value";
 }
