@@ -40,12 +40,12 @@ template <class S>
 class EnumMember {
  public:
   template <NamedEnum E>
-  EnumMember(E S::*member)  // NOLINT(google-explicit-constructor): stands where a pointer to any other member does
+  EnumMember(E S::*member)  // not explicit: it stands where a pointer to any other member does
       : names_(names_of<E>()),
         name_([member](const S& object) { return name_of(object.*member); }),
         set_([member](S& object, std::string_view name) { object.*member = required<E>(name); }) {}
   template <NamedEnum E>
-  EnumMember(std::optional<E> S::*member)  // NOLINT(google-explicit-constructor)
+  EnumMember(std::optional<E> S::*member)  // as above
       : names_(names_of<E>()),
         name_([member](const S& object) { return object.*member ? name_of(*(object.*member)) : std::string_view{}; }),
         set_([member](S& object, std::string_view name) { object.*member = required<E>(name); }) {}
