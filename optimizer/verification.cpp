@@ -18,10 +18,6 @@ namespace dovetail::optimizer {
 
 namespace {
 
-std::string failure(const std::string& stage, std::string_view why) {
-  return stage + ": " + std::string(why);
-}
-
 /// Depths of the cells of one grid at the middles of another's, strip by strip as they lie along the slot.
 Eigen::VectorXd on_grid(const Eigen::VectorXd& depth, const fem::ContactCells& from, const fem::ContactCells& to) {
   Eigen::VectorXd result = Eigen::VectorXd::Zero(to.count());
@@ -56,7 +52,7 @@ std::string wear_down(const Scene& scene, const CandidateResult& fine, const Ver
     const wear::History history = wear::history({model, {}, steady}, {.omega = fine.unworn->omega}, settings, watcher);
     verification.history_solves += history.solves;
     const Eigen::Index last = history.cycles.size() - 1;
-    if (last < 0) return failure("history", to_string(history.status));
+    if (last < 0) return failed_at("history", to_string(history.status));
     verification.cycles = history.cycles(last);
     const Eigen::VectorXd reached = history.depth.row(last).transpose();
     if (part == 1.0) {
@@ -68,20 +64,21 @@ std::string wear_down(const Scene& scene, const CandidateResult& fine, const Ver
       verification.history_profile = (2 * reached - depth).cwiseMax(0.0);
     }
     if (history.end != wear::HistoryEnd::worn_out)
-      return failure("history", history.end == wear::HistoryEnd::failed ? to_string(history.status)
-                                                                        : wear::to_string(history.end));
+      return failed_at("history", history.end == wear::HistoryEnd::failed ? to_string(history.status)
+                                                                          : wear::to_string(history.end));
   }
   verification.history_depth = verification.history_profile.maxCoeff();
   verification.profile_difference =
       (verification.history_profile - verification.direct_profile).cwiseAbs().maxCoeff() / verification.direct_depth;
-  return "converged";
+  return status_of(Outcome::converged);
 }
 
 /// Whether the three answers lie within their bars of each other.
 std::string judged(const Verification& v) {
   const auto apart = [](double a, double b, double bars) { return !(std::abs(a - b) <= bars); };
   const auto words = [](const char* what, double a, const char* other, double b, double bars) {
-    return fmt::format("disagrees: {} {:.4g} m^3, {} {:.4g} m^3, bars {:.2g} m^3", what, a, other, b, bars);
+    return fmt::format("{}: {} {:.4g} m^3, {} {:.4g} m^3, bars {:.2g} m^3", to_string(Outcome::disagrees), what, a,
+                       other, b, bars);
   };
   if (apart(v.direct_volume, v.search_volume, v.search_bar))
     return words("search", v.search_volume, "finer mesh", v.direct_volume, v.search_bar);
@@ -91,12 +88,12 @@ std::string judged(const Verification& v) {
   const double direct_bar = v.search_bar / 2;
   if (apart(v.history_volume, v.direct_volume, direct_bar + v.history_bar))
     return words("finer mesh", v.direct_volume, "history on it", v.history_volume, direct_bar + v.history_bar);
-  return "converged";
+  return status_of(Outcome::converged);
 }
 
 std::string compare(const Scene& scene, const CandidateResult& fine, const VerificationOptions& options,
                     const wear::Watcher& watcher, Verification& verification) {
-  if (!fine.evaluation.converged()) return failure("finer mesh", fine.evaluation.status);
+  if (!fine.evaluation.converged()) return failed_at("finer mesh", fine.evaluation.status);
   verification.frequency_hz = hertz(fine.unworn->omega);
   verification.direct_solves = fine.asymptote->solves;
   verification.direct_volume = fine.asymptote->worn_volume;
@@ -105,7 +102,7 @@ std::string compare(const Scene& scene, const CandidateResult& fine, const Verif
   verification.history_profile = fine.asymptote->depth;
   // Where every node sticks a history would not leave its first state.
   if (verification.direct_depth > 0)
-    if (std::string ended = wear_down(scene, fine, options, watcher, verification); ended != "converged") return ended;
+    if (std::string ended = wear_down(scene, fine, options, watcher, verification); !converged(ended)) return ended;
   return judged(verification);
 }
 
@@ -148,7 +145,7 @@ Verification verify(const SceneEvaluator& evaluator, const Scene& scene, const V
     verification.search_profile = on_grid(result.asymptote->depth, result.model.cells, fine.model.cells);
     verification.model = std::move(fine.model);
   }
-  if (watcher.stopped()) verification.status = "interrupted";
+  if (watcher.stopped()) verification.status = status_of(Outcome::interrupted);
   verification.seconds = watch.lap();
   return verification;
 }

@@ -7,6 +7,7 @@
 
 #include "optimizer/evaluator.hpp"
 #include "optimizer/search/run.hpp"
+#include "wear/follow.hpp"
 #include "wear/watcher.hpp"
 
 namespace dovetail::optimizer {
@@ -26,11 +27,11 @@ struct VerificationOptions {
 /// samples: directly, and by two explicit histories that know nothing of the direct answer, extrapolated to no
 /// increment. Agreement is judged against the bars.
 struct Verification {
-  /// "converged": history, finer direct method and search agree within their bars; "disagrees: ..." with the numbers;
-  /// otherwise what failed and why, or "interrupted".
-  std::string status = "converged";
+  /// Converged: history, finer direct method and search agree within their bars; else they disagree, or what failed and
+  /// why, or interrupted.
+  std::string status = status_of(Outcome::converged);
   int flank_elements = 0, harmonics = 0, samples = 0;
-  std::string follow;                            ///< fixed | resonance, as the design's loading says
+  wear::Follow follow = wear::Follow::fixed;     ///< as the design's loading says
   double frequency_hz = 0;                       ///< of the unworn resonance on the finer mesh
   double search_volume = 0, search_bar = 0;      ///< m^3, at the settings of the search, and its error bar
   double search_depth = 0;                       ///< m
@@ -44,7 +45,7 @@ struct Verification {
   double seconds = 0;
   CandidateModel model;  ///< on the finer mesh; profiles are on its contact nodes
 
-  [[nodiscard]] bool converged() const { return status == "converged"; }
+  [[nodiscard]] bool converged() const { return outcome_of(status) == Outcome::converged; }
 };
 
 /// The scene on a mesh with 2^level times the edges along the flanks; with 2H+1 harmonics and 2N samples. No more of

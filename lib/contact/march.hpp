@@ -4,17 +4,13 @@
 #include <vector>
 
 #include "contact/contact_law.hpp"
+#include "contact/slip_return.hpp"
 #include "core/status.hpp"
 #include "numerics/fourier.hpp"
 
 namespace dovetail::contact {
 
 enum class SampleState : unsigned char { separated, stuck, slipping };
-
-enum class SlipReturn {
-  first_order,   ///< backward Euler, as in [Salles 2009, eq. 15-19]
-  second_order,  ///< rotates the previous slip direction (in space) and starts contact between samples
-};
 
 struct MarchOptions {
   SlipReturn slip_return = SlipReturn::first_order;

@@ -2,6 +2,8 @@
 
 #include <string_view>
 
+#include "core/enum_names.hpp"
+
 namespace dovetail {
 
 /// How an iterative computation ended. Non-convergence is a value a caller must look at: no solver
@@ -19,30 +21,20 @@ enum class Status {
   budget_spent,     ///< the work allowed for the whole computation was used up (core/budget.hpp)
 };
 
+constexpr EnumNames<Status, 10> enum_names(Status) {
+  return {{{Status::converged, "converged"},
+           {Status::iteration_limit, "iteration_limit"},
+           {Status::stalled, "stalled"},
+           {Status::singular, "singular"},
+           {Status::not_finite, "not_finite"},
+           {Status::not_periodic, "not_periodic"},
+           {Status::no_bracket, "no_bracket"},
+           {Status::interrupted, "interrupted"},
+           {Status::gross_sliding, "gross_sliding"},
+           {Status::budget_spent, "budget_spent"}}};
+}
 [[nodiscard]] constexpr std::string_view to_string(Status status) {
-  switch (status) {
-    case Status::converged:
-      return "converged";
-    case Status::iteration_limit:
-      return "iteration_limit";
-    case Status::stalled:
-      return "stalled";
-    case Status::singular:
-      return "singular";
-    case Status::not_finite:
-      return "not_finite";
-    case Status::not_periodic:
-      return "not_periodic";
-    case Status::no_bracket:
-      return "no_bracket";
-    case Status::interrupted:
-      return "interrupted";
-    case Status::gross_sliding:
-      return "gross_sliding";
-    case Status::budget_spent:
-      return "budget_spent";
-  }
-  return "unknown";
+  return name_of(status);
 }
 
 /// Ended from outside: this says nothing about what was to be solved.

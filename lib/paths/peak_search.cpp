@@ -99,7 +99,8 @@ class PeakSearch {
         if (solved(joint, target)) return true;
       return false;
     };
-    return (joint_.options.solver == "auto" && tried(cautious, kClosingIn.cautious)) || tried(joint_, kClosingIn.tries);
+    return (joint_.options.solver == steady::Solver::automatic && tried(cautious, kClosingIn.cautious)) ||
+           tried(joint_, kClosingIn.tries);
   }
 
   bool solved(const steady::Joint& joint, double omega) {

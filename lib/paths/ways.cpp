@@ -13,6 +13,19 @@ using steady::Way;
 
 constexpr contact::PenaltyParams kPenalty;
 
+steady::Method method_of(steady::Solver solver) {
+  switch (solver) {
+    case steady::Solver::automatic:
+    case steady::Solver::newton:
+      return steady::Method::newton;
+    case steady::Solver::powell:
+      return steady::Method::powell;
+    case steady::Solver::powell_fd:
+      return steady::Method::powell_fd;
+  }
+  return steady::Method::newton;
+}
+
 class Ways {
  public:
   Ways(const steady::Joint& joint, const std::shared_ptr<const steady::Problem>& problem, const WayParams& params)
@@ -20,9 +33,7 @@ class Ways {
         options_(joint.options),
         problem_(problem),
         params_(params),
-        method_(options_.solver == "powell"      ? steady::Method::powell
-                : options_.solver == "powell_fd" ? steady::Method::powell_fd
-                                                 : steady::Method::newton),
+        method_(method_of(options_.solver)),
         left_(options_.max_rescue_iterations) {}
 
   steady::Attempt run(const Eigen::MatrixXd& guess, const std::shared_ptr<const steady::Tangent>& reuse) {
@@ -38,7 +49,7 @@ class Ways {
     if (allowed(Way::closed) && plain(problem_, problem_->closed_start(), method_)) return Way::closed;
     if (!options_.penalty_cascade) return Way::none;
     if (allowed(Way::other_penalty) && other_penalty()) return Way::other_penalty;
-    if (options_.solver != "auto") return Way::none;
+    if (options_.solver != steady::Solver::automatic) return Way::none;
     struct Rescue {
       Way way;
       bool (Ways::*take)();

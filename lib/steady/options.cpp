@@ -17,13 +17,13 @@ std::span<const Field<Options>> option_table<Options>() {
       {.key = "samples", .member = &O::samples, .range = {.lower = 3}},
       {.key = "tolerance", .member = &O::tolerance, .range = kPositive},
       {.key = "max_iterations", .member = &O::max_iterations, .range = {.lower = 1}},
-      {.key = "solver", .member = &O::solver, .choices = {"auto", "newton", "powell", "powell_fd"}},
+      {.key = "solver", .member = &O::solver},
       {.key = "normal_penalty_n_per_m", .member = &O::normal_penalty, .range = kNonNegative},
       {.key = "tangential_penalty_n_per_m", .member = &O::tangential_penalty, .range = kNonNegative},
       {.key = "penalty_scale", .member = &O::penalty_scale, .range = kPositive},
       {.key = "penalty_cascade", .member = &O::penalty_cascade},
       {.key = "max_rescue_iterations", .member = &O::max_rescue_iterations, .range = {.lower = 0}},
-      {.key = "slip_return", .member = &O::slip_return, .choices = {"first_order", "second_order"}},
+      {.key = "slip_return", .member = &O::slip_return},
       {.key = "max_periods", .member = &O::max_periods, .range = {.lower = 2}},
       {.key = "periodic_tolerance", .member = &O::periodic_tolerance, .range = kPositive},
       {.key = "linearise", .member = &O::linearise},
@@ -52,7 +52,7 @@ namespace dovetail::steady {
 Options Options::plain() const {
   Options options = *this;
   options.penalty_cascade = false;
-  if (options.solver == "auto") options.solver = "newton";
+  if (options.solver == Solver::automatic) options.solver = Solver::newton;
   return options;
 }
 

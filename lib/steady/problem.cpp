@@ -76,8 +76,7 @@ void Problem::set_offset() {
 
 contact::MarchOptions Problem::march_options() const {
   // Forces of the contact may be far larger than the excitation that the residual is measured by.
-  return {.slip_return = options().slip_return == "second_order" ? contact::SlipReturn::second_order
-                                                                 : contact::SlipReturn::first_order,
+  return {.slip_return = options().slip_return,
           .periodic = options().harmonics > 0,
           .max_periods = options().max_periods,
           .tolerance = options().periodic_tolerance,

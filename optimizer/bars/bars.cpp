@@ -100,7 +100,7 @@ void Bars::total() {
           " is larger than its value: there may be next to nothing, or more than twice as much.");
   }
   evaluation.unbounded.assign(open_.begin(), open_.end());
-  if (!missing_.empty()) evaluation.status = "error_estimates: " + missing_.substr(missing_.rfind(' ') + 1);
+  if (!missing_.empty()) evaluation.status = failed_at("error_estimates", missing_.substr(missing_.rfind(' ') + 1));
 }
 
 }  // namespace dovetail::optimizer

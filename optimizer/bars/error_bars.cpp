@@ -51,7 +51,7 @@ class ErrorBarSources {
   void run() {
     ask_meshes();
     const Evaluation longer = on_nodes(kCompanion.longer_nodes);
-    const std::string slides = "asymptote: " + std::string(to_string(Status::gross_sliding));
+    const std::string slides = failed_at("asymptote", Status::gross_sliding);
     const auto does = [&slides](const Evaluation& answer) { return answer.status == slides; };
     if (result_.asymptote->bearing.doubtful() && (does(longer) || std::ranges::any_of(answers_, does)))
       return refuse_worn_state(slides, result_.evaluation);

@@ -15,10 +15,6 @@ namespace dovetail::optimizer {
 
 namespace {
 
-std::string failed(std::string_view stage, Status status) {
-  return std::string(stage) + ": " + std::string(to_string(status));
-}
-
 /// `surface`: fem::ContactSurface of the trace or fem::ContactCells. Contact dofs begin at `first`.
 template <class Surface>
 reduction::ContactNodes contact_nodes(const Surface& surface, Eigen::Index first, const ContactProperties& properties) {
@@ -94,7 +90,7 @@ geometry::Feasibility feasibility_of(const Scene& scene) {
 std::string first_broken(const geometry::Feasibility& feasibility, std::vector<std::string>& messages) {
   for (const geometry::Rule& rule : feasibility.rules)
     if (rule.margin < 0) messages.push_back(rule.sentence);
-  return "infeasible";
+  return status_of(Outcome::infeasible);
 }
 
 double jacobian_operations(const SolverSettings& solver, const CandidateModel& candidate) {
@@ -139,7 +135,7 @@ void lay_contact(const Scene& scene, const std::vector<fem::FlankCells>& flanks,
       reduction::reduce(candidate.trace, candidate.cells.average, contact_nodes(candidate.cells, 0, scene.contact),
                         scene.loading.damping_ratio);
   if (candidate.reduction.status != Status::converged) {
-    candidate.status = failed("reduction", candidate.reduction.status) + " " + candidate.reduction.message;
+    candidate.status = failed_at("reduction", candidate.reduction.status) + " " + candidate.reduction.message;
     return;
   }
   candidate.model = candidate.reduction.model;
@@ -147,7 +143,7 @@ void lay_contact(const Scene& scene, const std::vector<fem::FlankCells>& flanks,
   candidate.preload = steady::quasi_static(std::make_shared<const dynamics::CondensedModel>(candidate.model),
                                            {.budget = candidate.budget});
   if (candidate.preload.status != Status::converged) {
-    candidate.status = failed("preload", candidate.preload.status);
+    candidate.status = failed_at("preload", candidate.preload.status);
     return;
   }
   candidate.model.contact.slip_origin = candidate.preload.slip_origin;
@@ -186,13 +182,13 @@ CandidateModel ModelBuilder::build(const Scene& scene) const {
   try {
     candidate.mesh = mesh_of(scene);
   } catch (const InputError& error) {
-    candidate.status = std::string("mesh: ") + error.what();
+    candidate.status = failed_at("mesh", error.what());
     return candidate;
   }
   if (candidate.mesh.remeshed) candidate.messages.push_back(candidate.mesh.note);
   candidate.timings_s["mesh"] = watch.lap();
   if (candidate.mesh.quality.inverted_elements > 0) {
-    candidate.status = "mesh: " + candidate.mesh.note;
+    candidate.status = failed_at("mesh", candidate.mesh.note);
     return candidate;
   }
 
@@ -209,7 +205,7 @@ CandidateModel ModelBuilder::build(const Scene& scene) const {
   const Status prestress = geometric_stiffness(scene, candidate, assembler, bodies, geometric);
   candidate.timings_s["prestress"] = watch.lap();
   if (prestress != Status::converged) {
-    candidate.status = failed("prestress", prestress);
+    candidate.status = failed_at("prestress", prestress);
     return candidate;
   }
 
@@ -218,7 +214,7 @@ CandidateModel ModelBuilder::build(const Scene& scene) const {
                                            {.modes = scene.solver.modes, .damping_ratio = scene.loading.damping_ratio});
   candidate.timings_s["reduction"] = watch.lap();
   if (candidate.trace.status != Status::converged) {
-    candidate.status = failed("reduction", candidate.trace.status) + " " + candidate.trace.message;
+    candidate.status = failed_at("reduction", candidate.trace.status) + " " + candidate.trace.message;
     return candidate;
   }
   lay_contact(scene, cells, candidate);

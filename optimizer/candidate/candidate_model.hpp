@@ -10,6 +10,7 @@
 #include "fem/sector_system.hpp"
 #include "geometry/mesh/mesh_motion.hpp"
 #include "geometry/rules/feasibility.hpp"
+#include "optimizer/problem/outcome.hpp"
 #include "optimizer/scene/scene.hpp"
 #include "optimizer/scene/scene_kind.hpp"
 #include "reduction/massless_boundary.hpp"
@@ -20,9 +21,8 @@ namespace dovetail::optimizer {
 /// Everything between the dimensions of a candidate and its vibration: profile, mesh, finite elements at
 /// speed, reduced model, preload. Members after the stage that failed are empty.
 struct CandidateModel {
-  /// "converged", "infeasible", or the stage that failed and why ("preload: iteration_limit").
-  std::string status = "converged";
-  std::vector<std::string> messages;  ///< broken rules, re-meshing: for people
+  std::string status = status_of(Outcome::converged);  ///< converged, infeasible, or the stage that failed and why
+  std::vector<std::string> messages;                   ///< broken rules, re-meshing: for people
 
   geometry::Feasibility feasibility;
   geometry::MeshedSector mesh;            ///< its flanks are the trace of the contact
@@ -41,7 +41,8 @@ struct CandidateModel {
   std::map<std::string, double> sizes;      ///< dofs, contact nodes, modes, ...
   std::map<std::string, double> timings_s;  ///< by stage
 
-  [[nodiscard]] bool converged() const { return status == "converged"; }
+  [[nodiscard]] bool converged() const { return outcome_of(status) == Outcome::converged; }
+  [[nodiscard]] bool infeasible() const { return outcome_of(status) == Outcome::infeasible; }
 };
 
 /// Lays contact nodes on the trace of a candidate whose `trace` is there, in place of those it has: reduced model and

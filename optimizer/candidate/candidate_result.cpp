@@ -50,12 +50,11 @@ std::string dynamics(const Scene& scene, const Computation& how, const ContactFi
       fit.displacement.size() > 0 ? fit.omega : model.reduction.glued_frequencies(scene.loading.mode - 1);
   result.unworn = paths::resonance(joint, start, {}, fit.displacement);
   evaluation.timings_s["unworn_resonance"] = watch.lap();
-  if (result.unworn->status != Status::converged)
-    return "unworn_resonance: " + std::string(to_string(result.unworn->status));
+  if (result.unworn->status != Status::converged) return failed_at("unworn_resonance", result.unworn->status);
   add_fillet_stresses(scene, result);
   result.stage = Stage::unworn;
   evaluation.timings_s["stress"] = watch.lap();
-  if (!how.wear) return "converged";
+  if (!how.wear) return status_of(Outcome::converged);
 
   wear::Rest state = worn_state(scene, model, joint, result.unworn->state, how.history);
   result.asymptote = std::move(state.asymptote);
@@ -64,9 +63,9 @@ std::string dynamics(const Scene& scene, const Computation& how, const ContactFi
   evaluation.timings_s["asymptote"] = watch.lap();
   const wear::Asymptote& asymptote = *result.asymptote;
   if (asymptote.verdict != wear::Verdict::asymptote)
-    return "asymptote: " + std::string(asymptote.verdict == wear::Verdict::not_converged
-                                           ? to_string(asymptote.status)
-                                           : wear::to_string(asymptote.verdict));
+    return failed_at("asymptote", asymptote.verdict == wear::Verdict::not_converged
+                                      ? to_string(asymptote.status)
+                                      : wear::to_string(asymptote.verdict));
   evaluation.model["wear_certificate"] = asymptote.certificate;
   evaluation.model["wear_bearing_share"] = asymptote.bearing.share;
   evaluation.model["wear_depth_over_compression"] = asymptote.bearing.closing;
@@ -82,10 +81,10 @@ std::string dynamics(const Scene& scene, const Computation& how, const ContactFi
                     ? *result.unworn
                     : wear::resonance_drift(joint.worn(asymptote.depth), *result.unworn, {}).worn;
   evaluation.timings_s["worn_resonance"] = watch.lap();
-  if (result.worn->status != Status::converged) return "worn_resonance: " + std::string(to_string(result.worn->status));
+  if (result.worn->status != Status::converged) return failed_at("worn_resonance", result.worn->status);
   result.stage = Stage::worn_resonance;
 
-  return spent(model.budget) ? "worn_resonance: " + std::string(to_string(Status::budget_spent)) : "converged";
+  return spent(model.budget) ? failed_at("worn_resonance", Status::budget_spent) : status_of(Outcome::converged);
 }
 
 }  // namespace

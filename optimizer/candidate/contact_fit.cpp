@@ -46,7 +46,7 @@ class GridSearch {
         candidate_(candidate),
         cells_(cell_lengths(scene, options_.lengths)),
         joint_(joint_of(scene, candidate, how.penalty_scale)) {
-    release_.arbitration = "never";
+    release_.arbitration = wear::Arbitration::never;
     release_.certify = release_.certify_finer = false;
   }
 

@@ -29,7 +29,7 @@ std::string words(wear::Unfinished unfinished) {
 wear::Rest worn_state(const Scene& scene, const CandidateModel& model, const steady::Joint& joint,
                       const steady::State& unworn, bool history) {
   wear::RestOptions options;
-  options.follow = scene.loading.follow == "resonance";
+  options.follow = scene.loading.follow == wear::Follow::resonance;
   options.history = history;
   options.lines = node_lines(model.cells);
   options.asymptote.history_budget = [&](const steady::Options& settings) {

@@ -45,8 +45,8 @@ std::string fingerprint(const Problem& problem, const OptimizerOptions& options,
     if (field.key == "max_evaluations" || field.key == "restarts" || field.key == "threads" || field.key == "verify")
       continue;
     word(field.key);
-    if (const auto* member = std::get_if<std::string OptimizerOptions::*>(&field.member))
-      word(options.*(*member));
+    if (const std::optional<std::string> choice = text_in(options, field))
+      word(*choice);
     else
       number(value_in_file_unit(options, field));
   }

@@ -6,14 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "optimizer/problem/outcome.hpp"
+
 namespace dovetail::optimizer {
 
 /// What one candidate came to. Parameters are in the unit of the study file, all else SI.
 struct Evaluation {
-  /// "converged"; "infeasible" (a geometric rule is broken, no physics computed); otherwise the first
-  /// stage that failed and why, e.g. "steady_state: iteration_limit". Only a converged evaluation may be
-  /// used as a result.
-  std::string status = "converged";
+  /// See Outcome; of a failure the first stage that failed and why, e.g. "steady_state: iteration_limit". Only a
+  /// converged evaluation may be used as a result.
+  std::string status = status_of(Outcome::converged);
   bool feasible = true;                           ///< geometry valid and all constraints met
   std::map<std::string, double> parameters;       ///< KEY as for --set -> value in the file's unit
   std::map<std::string, double> responses;        ///< name with SI unit -> value
@@ -30,7 +31,8 @@ struct Evaluation {
   /// order of the design space. Empty when not computed.
   std::map<std::string, std::vector<double>> derivatives;
 
-  [[nodiscard]] bool converged() const { return status == "converged"; }
+  [[nodiscard]] bool converged() const { return outcome_of(status) == Outcome::converged; }
+  [[nodiscard]] bool infeasible() const { return outcome_of(status) == Outcome::infeasible; }
 };
 
 /// Evaluates one point of the design space (values in the study file's units, design-space order).

@@ -1,19 +1,13 @@
 #include "optimizer/problem/optimizer_options.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace dovetail::optimizer {
 
-std::span<const std::string_view> algorithm_names() {
-  static constexpr std::array<std::string_view, 11> names{
-      "cobyla", "bobyqa", "neldermead", "sbplx", "isres", "direct_l", "crs2", "mma", "slsqp", "ipopt", "scan"};
-  return names;
-}
-
 double difference_step(const OptimizerOptions& options) {
-  const double step = options.difference == "central" ? std::cbrt(3 * options.noise) : 2 * std::sqrt(options.noise);
+  const double step =
+      options.difference == Difference::central ? std::cbrt(3 * options.noise) : 2 * std::sqrt(options.noise);
   return std::clamp(step, 1e-7, 0.1);
 }
 
@@ -29,10 +23,7 @@ dovetail::option_table<dovetail::optimizer::OptimizerOptions>() {
   using O = optimizer::OptimizerOptions;
   constexpr Range share{.lower = 0, .upper = 0.5, .lower_open = true};
   static const std::vector<Field<O>> table{
-      {.key = "algorithm",
-       .member = &O::algorithm,
-       .help = "Search algorithm.",
-       .choices = {optimizer::algorithm_names().begin(), optimizer::algorithm_names().end()}},
+      {.key = "algorithm", .member = &O::algorithm, .help = "Search algorithm."},
       {.key = "max_evaluations",
        .member = &O::max_evaluations,
        .range = {.lower = 1},
@@ -74,10 +65,7 @@ dovetail::option_table<dovetail::optimizer::OptimizerOptions>() {
        .member = &O::constraint_margin,
        .range = kNonNegative,
        .help = "Algorithms aim at normalised constraints at or below minus this."},
-      {.key = "difference",
-       .member = &O::difference,
-       .help = "Finite differences of gradient methods.",
-       .choices = {"forward", "central"}},
+      {.key = "difference", .member = &O::difference, .help = "Finite differences of gradient methods."},
       {.key = "threads",
        .member = &O::threads,
        .range = {.lower = 1},

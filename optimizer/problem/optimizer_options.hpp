@@ -1,15 +1,55 @@
 #pragma once
 
-#include <string>
+#include <string_view>
 
+#include "core/enum_names.hpp"
 #include "core/options.hpp"
 
 namespace dovetail::optimizer {
 
+/// What searches, see nlopt_search.hpp and ipopt_search.hpp.
+enum class Algorithm {
+  cobyla,
+  bobyqa,
+  neldermead,
+  sbplx,
+  isres,
+  direct_l,
+  crs2,
+  mma,
+  slsqp,
+  ipopt,
+  scan,  ///< a Latin hypercube and nothing after it
+};
+constexpr EnumNames<Algorithm, 11> enum_names(Algorithm) {
+  return {{{Algorithm::cobyla, "cobyla"},
+           {Algorithm::bobyqa, "bobyqa"},
+           {Algorithm::neldermead, "neldermead"},
+           {Algorithm::sbplx, "sbplx"},
+           {Algorithm::isres, "isres"},
+           {Algorithm::direct_l, "direct_l"},
+           {Algorithm::crs2, "crs2"},
+           {Algorithm::mma, "mma"},
+           {Algorithm::slsqp, "slsqp"},
+           {Algorithm::ipopt, "ipopt"},
+           {Algorithm::scan, "scan"}}};
+}
+[[nodiscard]] constexpr std::string_view to_string(Algorithm algorithm) {
+  return name_of(algorithm);
+}
+
+/// Finite differences of gradient methods.
+enum class Difference { forward, central };
+constexpr EnumNames<Difference, 2> enum_names(Difference) {
+  return {{{Difference::forward, "forward"}, {Difference::central, "central"}}};
+}
+[[nodiscard]] constexpr std::string_view to_string(Difference difference) {
+  return name_of(difference);
+}
+
 /// Section [optimizer] of a study file. Lengths are in unit coordinates (fractions of a variable's range).
 struct OptimizerOptions {
-  /// cobyla | bobyqa | neldermead | sbplx | isres | direct_l | crs2 | mma | slsqp | ipopt | scan
-  std::string algorithm = "cobyla";
+  Algorithm algorithm = Algorithm::cobyla;
   int max_evaluations = 100;     ///< >= 1; different candidates, start and scan included
   int scan_evaluations = 0;      ///< >= 0; Latin-hypercube candidates before the local algorithm
   int seed = 1;                  ///< >= 0
@@ -19,17 +59,14 @@ struct OptimizerOptions {
   double initial_step = 0.2;     ///< > 0, <= 0.5; first step (trust radius) of a local algorithm
   int restarts = 2;              ///< >= 0; local runs again from the best, with budget left
   double restart_factor = 0.5;   ///< > 0, <= 1; first step of a restart by that of the run before
-  double constraint_tolerance = 0;     ///< >= 0; the best design keeps c <= this
-  double constraint_margin = 1e-4;     ///< >= 0; algorithms aim at c <= -margin, so that they end on the right side
-  std::string difference = "forward";  ///< forward | central finite differences
-  int threads = 1;                     ///< >= 1; candidates evaluated at once where several are known
+  double constraint_tolerance = 0;  ///< >= 0; the best design keeps c <= this
+  double constraint_margin = 1e-4;  ///< >= 0; algorithms aim at c <= -margin, so that they end on the right side
+  Difference difference = Difference::forward;
+  int threads = 1;  ///< >= 1; candidates evaluated at once where several are known
   int finer_meshes =
       2;           ///< >= 0; meshes, each twice as fine as the last, on which the best design must keep its limits
   int verify = 3;  ///< >= 0; best designs verified by the full wear history after the search
 };
-
-/// Every algorithm by name.
-[[nodiscard]] std::span<const std::string_view> algorithm_names();
 
 /// Step of finite differences in unit coordinates that balances noise and truncation:
 /// forward 2 sqrt(noise), central cbrt(3 noise), within [1e-7, 0.1].

@@ -139,7 +139,7 @@ Judgement judge(const Problem& problem, const Evaluation& evaluation, double tol
     judgement.violation += std::max(0.0, c);
     met = met && c <= tolerance;
   }
-  if (evaluation.status == "infeasible" && judgement.rules.value_or(0.0) <= 0) {
+  if (evaluation.infeasible() && judgement.rules.value_or(0.0) <= 0) {
     judgement.rules = 1.0;
     judgement.violation += 1.0;
   }
@@ -165,7 +165,7 @@ void annotate(const Problem& problem, double tolerance, Evaluation& evaluation) 
       const auto found = evaluation.responses.find(name);
       if (found != evaluation.responses.end() && std::isfinite(found->second)) continue;
       evaluation.status =
-          "response: " + name + (found == evaluation.responses.end() ? " is missing" : " is not finite");
+          failed_at("response", name + (found == evaluation.responses.end() ? " is missing" : " is not finite"));
       break;
     }
   }

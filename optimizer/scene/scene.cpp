@@ -37,10 +37,10 @@ Parameter described(std::string_view section, const Field<S>& field) {
                       .range = field.range,
                       .help = field.help,
                       .required = field.required,
-                      .choices = field.choices};
+                      .choices = choices_of(field)};
   if (std::holds_alternative<int S::*>(field.member)) parameter.kind = Parameter::Kind::whole;
   if (std::holds_alternative<bool S::*>(field.member)) parameter.kind = Parameter::Kind::truth;
-  if (std::holds_alternative<std::string S::*>(field.member)) parameter.kind = Parameter::Kind::text;
+  if (is_text(field)) parameter.kind = Parameter::Kind::text;
   return parameter;
 }
 
@@ -198,14 +198,8 @@ std::vector<Violation> violations(const Scene& scene) {
   visit_tables(scene, [&]<class S>(std::string_view section, const S& object, std::span<const Field<S>> fields) {
     for (const Field<S>& field : fields) {
       const std::string key = joined(section, field.key);
-      if (const auto* text = std::get_if<std::string S::*>(&field.member)) {
-        std::string allowed = "must be one of";
-        bool known = field.choices.empty();
-        for (const std::string_view choice : field.choices) {
-          known = known || object.*(*text) == choice;
-          allowed += " " + std::string(choice);
-        }
-        if (!known) found.push_back({.file = {}, .key = key, .value = object.*(*text), .allowed = allowed});
+      if (const std::optional<std::string> text = text_in(object, field)) {
+        check_choice(std::string(section), field.key, *text, choices_of(field), found);
       } else if (!std::holds_alternative<bool S::*>(field.member)) {
         const double value = number(object, field);
         if (!field.range.contains_rounded(value))

@@ -11,6 +11,8 @@
 #include "fem/material.hpp"
 #include "geometry/profile/parameters.hpp"
 #include "geometry/solid/solid_parameters.hpp"
+#include "steady/options.hpp"
+#include "wear/follow.hpp"
 
 namespace dovetail::optimizer {
 
@@ -36,17 +38,17 @@ struct Loading {
   double tip_force = 2.0;             ///< amplitude of the tangential force at the aerofoil tip, N
   double damping_ratio = 1e-3;        ///< modal damping of the glued modes
   int nodal_diameter = 0;
-  int mode = 1;                  ///< glued mode whose resonance is followed, from 1
-  std::string follow = "fixed";  ///< fixed | resonance: what drives the wear
+  int mode = 1;  ///< glued mode whose resonance is followed, from 1
+  wear::Follow follow = wear::Follow::fixed;
 };
 
 /// Sizes and tolerances of the contact computation.
 struct SolverSettings {
   int harmonics = 5;
   int samples = 128;
-  int modes = 20;                    ///< free-interface modes kept
-  double tolerance = 1e-9;           ///< relative residual of the steady state
-  std::string solver = "auto";       ///< auto | newton | powell | powell_fd
+  int modes = 20;           ///< free-interface modes kept
+  double tolerance = 1e-9;  ///< relative residual of the steady state
+  steady::Solver solver = steady::Solver::automatic;
   double pseudo_penalty = 0;         ///< eps of all contact nodes, N/m; 0: from the model
   double pseudo_penalty_normal = 0;  ///< eps in the normal direction, N/m; 0: pseudo_penalty
   int max_jacobians = 500;  ///< work of one evaluation, in Jacobians in which all contact nodes take part; 0: no limit

@@ -90,8 +90,7 @@ std::span<const Field<optimizer::Loading>> option_table<optimizer::Loading>() {
                .help = "modal damping ratio, friction not counted"},
       Field<L>{.key = "follow",
                .member = &L::follow,
-               .help = "what drives the wear; fixed: the unworn resonance, resonance: that of the joint as it wears",
-               .choices = {"fixed", "resonance"}}};
+               .help = "what drives the wear; fixed: the unworn resonance, resonance: that of the joint as it wears"}};
   return table;
 }
 
@@ -120,8 +119,7 @@ std::span<const Field<optimizer::SolverSettings>> option_table<optimizer::Solver
                .help = "algorithm for the nonlinear equations; auto: Newton, then other pseudo-penalties and "
                        "neighbouring problems where it fails; powell: hybrid Powell with the exact Jacobian; "
                        "powell_fd: with finite "
-                       "differences, for comparison",
-               .choices = {"auto", "newton", "powell", "powell_fd"}},
+                       "differences, for comparison"},
       Field<S>{.key = "pseudo_penalty_n_per_m",
                .member = &S::pseudo_penalty,
                .range = kNonNegative,

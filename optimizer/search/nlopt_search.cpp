@@ -15,28 +15,27 @@ namespace {
 
 enum class Constraints { own, augmented_lagrangian, exact_penalty };
 
-struct Algorithm {
-  std::string_view name;
+struct NloptAlgorithm {
+  Algorithm name;
   nlopt::algorithm id;
   Constraints constraints;
   bool gradient, global;
 };
 
 constexpr std::array kAlgorithms{
-    Algorithm{"cobyla", nlopt::LN_COBYLA, Constraints::own, false, false},
-    Algorithm{"bobyqa", nlopt::LN_BOBYQA, Constraints::augmented_lagrangian, false, false},
-    Algorithm{"neldermead", nlopt::LN_NELDERMEAD, Constraints::augmented_lagrangian, false, false},
-    Algorithm{"sbplx", nlopt::LN_SBPLX, Constraints::augmented_lagrangian, false, false},
-    Algorithm{"isres", nlopt::GN_ISRES, Constraints::own, false, true},
-    Algorithm{"direct_l", nlopt::GN_DIRECT_L, Constraints::exact_penalty, false, true},
-    Algorithm{"crs2", nlopt::GN_CRS2_LM, Constraints::exact_penalty, false, true},
-    Algorithm{"mma", nlopt::LD_MMA, Constraints::own, true, false},
-    Algorithm{"slsqp", nlopt::LD_SLSQP, Constraints::own, true, false},
+    NloptAlgorithm{Algorithm::cobyla, nlopt::LN_COBYLA, Constraints::own, false, false},
+    NloptAlgorithm{Algorithm::bobyqa, nlopt::LN_BOBYQA, Constraints::augmented_lagrangian, false, false},
+    NloptAlgorithm{Algorithm::neldermead, nlopt::LN_NELDERMEAD, Constraints::augmented_lagrangian, false, false},
+    NloptAlgorithm{Algorithm::sbplx, nlopt::LN_SBPLX, Constraints::augmented_lagrangian, false, false},
+    NloptAlgorithm{Algorithm::isres, nlopt::GN_ISRES, Constraints::own, false, true},
+    NloptAlgorithm{Algorithm::direct_l, nlopt::GN_DIRECT_L, Constraints::exact_penalty, false, true},
+    NloptAlgorithm{Algorithm::crs2, nlopt::GN_CRS2_LM, Constraints::exact_penalty, false, true},
+    NloptAlgorithm{Algorithm::mma, nlopt::LD_MMA, Constraints::own, true, false},
+    NloptAlgorithm{Algorithm::slsqp, nlopt::LD_SLSQP, Constraints::own, true, false},
 };
 
-const Algorithm* find(const std::string& name) {
-  const auto found =
-      std::find_if(kAlgorithms.begin(), kAlgorithms.end(), [&](const Algorithm& a) { return a.name == name; });
+const NloptAlgorithm* find(Algorithm name) {
+  const auto found = std::ranges::find(kAlgorithms, name, &NloptAlgorithm::name);
   return found == kAlgorithms.end() ? nullptr : &*found;
 }
 
@@ -110,11 +109,11 @@ SearchOutcome outcome_of(nlopt::result result, const std::string& name) {
 }
 
 /// One call of the library; `point` becomes its answer.
-SearchOutcome minimise(const Algorithm& algorithm, SearchFunctions& functions, const Penalty& penalty,
+SearchOutcome minimise(const NloptAlgorithm& algorithm, SearchFunctions& functions, const Penalty& penalty,
                        std::vector<double>& point, double step, std::uint64_t seed) {
   const OptimizerOptions& options = functions.options();
   const auto n = static_cast<unsigned>(functions.size());
-  const std::string name(algorithm.name);
+  const std::string name(to_string(algorithm.name));
   Callback callback{.functions = &functions, .guard = {}, .penalty = penalty};
   nlopt::opt search(algorithm.id, n);
   search.set_lower_bounds(0.0);
@@ -145,8 +144,8 @@ SearchOutcome minimise(const Algorithm& algorithm, SearchFunctions& functions, c
   return outcome;
 }
 
-SearchOutcome augmented_lagrangian(const Algorithm& algorithm, SearchFunctions& functions, std::vector<double> point,
-                                   double step, std::uint64_t seed) {
+SearchOutcome augmented_lagrangian(const NloptAlgorithm& algorithm, SearchFunctions& functions,
+                                   std::vector<double> point, double step, std::uint64_t seed) {
   constexpr PenaltyParams kParams;
   Penalty penalty{.multipliers = std::vector<double>(functions.constraint_count(), 0.0), .weight = kParams.weight};
   const double smallest = stopping_step(functions.options());
@@ -178,20 +177,20 @@ SearchOutcome augmented_lagrangian(const Algorithm& algorithm, SearchFunctions& 
 
 }  // namespace
 
-bool is_global(const std::string& name) {
-  return find(name) != nullptr && find(name)->global;
+bool is_global(Algorithm algorithm) {
+  return find(algorithm) != nullptr && find(algorithm)->global;
 }
 
-SearchOutcome nlopt_search(const std::string& name, SearchFunctions& functions, const std::vector<double>& start,
+SearchOutcome nlopt_search(Algorithm algorithm, SearchFunctions& functions, const std::vector<double>& start,
                            double step, std::uint64_t seed) {
-  const Algorithm* algorithm = find(name);
-  assert(algorithm != nullptr);
-  if (algorithm->constraints == Constraints::augmented_lagrangian)
-    return augmented_lagrangian(*algorithm, functions, start, step, seed);
+  const NloptAlgorithm* found = find(algorithm);
+  assert(found != nullptr);
+  if (found->constraints == Constraints::augmented_lagrangian)
+    return augmented_lagrangian(*found, functions, start, step, seed);
   Penalty penalty;
-  if (algorithm->constraints == Constraints::exact_penalty) penalty.weight = PenaltyParams{}.weight;
+  if (found->constraints == Constraints::exact_penalty) penalty.weight = PenaltyParams{}.weight;
   std::vector<double> point = start;
-  return minimise(*algorithm, functions, penalty, point, step, seed);
+  return minimise(*found, functions, penalty, point, step, seed);
 }
 
 }  // namespace dovetail::optimizer

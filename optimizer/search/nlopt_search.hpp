@@ -20,10 +20,10 @@ namespace dovetail::optimizer {
 /// its step. Without active constraints one round is all.
 ///
 /// Throws StopSearch and what the evaluator throws. Deterministic for a seed.
-[[nodiscard]] SearchOutcome nlopt_search(const std::string& name, SearchFunctions& functions,
+[[nodiscard]] SearchOutcome nlopt_search(Algorithm algorithm, SearchFunctions& functions,
                                          const std::vector<double>& start, double step, std::uint64_t seed);
 
 /// Whether the algorithm searches the whole box (no restarts then).
-[[nodiscard]] bool is_global(const std::string& name);
+[[nodiscard]] bool is_global(Algorithm algorithm);
 
 }  // namespace dovetail::optimizer

@@ -29,15 +29,16 @@ void check(const Problem& problem, const OptimizerOptions& options) {
 
 SearchOutcome search_once(EvaluationSession& session, double step, int run) {
   const OptimizerOptions& options = session.options();
-  SearchFunctions functions(session, options.algorithm);
+  SearchFunctions functions(session, std::string(to_string(options.algorithm)));
   const std::vector<double> start = session.unit(functions.reference());
   try {
-    if (options.algorithm == "ipopt") return ipopt_search(functions, start);
+    if (options.algorithm == Algorithm::ipopt) return ipopt_search(functions, start);
     const auto seed = static_cast<std::uint64_t>(options.seed) + static_cast<std::uint64_t>(run) * 1000003U;
     return nlopt_search(options.algorithm, functions, start, step, seed);
   } catch (const StopSearch& stop) {
     if (stop.reason != Status::stalled) throw;
-    return {.status = Status::stalled, .message = options.algorithm + ": asks only for candidates it already knows"};
+    return {.status = Status::stalled,
+            .message = std::string(to_string(options.algorithm)) + ": asks only for candidates it already knows"};
   }
 }
 
@@ -103,7 +104,7 @@ SearchOutcome corrected_search(EvaluationSession& session, FinerLimits& finer) {
   const OptimizerOptions& options = session.options();
   constexpr CorrectionParams kParams;
   const auto all = static_cast<std::size_t>(options.max_evaluations);
-  const bool only_scan = options.algorithm == "scan";
+  const bool only_scan = options.algorithm == Algorithm::scan;
   if (finer.active()) {
     finer.correct(session.best().value_or(0));
     session.limit(std::max(session.candidates().size(),
@@ -163,7 +164,7 @@ void scan(EvaluationSession& session) {
   const OptimizerOptions& options = session.options();
   int count = options.scan_evaluations;
   // As an algorithm of its own the scan takes the whole budget unless told otherwise.
-  if (options.algorithm == "scan" && count == 0) count = options.max_evaluations - 1;
+  if (options.algorithm == Algorithm::scan && count == 0) count = options.max_evaluations - 1;
   if (count == 0) return;
   static_cast<void>(
       session.evaluate_all(latin_hypercube(static_cast<std::size_t>(count), session.problem().space.size(),

@@ -62,7 +62,7 @@ SearchValue SearchFunctions::seen(const Candidate& candidate) const {
     for (std::size_t j = 0; j < value.constraints.size(); ++j) value.constraints[j] = aimed(judgement, j);
     value.constraints.push_back(
         std::min(judgement.rules.value_or(kSubstitute.unknown_rules), kSubstitute.most_violation));
-  } else if (candidate.evaluation.status == "infeasible") {
+  } else if (candidate.evaluation.infeasible()) {
     value.objective = level_ + std::min(judgement.violation, kSubstitute.most_violation);
     value.constraints.push_back(std::min(judgement.rules.value_or(1.0), kSubstitute.most_violation));
   } else {
@@ -103,7 +103,7 @@ SearchGradient SearchFunctions::differences(std::size_t base) {
     for (std::size_t k = 0; k < wanted.size(); ++k)
       if (seen(session_[indices[k]]).computed == here.computed) found[wanted[k].first].push_back(indices[k]);
   };
-  const bool central = options().difference == "central";
+  const bool central = options().difference == Difference::central;
   std::vector<std::pair<std::size_t, double>> first, second;
   for (std::size_t i = 0; i < n; ++i) {
     const double side = inside(i, 1) ? 1 : -1;

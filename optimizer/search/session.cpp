@@ -190,7 +190,7 @@ void EvaluationSession::commit(Pending& candidate, const std::string& phase) {
   units_.push_back(candidate.unit);
   const Judgement judgement = judge(problem_, evaluation, options_.constraint_tolerance, shifts_);
   ++(replayed ? statistics_.replayed : statistics_.computed);
-  if (evaluation.status == "infeasible")
+  if (evaluation.infeasible())
     ++statistics_.infeasible;
   else if (!judgement.computed)
     ++statistics_.failed;
@@ -238,7 +238,7 @@ std::optional<std::size_t> EvaluationSession::least_broken() const {
     return std::pair{!c.judgement.computed, c.judgement.violation};
   };
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
-    const bool failed = !candidates_[i].judgement.computed && candidates_[i].evaluation.status != "infeasible";
+    const bool failed = !candidates_[i].judgement.computed && !candidates_[i].evaluation.infeasible();
     if (!failed && (!least || rank(i) < rank(*least))) least = i;
   }
   return least;

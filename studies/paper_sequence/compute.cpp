@@ -82,7 +82,7 @@ class Study {
   void asymptote() {
     say("asymptote");
     candidate_.asymptote = wear::asymptote({candidate_.model.condensed, {}, steady_}, candidate_.unworn->omega,
-                                           {.arbitration = "unsettled"}, &candidate_.unworn->state);
+                                           {.arbitration = wear::Arbitration::unsettled}, &candidate_.unworn->state);
     const wear::Asymptote& found = *candidate_.asymptote;
     if (found.verdict != wear::Verdict::asymptote)
       fail("No worn state at rest was found: " + std::string(wear::to_string(found.verdict)) + ".");
@@ -195,8 +195,8 @@ class Study {
     const double glued = model.reduction.glued_frequencies(scene.loading.mode - 1);
     const paths::Resonance unworn = paths::resonance({model.condensed, {}, steady_}, glued);
     if (unworn.status != Status::converged) return;
-    const wear::Asymptote found =
-        wear::asymptote({model.condensed, {}, steady_}, unworn.omega, {.arbitration = "unsettled"}, &unworn.state);
+    const wear::Asymptote found = wear::asymptote({model.condensed, {}, steady_}, unworn.omega,
+                                                  {.arbitration = wear::Arbitration::unsettled}, &unworn.state);
     if (found.verdict != wear::Verdict::asymptote) return;
     results_.unequal_flanks_degrees = kDegrees;
     results_.unequal_flanks_volume_m3.assign(2, 0.0);

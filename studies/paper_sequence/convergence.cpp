@@ -52,11 +52,11 @@ class Convergence {
   std::vector<ConvergenceRow> run() {
     for (const double factor : options_.mesh_factors) over_mesh(factor);
     for (const int modes : with_own(options_.modes, scene_.solver.modes))
-      over_solver("modes", &optimizer::SolverSettings::modes, modes);
+      over_solver(Refined::modes, &optimizer::SolverSettings::modes, modes);
     for (const int harmonics : with_own(options_.harmonics, scene_.solver.harmonics))
-      over_solver("harmonics", &optimizer::SolverSettings::harmonics, harmonics);
+      over_solver(Refined::harmonics, &optimizer::SolverSettings::harmonics, harmonics);
     for (const int samples : with_own(options_.samples, scene_.solver.samples))
-      over_solver("samples", &optimizer::SolverSettings::samples, samples);
+      over_solver(Refined::samples, &optimizer::SolverSettings::samples, samples);
     return std::move(rows_);
   }
 
@@ -75,18 +75,18 @@ class Convergence {
     if (model.mesh.sector.mesh.dimensions() == 3)
       setting += fmt::format(", {} along the slot", scene.solid_mesh.slot_elements);
     if (model.sizes.contains("dofs")) setting += fmt::format(", {:.0f} unknowns", model.sizes.at("dofs"));
-    add({.kind = "mesh", .setting = setting, .reference = own}, model, scene, watch);
+    add({.kind = Refined::mesh, .setting = setting, .reference = own}, model, scene, watch);
     if (own) own_ = model;
   }
 
   /// A setting of the solver; the number of modes takes a model of its own, the others the study's.
-  void over_solver(const std::string& kind, int optimizer::SolverSettings::*setting, int value) {
+  void over_solver(Refined kind, int optimizer::SolverSettings::*setting, int value) {
     optimizer::Scene scene = scene_;
     scene.solver.*setting = value;
-    say(fmt::format("{} {}", value, kind));
+    say(fmt::format("{} {}", value, to_string(kind)));
     optimizer::Stopwatch watch;
     add({.kind = kind, .setting = std::to_string(value), .reference = value == scene_.solver.*setting},
-        kind == "modes" ? optimizer::ModelBuilder(scene).build(scene) : own_model(), scene, watch);
+        kind == Refined::modes ? optimizer::ModelBuilder(scene).build(scene) : own_model(), scene, watch);
   }
 
   const optimizer::CandidateModel& own_model() {
@@ -111,13 +111,14 @@ class Convergence {
     const steady::Options steady = optimizer::steady_options(scene.solver);
     const double glued = model.reduction.glued_frequencies(scene.loading.mode - 1);
     const paths::Resonance unworn = paths::resonance({model.condensed, {}, steady}, glued);
-    if (unworn.status != Status::converged) return "resonance: " + std::string(to_string(unworn.status));
+    if (unworn.status != Status::converged) return optimizer::failed_at("resonance", unworn.status);
     row.frequency_hz = unworn.omega / (2 * std::numbers::pi);
     row.energy_j = unworn.state.friction_energy;
-    const wear::Asymptote found =
-        wear::asymptote({model.condensed, {}, steady}, unworn.omega, {.arbitration = "unsettled"}, &unworn.state);
+    const wear::Asymptote found = wear::asymptote({model.condensed, {}, steady}, unworn.omega,
+                                                  {.arbitration = wear::Arbitration::unsettled}, &unworn.state);
     row.volume_m3 = found.worn_volume;
-    return found.verdict == wear::Verdict::asymptote ? "converged" : std::string(wear::to_string(found.verdict));
+    return found.verdict == wear::Verdict::asymptote ? optimizer::status_of(optimizer::Outcome::converged)
+                                                     : std::string(to_string(found.verdict));
   }
 
   const optimizer::Scene& scene_;
@@ -159,11 +160,11 @@ std::string convergence_table(const std::vector<ConvergenceRow>& rows) {
     const auto own = std::find_if(rows.begin(), rows.end(), [&](const ConvergenceRow& other) {
       return other.kind == row.kind && other.reference;
     });
-    report::Row line{.cells = {row.kind, row.setting}, .style = row.reference ? "aim" : ""};
+    report::Row line{.cells = {std::string(to_string(row.kind)), row.setting}, .style = row.reference ? "aim" : ""};
     for (const Shown& shown : kShown) {
       const double value = row.*shown.value;
       // Where no resonance was found nothing is known, where no state at rest was all but the volume.
-      const bool known = row.status == "converged" || (row.frequency_hz != 0 && &shown != &kShown.back());
+      const bool known = optimizer::converged(row.status) || (row.frequency_hz != 0 && &shown != &kShown.back());
       line.cells.emplace_back(!known ? row.status
                               : row.reference || own == rows.end()
                                   ? report::significant(value / shown.unit.si, shown.digits) + " " + shown.unit.symbol

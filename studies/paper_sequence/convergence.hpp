@@ -2,18 +2,33 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "core/enum_names.hpp"
+#include "optimizer/problem/outcome.hpp"
 #include "optimizer/scene/scene.hpp"
 
 namespace dovetail::paper_sequence {
 
+/// What is changed.
+enum class Refined { mesh, modes, harmonics, samples };
+constexpr EnumNames<Refined, 4> enum_names(Refined) {
+  return {{{Refined::mesh, "mesh"},
+           {Refined::modes, "modes"},
+           {Refined::harmonics, "harmonics"},
+           {Refined::samples, "samples"}}};
+}
+[[nodiscard]] constexpr std::string_view to_string(Refined kind) {
+  return name_of(kind);
+}
+
 /// What the sequence stands on, computed with one setting changed.
 struct ConvergenceRow {
-  std::string kind = {};     ///< "mesh", "modes", "harmonics", "samples"
+  Refined kind = Refined::mesh;
   std::string setting = {};  ///< "10 x 6 contact elements per flank, 61 000 unknowns"
   bool reference = false;    ///< as the study
-  std::string status = "converged";
+  std::string status = optimizer::status_of(optimizer::Outcome::converged);
   double frequency_hz = 0;      ///< unworn resonance
   double pressure_mean_pa = 0;  ///< after spin-up
   double pressure_max_pa = 0;   ///< of the nodes, the sharp edges included

@@ -30,9 +30,10 @@ std::vector<std::string> run(const ready_study::Call& call) {
   skewed_slot::write(call.folder, results);
   std::vector<std::string> failures;
   for (const skewed_slot::Joint& joint : results.joints)
-    if (joint.status != "converged") failures.push_back(fmt::format("{:g} degrees: {}", joint.skew_deg, joint.status));
+    if (!optimizer::converged(joint.status))
+      failures.push_back(fmt::format("{:g} degrees: {}", joint.skew_deg, joint.status));
   for (const skewed_slot::Wear& wear : results.wear)
-    if (wear.status != "converged")
+    if (!optimizer::converged(wear.status))
       failures.push_back(fmt::format("wear with {:g} degrees: {}", wear.skew_deg, wear.status));
   return failures;
 }

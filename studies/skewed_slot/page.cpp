@@ -50,7 +50,7 @@ using report::significant;
 using Json = nlohmann::ordered_json;
 
 bool good(const Joint& joint) {
-  return joint.status == "converged";
+  return optimizer::converged(joint.status);
 }
 
 std::string degrees(double angle) {

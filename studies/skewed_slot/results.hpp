@@ -13,7 +13,7 @@ using report::Numbers;
 /// The joint after spin-up with one angle between slot and axis.
 struct Joint {
   double skew_deg = 0;
-  std::string status = {};             ///< "converged" or what failed
+  std::string status = {};             ///< of its model, see optimizer::Outcome
   report::ContactRecord contact = {};  ///< places, areas and pressures
   Numbers slip_m = {};                 ///< [Nc] length of the slip of the spin-up
   double pressure_max_pa = 0, pressure_mean_pa = 0, slip_max_m = 0;

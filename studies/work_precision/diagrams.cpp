@@ -25,46 +25,49 @@ class Sweeps {
       : subject_(subject), defaults_(defaults), options_(options), diagram_(diagram) {}
 
   void harmonics(const std::vector<int>& values) {
-    begin({.key = "harmonics", .title = "Harmonics", .refines = true});
+    begin({.key = SweepKey::harmonics, .title = "Harmonics", .refines = true});
     line("", vary(defaults_, values, "H = {}", [](Setting& s, int h) { s.harmonics = h; }));
   }
 
   void samples(const std::vector<int>& values, bool both_returns) {
-    begin({.key = "samples", .title = "Samples per period", .refines = true});
+    begin({.key = SweepKey::samples, .title = "Samples per period", .refines = true});
     const auto set = [](Setting& s, int n) { s.samples = n; };
     line(both_returns ? "second-order slip return" : "", vary(defaults_, values, "N = {}", set));
     if (!both_returns) return;
     Setting first = defaults_;
-    first.slip_return = "first_order";
+    first.slip_return = contact::SlipReturn::first_order;
     line("first-order slip return", vary(first, values, "N = {}", set));
   }
 
   void penalty(const std::vector<double>& ratios) {
-    begin({.key = "penalty", .title = "Pseudo-penalty: ratio to the automatic one"});
+    begin({.key = SweepKey::penalty, .title = "Pseudo-penalty: ratio to the automatic one"});
     Setting alone = defaults_;
     alone.cascade = false;
     line("", vary(alone, ratios, "{:g} eps", [](Setting& s, double ratio) { s.penalty = ratio; }));
   }
 
   void solver(const std::vector<int>& harmonics, const std::vector<int>& by_differences) {
-    begin({.key = "solver", .title = "Solver, over harmonics"});
+    begin({.key = SweepKey::solver, .title = "Solver, over harmonics"});
     const auto set = [](Setting& s, int h) { s.harmonics = h; };
     line("auto: Newton and fall-backs", vary(defaults_, harmonics, "H = {}", set));
     Setting powell = defaults_;
     powell.cascade = false;
-    powell.solver = "powell";
+    powell.solver = steady::Solver::powell;
     line("hybrid Powell, exact Jacobian", vary(powell, harmonics, "H = {}", set));
-    powell.solver = "powell_fd";
+    powell.solver = steady::Solver::powell_fd;
     line("hybrid Powell, finite differences", vary(powell, by_differences, "H = {}", set));
   }
 
   void modes(const std::vector<int>& values) {
-    begin({.key = "modes", .title = "Modes of the reduction", .with_model_time = true, .refines = true});
+    begin({.key = SweepKey::modes, .title = "Modes of the reduction", .with_model_time = true, .refines = true});
     line("", vary(defaults_, values, "{} modes", [](Setting& s, int m) { s.modes = m; }));
   }
 
   void mesh(const std::vector<int>& values) {
-    begin({.key = "mesh", .title = "Mesh: element edges along a flank", .with_model_time = true, .refines = true});
+    begin({.key = SweepKey::mesh,
+           .title = "Mesh: element edges along a flank",
+           .with_model_time = true,
+           .refines = true});
     line("", vary(defaults_, values, "{} edges", [](Setting& s, int n) { s.flank_elements = n; }));
   }
 
@@ -88,7 +91,7 @@ Reference contact_reference(const Subject& subject, Setting base, int harmonics,
   base.harmonics = harmonics;
   base.samples = samples;
   base.modes = modes;
-  base.slip_return = "second_order";
+  base.slip_return = contact::SlipReturn::second_order;
   Setting check = base;
   check.harmonics = 2 * harmonics / 3;
   check.samples = samples / 2;

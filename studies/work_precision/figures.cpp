@@ -43,7 +43,7 @@ double drawn(double error) {
 // The error that the mesh of the default setting makes, NaN without one.
 double mesh_error(const Diagram& diagram, std::size_t quantity) {
   for (const Sweep& sweep : diagram.sweeps)
-    if (sweep.key == "mesh")
+    if (sweep.key == SweepKey::mesh)
       for (const Line& line : sweep.lines)
         for (const Point& point : line.points)
           if (point.is_default) return point.own_error[quantity];
@@ -59,7 +59,8 @@ void add_levels(const Diagram& diagram, const Sweep& sweep, std::size_t quantity
     y.add(shown);
     plot.series.push_back({.name = name, .x = {x.lower, x.upper}, .y = {shown, shown}, .role = role, .stroke = stroke});
   };
-  if (sweep.key != "mesh") level("part by the default mesh", mesh_error(diagram, quantity), Role::bad, Stroke::dashed);
+  if (sweep.key != SweepKey::mesh)
+    level("part by the default mesh", mesh_error(diagram, quantity), Role::bad, Stroke::dashed);
   level("the references agree to this", diagram.reference_of(sweep).agreement[quantity], Role::muted, Stroke::dashed);
 }
 
@@ -96,7 +97,7 @@ Plot error_plot(const Diagram& diagram, const Sweep& sweep, std::size_t quantity
       }
       y.add(error);
       total.add(seconds, error);
-      total.labels.push_back(l == 0 || sweep.key == "solver" ? value_of(point.label) : "");
+      total.labels.push_back(l == 0 || sweep.key == SweepKey::solver ? value_of(point.label) : "");
       part.add(seconds, drawn(point.own_error[quantity]));
       y.add(part.y.back());
       if (!point.is_default || !star.x.empty()) continue;

@@ -10,13 +10,14 @@ Run timed_resonance(const std::shared_ptr<const dynamics::CondensedModel>& model
                     const Setting& setting, double tolerance, double seconds) {
   // Without fall-backs, auto is Newton's method, and a search that fails is not continued along the branch.
   const bool bare = !setting.cascade;
-  const steady::Options steady{.harmonics = setting.harmonics,
-                               .samples = setting.samples,
-                               .tolerance = tolerance,
-                               .solver = bare && setting.solver == "auto" ? "newton" : setting.solver,
-                               .penalty_scale = setting.penalty,
-                               .penalty_cascade = setting.cascade,
-                               .slip_return = setting.slip_return};
+  const steady::Options steady{
+      .harmonics = setting.harmonics,
+      .samples = setting.samples,
+      .tolerance = tolerance,
+      .solver = bare && setting.solver == steady::Solver::automatic ? steady::Solver::newton : setting.solver,
+      .penalty_scale = setting.penalty,
+      .penalty_cascade = setting.cascade,
+      .slip_return = setting.slip_return};
   paths::ResonanceOptions search;
   if (bare) search.sweep_range = 0;
   paths::Resonance found;
@@ -42,7 +43,7 @@ Run timed_resonance(const std::shared_ptr<const dynamics::CondensedModel>& model
   if (found.status == Status::converged)
     run.value = {found.omega, found.state.friction_energy, found.amplitude};
   else
-    run.status = std::string("resonance: ") + std::string(to_string(found.status));
+    run.status = optimizer::failed_at("resonance", found.status);
   return run;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "dynamics/condensed_model.hpp"
+#include "optimizer/problem/outcome.hpp"
 #include "optimizer/scene/scene.hpp"
 #include "paths/resonance.hpp"
 #include "steady/options.hpp"
@@ -17,9 +18,9 @@ struct Setting {
   int harmonics = steady::Options{}.harmonics;
   int samples = steady::Options{}.samples;
   double penalty = steady::Options{}.penalty_scale;  ///< ratio to the automatic pseudo-penalty
-  std::string solver = steady::Options{}.solver;
-  std::string slip_return = steady::Options{}.slip_return;
-  /// Other penalties, solvers and ways are tried when a solve fails.
+  steady::Solver solver = steady::Options{}.solver;
+  contact::SlipReturn slip_return = steady::Options{}.slip_return;
+  /// Other penalties and ways are tried when a solve fails.
   bool cascade = steady::Options{}.penalty_cascade;
   int modes = optimizer::SolverSettings{}.modes;              ///< of the reduction, where there is one
   int flank_elements = geometry::MeshSizes{}.flank_elements;  ///< along a flank; all other sizes follow
@@ -35,14 +36,14 @@ inline constexpr std::array<const char*, 3> kQuantityKeys{"resonance_rad_per_s",
 /// One computation.
 struct Run {
   Setting setting;
-  std::string status = "converged";  ///< or why not: "preload: iteration_limit"
+  std::string status = optimizer::status_of(optimizer::Outcome::converged);  ///< or why not: "preload: iteration_limit"
   std::array<double, 3> value = {};  ///< rad/s, J per cycle, half peak-to-peak; only when converged
   double seconds = 0;                ///< processor time of the resonance search, median
   double model_seconds = 0;          ///< of everything before it: mesh, elements, reduction, preload
   int solves = 0, jacobians = 0;
   int contact_nodes = 0, stuck = 0, slipping = 0, separating = 0;  ///< one that slips may also separate
 
-  [[nodiscard]] bool converged() const { return status == "converged"; }
+  [[nodiscard]] bool converged() const { return optimizer::converged(status); }
 };
 
 /// Computes the resonance of one model with a setting.

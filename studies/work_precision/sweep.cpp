@@ -91,7 +91,7 @@ std::string verdict(const Sweep& sweep, double goal) {
   if (place.at + 1 < points.size())
     neighbours += (neighbours.empty() ? "" : "; ") + beside(sweep, points[place.at + 1], at);
   for (const Line& line : sweep.lines)
-    if (&line != place.line && sweep.key == "solver")
+    if (&line != place.line && sweep.key == SweepKey::solver)
       for (const Point& point : line.points)
         if (point.run.setting.harmonics == at.run.setting.harmonics)
           neighbours += (neighbours.empty() ? "" : "; ") + line.name + " at " + beside(sweep, point, at);

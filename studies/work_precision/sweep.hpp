@@ -3,8 +3,10 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "core/enum_names.hpp"
 #include "studies/work_precision/setting.hpp"
 
 namespace dovetail::work_precision {
@@ -23,9 +25,24 @@ struct Line {
   std::vector<Point> points;  ///< from coarse to fine
 };
 
+/// What a sweep varies.
+enum class SweepKey { harmonics, samples, penalty, solver, modes, mesh };
+constexpr EnumNames<SweepKey, 6> enum_names(SweepKey) {
+  return {{{SweepKey::harmonics, "harmonics"},
+           {SweepKey::samples, "samples"},
+           {SweepKey::penalty, "penalty"},
+           {SweepKey::solver, "solver"},
+           {SweepKey::modes, "modes"},
+           {SweepKey::mesh, "mesh"}}};
+}
+[[nodiscard]] constexpr std::string_view to_string(SweepKey key) {
+  return name_of(key);
+}
+
 /// One setting varied, all others at their defaults.
 struct Sweep {
-  std::string key = {}, title = {};
+  SweepKey key = SweepKey::harmonics;
+  std::string title = {};
   bool with_model_time = false;  ///< seconds are those of model and resonance, not of the resonance alone
   bool refines = false;          ///< points go from coarse to fine, so the last one measures the own error
   std::vector<Line> lines = {};
@@ -50,7 +67,7 @@ struct Diagram {
 
   /// The reference a sweep is compared with.
   [[nodiscard]] const Reference& reference_of(const Sweep& sweep) const {
-    return sweep.key == "mesh" && mesh_reference ? *mesh_reference : reference;
+    return sweep.key == SweepKey::mesh && mesh_reference ? *mesh_reference : reference;
   }
 };
 

@@ -89,7 +89,7 @@ Json json_of(const Sweep& sweep) {
     }
     lines.push_back({{"name", line.name}, {"points", points}});
   }
-  return {{"key", sweep.key}, {"title", sweep.title}, {"verdict", verdict(sweep, kGoal)}, {"lines", lines}};
+  return {{"key", to_string(sweep.key)}, {"title", sweep.title}, {"verdict", verdict(sweep, kGoal)}, {"lines", lines}};
 }
 
 }  // namespace
@@ -104,8 +104,8 @@ std::string table_csv(const Results& results) {
     for (const Sweep& sweep : diagram.sweeps)
       for (const Line& line : sweep.lines)
         for (const Point& point : line.points) {
-          text += fmt::format("{},{},{},{},{}", diagram.key, sweep.key, csv_text(line.name), csv_text(point.label),
-                              point.is_default ? 1 : 0) +
+          text += fmt::format("{},{},{},{},{}", diagram.key, to_string(sweep.key), csv_text(line.name),
+                              csv_text(point.label), point.is_default ? 1 : 0) +
                   ready_study::csv_values(point.run.setting) + ready_study::csv_values(point.run);
           for (const double value : point.run.value) text += "," + (point.run.converged() ? csv_value(value) : "");
           for (const auto* errors : {&point.error, &point.own_error})

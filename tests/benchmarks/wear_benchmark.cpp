@@ -72,7 +72,7 @@ void compare(const std::string& name) {
   const double direct_time =
       median_seconds([&] { direct = wear::asymptote(at.joint, at.omega, direct_options()); }, 0.0);
   wear::AsymptoteOptions alone = direct_options();
-  alone.arbitration = "never";
+  alone.arbitration = wear::Arbitration::never;
   alone.certify_finer = false;
   wear::Asymptote released;
   const double released_time = median_seconds([&] { released = wear::asymptote(at.joint, at.omega, alone); }, 0.0);
@@ -121,7 +121,8 @@ void times() {
     const auto model = std::make_shared<const dynamics::CondensedModel>(
         work_precision::contact_patch({.nodes = nodes, .tangential = tangential}));
     const double omega = work_precision::kPatchFrequency;
-    for (const char* arbitration : {"never", "unsettled", "auto"}) {
+    for (const wear::Arbitration arbitration :
+         {wear::Arbitration::never, wear::Arbitration::unsettled, wear::Arbitration::automatic}) {
       wear::AsymptoteOptions options = direct_options();
       options.arbitration = arbitration;
       wear::Asymptote worn;
@@ -129,14 +130,14 @@ void times() {
       std::printf(
           "%3ld nodes, %ld directions, arbitration %-9s: asymptote %.3f s, %s, %d Jacobians, %d solves, doubt '%s' "
           "(aim %s)\n",
-          static_cast<long>(nodes), static_cast<long>(tangential + 1), arbitration, seconds,
+          static_cast<long>(nodes), static_cast<long>(tangential + 1), to_string(arbitration).data(), seconds,
           std::string(wear::to_string(worn.verdict)).c_str(), worn.jacobians, worn.solves, to_string(worn.doubt).data(),
           tangential == 1 ? "0.2 s" : "1 s");
       std::fflush(stdout);
     }
     if (tangential == 2) continue;
     wear::AsymptoteOptions alone = direct_options();
-    alone.arbitration = "never";
+    alone.arbitration = wear::Arbitration::never;
     const wear::Asymptote worn = wear::asymptote({model, {}, steady}, omega, alone);
     int jacobians = 0;
     const auto history_with_curves = [&] {

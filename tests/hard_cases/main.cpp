@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
+#include <optional>
+#include <string>
 
 #include "numerics/blas.hpp"
 #include "tests/hard_cases/suite.hpp"
@@ -15,12 +17,16 @@ int main(int argc, char** argv) {
   CLI::App app("Hard cases of the steady state: each converges, checked independently, or says why not.");
   std::vector<std::string> only;
   std::string csv;
-  std::string slip_return;
+  std::optional<dovetail::contact::SlipReturn> slip_return;
   std::uint64_t seed = seed_of_run();
   bool quiet = false, without_each = false;
   app.add_option("--only", only, "families, or single problems as FAMILY/NUMBER");
   app.add_option("--csv", csv, "file for one line per problem");
-  app.add_option("--slip-return", slip_return, "first_order or second_order for all problems instead of their own");
+  app.add_option_function<std::string>(
+         "--slip-return",
+         [&](const std::string& name) { slip_return = dovetail::named<dovetail::contact::SlipReturn>(name); },
+         "first_order or second_order for all problems instead of their own")
+      ->check(CLI::IsMember({"first_order", "second_order"}));
   app.add_option("--seed", seed, "of the fresh problems; default: DOVETAIL_SEED, or another one in every run");
   app.add_flag("--quiet", quiet, "no line per problem that did not converge");
   app.add_flag("--without-each", without_each, "also solve them without each single way to a solution");
@@ -39,7 +45,7 @@ int main(int argc, char** argv) {
     for (int index = 0; index < family.count; ++index) {
       if (!asked(family.name, index)) continue;
       Problem problem = family.make(index);
-      if (!slip_return.empty()) problem.options.slip_return = slip_return;
+      if (slip_return) problem.options.slip_return = *slip_return;
       outcomes.push_back(attempt(family, index, problem));
       if (only.empty()) spoil(problem, outcomes.back(), scores);
       if (!quiet) fmt::print("{}", failures({outcomes.back()}));

@@ -158,7 +158,7 @@ class Node {
       }
     }
     for (std::size_t n = 0; n < samples_; ++n) prediction_.push_back(fine_prediction_[n * kFiner]);
-    const bool second_order = problem.options.slip_return == "second_order";
+    const bool second_order = problem.options.slip_return == contact::SlipReturn::second_order;
     const Law law{.friction = mu_, .second_order = second_order, .touches_between = second_order};
     constexpr double kOrbit = 1e-13;  // far below a tolerance
     orbit_ = released_ ? free_orbit(prediction_) : periodic_orbit(prediction_, law, start, kOrbit);

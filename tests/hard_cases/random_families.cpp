@@ -39,7 +39,8 @@ struct Maker {
       specialise(recipe, random, index);
       Problem problem = build(recipe, random);
       // Both rules, whatever the default.
-      problem.options.slip_return = index % 2 == 0 ? "second_order" : "first_order";
+      problem.options.slip_return =
+          index % 2 == 0 ? contact::SlipReturn::second_order : contact::SlipReturn::first_order;
       return problem;
     };
     return {.name = name, .count = count / divisor, .fresh = !stream.empty(), .make = make};

@@ -57,8 +57,8 @@ class WornStateSearch {
 
   [[nodiscard]] Asymptote run(const steady::State* unworn) {
     if (begin(unworn) && release()) {
-      const bool asked = options_.arbitration == "always";
-      if ((asked || options_.arbitration == "auto") && settled_ && passes_.count > 0 &&
+      const bool asked = options_.arbitration == Arbitration::always;
+      if ((asked || options_.arbitration == Arbitration::automatic) && settled_ && passes_.count > 0 &&
           (doubt() == Doubt::none || asked))
         look_further();
       if (doubt() == Doubt::none && asked) result_.doubt = Doubt::always;
@@ -159,8 +159,8 @@ class WornStateSearch {
   }
 
   [[nodiscard]] bool history_decides() const {
-    if (doubt() == Doubt::none || options_.arbitration == "never") return false;
-    return options_.arbitration != "unsettled" || !entry(doubt()).direct_stands;
+    if (doubt() == Doubt::none || options_.arbitration == Arbitration::never) return false;
+    return options_.arbitration != Arbitration::unsettled || !entry(doubt()).direct_stands;
   }
 
   /// The implicit history has the last word. Where it cannot be followed to its end a settled direct answer stands,

@@ -3,11 +3,11 @@
 #include <Eigen/Core>
 #include <functional>
 #include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/budget.hpp"
+#include "core/enum_names.hpp"
 #include "core/options.hpp"
 #include "core/status.hpp"
 #include "steady/state.hpp"
@@ -28,6 +28,23 @@ enum class Verdict {
 };
 [[nodiscard]] std::string_view to_string(Verdict verdict);
 
+/// Whether the implicit history has the last word.
+enum class Arbitration {
+  automatic,  ///< where the direct answer is in doubt
+  unsettled,  ///< only where release did not come to a certified end or the wear law lets nodes rest in slip
+  never,      ///< then "no asymptote" is not confirmed either
+  always,
+};
+constexpr EnumNames<Arbitration, 4> enum_names(Arbitration) {
+  return {{{Arbitration::automatic, "auto"},
+           {Arbitration::unsettled, "unsettled"},
+           {Arbitration::never, "never"},
+           {Arbitration::always, "always"}}};
+}
+[[nodiscard]] constexpr std::string_view to_string(Arbitration arbitration) {
+  return name_of(arbitration);
+}
+
 struct AsymptoteOptions {
   // Wear per cycle below which a loaded node counts as stuck, m per cycle; negative: from the model, see no_wear_rate.
   double rate_threshold = kFromModel;
@@ -39,10 +56,7 @@ struct AsymptoteOptions {
   double reference_rate = 0.0;
   // >= 1. Passes of release; each releases every loaded node that slips.
   int passes = 60;
-  // auto | unsettled | never | always. Whether the implicit history has the last word: where the direct answer is in
-  // doubt, only where release did not come to a certified end or the wear law lets nodes rest in slip, never (then "no
-  // asymptote" is not confirmed either), or every time.
-  std::string arbitration = "auto";
+  Arbitration arbitration = Arbitration::automatic;
   // > 0. Two worn states are the same when their depths differ by less than this, relative to the largest depth.
   double state_tolerance = 1e-2;
   // in (0, 0.5]. Local error per step of the implicit history, relative to the largest depth.

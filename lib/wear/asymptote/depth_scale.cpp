@@ -9,7 +9,7 @@ DepthScale depth_scale(const steady::Joint& joint, double omega, double rate_thr
                        const Watcher& watcher) {
   AsymptoteOptions options;
   options.rate_threshold = rate_threshold;
-  options.arbitration = "never";
+  options.arbitration = Arbitration::never;
   options.certify = options.certify_finer = false;
   const Asymptote found = asymptote(joint, omega, options, unworn, watcher);
   DepthScale scale{.status = found.unworn.status, .solves = found.solves, .jacobians = found.jacobians};

@@ -12,7 +12,7 @@ std::span<const Field<wear::AsymptoteOptions>> option_table<wear::AsymptoteOptio
        .range = {.lower = 0, .upper = 1, .upper_open = true}},
       {.key = "reference_rate_um_per_cycle", .member = &O::reference_rate, .si_per_unit = 1e-6, .range = kNonNegative},
       {.key = "passes", .member = &O::passes, .range = {.lower = 1}},
-      {.key = "arbitration", .member = &O::arbitration, .choices = {"auto", "unsettled", "never", "always"}},
+      {.key = "arbitration", .member = &O::arbitration},
       {.key = "state_tolerance", .member = &O::state_tolerance, .range = kPositive},
       {.key = "history_tolerance",
        .member = &O::history_tolerance,

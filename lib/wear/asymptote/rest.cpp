@@ -24,7 +24,7 @@ class Rule {
       : joint_(joint), omega_(omega), options_(options), watcher_(watcher) {}
 
   [[nodiscard]] Rest apply(const steady::State* unworn) {
-    Rest rest = found(joint_, options_.history ? "auto" : "unsettled", unworn);
+    Rest rest = found(joint_, options_.history ? Arbitration::automatic : Arbitration::unsettled, unworn);
     if (options_.history) weigh(rest);
     if (options_.asymptote.certify_finer && !watcher_.stopped()) certify(rest);
     rest.solves = solves_;
@@ -35,7 +35,7 @@ class Rule {
  private:
   [[nodiscard]] const reduction::ContactNodes& contact() const { return joint_.model->contact(); }
 
-  [[nodiscard]] Rest found(const steady::Joint& joint, const char* arbitration, const steady::State* unworn) {
+  [[nodiscard]] Rest found(const steady::Joint& joint, Arbitration arbitration, const steady::State* unworn) {
     AsymptoteOptions settings = options_.asymptote;
     settings.arbitration = arbitration;
     settings.certify_finer = false;  // of the answer alone
@@ -66,7 +66,7 @@ class Rule {
         options_.follow && history.verdict == Verdict::not_converged && history.status != Status::interrupted;
     if (!fails && (!decides || options_.lines.empty())) return;
     const steady::State unworn = asked.held ? asked.held->unworn : history.unworn;
-    Rest rest = found(joint_, "unsettled", &unworn);
+    Rest rest = found(joint_, Arbitration::unsettled, &unworn);
     Asymptote& direct = rest.asymptote;
     if (direct.verdict != Verdict::asymptote) return;
     if (fails) {
@@ -114,7 +114,7 @@ class Rule {
     ++solves_;
     jacobians_ += start.iterations;
     if (start.status != Status::converged) return {};
-    Asymptote finer = found(joint, "always", &start).asymptote;
+    Asymptote finer = found(joint, Arbitration::always, &start).asymptote;
     if (finer.verdict != Verdict::asymptote || !finer.confirmed_by_history) return {};
     return other_state(FoundBy::finer_history, contact(), finer.depth);
   }

@@ -181,7 +181,8 @@ Spread spread(const steady::Joint& joint, const WornEnd& nominal, const WornComp
     for (Change& change : changes) change.name = factor(change.*member);
     vary(source, changes);
   };
-  both("wear_coefficient", options.wear_coefficient, &Change::wear_coefficient);
+  constexpr const char* kWearCoefficient = "wear_coefficient";
+  both(kWearCoefficient, options.wear_coefficient, &Change::wear_coefficient);
   both("friction", options.friction, &Change::friction);
   both("load", options.load, &Change::load);
   if (options.tractions && unworn && unworn->tangent) vary("residual_tractions", corners(*joint.model, *unworn));
@@ -192,7 +193,7 @@ Spread spread(const steady::Joint& joint, const WornEnd& nominal, const WornComp
       Change all;
       for (std::size_t i = 0; i < sources.size(); ++i) {
         const Change& one = more ? extremes[i].second : extremes[i].first;
-        if (one.name.empty() || sources[i] == "wear_coefficient") continue;  // where wear ends does not depend on k_w
+        if (one.name.empty() || sources[i] == kWearCoefficient) continue;  // where wear ends does not depend on k_w
         all.friction *= one.friction;
         all.load *= one.load;
         if (one.slip_origin.size() > 0) all.slip_origin = one.slip_origin;

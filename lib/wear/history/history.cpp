@@ -61,7 +61,7 @@ class Loop {
         finish_(implicit() ? kFinishImplicit : kFinishExplicit),
         limit_(options.cycles > 0.0 ? options.cycles : kInfinity),
         wearing_(begun(joint, start), start.omega, watcher) {
-    if (options.follow == "resonance") wearing_.follow(start.resonance);
+    if (options.follow == Follow::resonance) wearing_.follow(start.resonance);
   }
 
   [[nodiscard]] History run() {
@@ -86,7 +86,7 @@ class Loop {
   }
 
  private:
-  [[nodiscard]] bool implicit() const { return options_.integrator == "implicit"; }
+  [[nodiscard]] bool implicit() const { return options_.integrator == IntegratorKind::implicit_steps; }
   [[nodiscard]] bool resumed() const { return start_.past != nullptr && start_.past->cycles.size() > 0; }
   [[nodiscard]] static HistoryEnd end_of(Status status) {
     return status == Status::interrupted ? HistoryEnd::interrupted : HistoryEnd::failed;
@@ -150,7 +150,7 @@ class Loop {
     const double fastest = largest(course_.point.rate);
     const bool quiet = fastest <= worn_out_;
     const bool early = fastest <= below * reference_;
-    if (!options_.finish || options_.follow == "resonance") return quiet;
+    if (!options_.finish || options_.follow == Follow::resonance) return quiet;
     if (early || (quiet && !finish_.follows_tail)) {
       finish(quiet ? finish_.close_at_end : finish_.close_before);
       if (result_.finished) return true;
@@ -238,18 +238,19 @@ std::string_view to_string(HistoryEnd end) {
 History history(const steady::Joint& joint, const HistoryStart& start, const HistoryOptions& options,
                 const Watcher& watcher) {
   std::vector<Violation> wrong = violations(options, "history");
-  if (options.integrator == "implicit") {
+  const bool implicit = options.integrator == IntegratorKind::implicit_steps;
+  if (implicit) {
     if (!(options.tolerance > 0.0))
       wrong.push_back(
           {.file = {}, .key = "history.tolerance", .value = "0", .allowed = "must be > 0 for implicit steps"});
-    if (options.follow == "resonance")
+    if (options.follow == Follow::resonance)
       wrong.push_back({.file = {},
                        .key = "history.follow",
-                       .value = options.follow,
+                       .value = std::string(to_string(options.follow)),
                        .allowed = "must be fixed for implicit steps"});
   }
   if (!wrong.empty()) throw InputError(std::move(wrong));
-  if (options.integrator == "implicit") require_nothing_released(joint.condition);
+  if (implicit) require_nothing_released(joint.condition);
   return Loop(joint, start, options, watcher).run();
 }
 

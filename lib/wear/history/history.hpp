@@ -2,21 +2,33 @@
 
 #include <Eigen/Core>
 #include <span>
-#include <string>
 #include <string_view>
 
+#include "core/enum_names.hpp"
 #include "core/options.hpp"
 #include "core/status.hpp"
 #include "paths/resonance.hpp"
 #include "steady/state.hpp"
+#include "wear/follow.hpp"
 #include "wear/no_wear.hpp"
 #include "wear/watcher.hpp"
 
 namespace dovetail::wear {
 
+/// What makes a step, see integrator.hpp.
+enum class IntegratorKind {
+  explicit_jumps,  ///< by the rate of the last state
+  implicit_steps,  ///< large ones, of U and W together
+};
+constexpr EnumNames<IntegratorKind, 2> enum_names(IntegratorKind) {
+  return {{{IntegratorKind::explicit_jumps, "explicit"}, {IntegratorKind::implicit_steps, "implicit"}}};
+}
+[[nodiscard]] constexpr std::string_view to_string(IntegratorKind kind) {
+  return name_of(kind);
+}
+
 struct HistoryOptions {
-  // explicit | implicit: jumps by the rate of the last state, or large steps of U and W together (integrator.hpp).
-  std::string integrator = "explicit";
+  IntegratorKind integrator = IntegratorKind::explicit_jumps;
   // > 0. explicit: largest increase of depth per step, m (W_tot). The error of the worn state is first order in it.
   double increment = 1e-7;
   // in [0, 0.5]. Local error per step, relative to the largest depth worn so far or, while that is less, to the largest
@@ -31,16 +43,15 @@ struct HistoryOptions {
   double rate_fraction = 1e-4;
   // Worn out, too, when the largest rate fell below this, m per cycle; negative: from the model, see no_wear_rate.
   double rate_threshold = kFromModel;
-  // fixed | resonance: excite at the given frequency throughout, or (explicit) at the resonance of the joint as worn so
-  // far.
-  std::string follow = "fixed";
+  // Excite at the given frequency throughout, or (explicit) at the resonance of the joint as worn so far.
+  Follow follow = Follow::fixed;
   // Finish a worn-out history at a fixed frequency by the direct method, so that no bias of the last rates remains:
   // implicit ones as soon as that moves hardly anything.
   bool finish = true;
 
   /// What suits implicit steps: 20 to 40 of them down to a millionth of the first rate.
   [[nodiscard]] static HistoryOptions implicit() {
-    return {.integrator = "implicit", .tolerance = 2e-4, .steps = 300, .rate_fraction = 1e-6};
+    return {.integrator = IntegratorKind::implicit_steps, .tolerance = 2e-4, .steps = 300, .rate_fraction = 1e-6};
   }
 };
 

@@ -11,7 +11,6 @@
 #include "geometry/solid/solid_family.hpp"
 #include "optimizer/candidate/candidate_model.hpp"
 #include "optimizer/scene/scene_kind.hpp"
-#include "studies/program/study_file/export.hpp"
 #include "studies/program/study_file/refusal.hpp"
 
 namespace dovetail::studies {
@@ -41,20 +40,23 @@ void export_deck(const optimizer::Scene& scene, const DeckOptions& options, cons
 
 }  // namespace
 
-void export_geometry(const optimizer::Scene& scene, const std::string& format, const DeckOptions& deck,
+void export_geometry(const optimizer::Scene& scene, ExportFormat format, const DeckOptions& deck,
                      const std::filesystem::path& file) {
-  assert(is_export_format(format) && !is_field_format(format));
-  if (needs_space(format) && !scene.kind->in_space)
-    refuse("scene.type", "must be sector for " + format + ": a section has no surface in space",
-           std::string(scene.kind->name));
-  if (is_deck_format(format))
-    export_deck(scene, deck, file);
-  else if (format == "stl")
-    replace_file(file, geometry::stl(meshed(scene).sector.mesh, {0, 1}));
-  else if (format == "dxf")
-    geometry::write_dxf(file, geometry::section_layers(scene.geometry));
-  else
-    geometry::write_svg(file, geometry::section_layers(scene.geometry));
+  switch (format) {
+    case ExportFormat::dxf:
+      return geometry::write_dxf(file, geometry::section_layers(scene.geometry));
+    case ExportFormat::svg:
+      return geometry::write_svg(file, geometry::section_layers(scene.geometry));
+    case ExportFormat::stl:
+      if (!scene.kind->in_space)
+        refuse("scene.type", "must be sector for stl: a section has no surface in space",
+               std::string(scene.kind->name));
+      return replace_file(file, geometry::stl(meshed(scene).sector.mesh, {0, 1}));
+    case ExportFormat::inp:
+      return export_deck(scene, deck, file);
+    case ExportFormat::vtu:
+      assert(false && "fields are computed, see export_fields");
+  }
 }
 
 }  // namespace dovetail::studies

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "optimizer/scene/scene.hpp"
+#include "studies/program/study_file/export.hpp"
 
 namespace dovetail::studies {
 
@@ -21,7 +22,7 @@ struct DeckOptions {
 /// space, or the finite elements with materials, speed and friction as an input deck of CalculiX
 /// (geometry/exports/inp.hpp). Throws InputError for a file that cannot be written, a design that cannot be meshed
 /// where the format needs a mesh, a section where it needs a solid, and options out of range.
-void export_geometry(const optimizer::Scene& scene, const std::string& format, const DeckOptions& deck,
+void export_geometry(const optimizer::Scene& scene, ExportFormat format, const DeckOptions& deck,
                      const std::filesystem::path& file);
 
 }  // namespace dovetail::studies

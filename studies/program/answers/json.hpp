@@ -6,6 +6,7 @@
 
 #include "optimizer/problem/evaluation.hpp"
 #include "steady/options.hpp"
+#include "studies/program/answers/wear_modes.hpp"
 #include "wear/asymptote/asymptote.hpp"
 #include "wear/asymptote/spread.hpp"
 #include "wear/history/history.hpp"
@@ -31,8 +32,8 @@ struct WearBars {
 
 /// How a wear computation was asked for, and what was computed besides.
 struct WearQuestion {
-  double frequency_hz = 0;       ///< excitation, at the start
-  std::string follow = "fixed";  ///< fixed, tracking the resonance, or the worst of a band
+  double frequency_hz = 0;  ///< excitation, at the start
+  Drive follow = Drive::fixed;
   steady::Options settings = {};
   struct Automatic {
     Status status;

@@ -100,9 +100,9 @@ report::RunRecord write_run(const RunSite& site, const OptimizationResult& resul
   report::write_report(directory / "report.html", record);
   if (!result.best) return record;
   const Scene best = scene_of(study, result.evaluations[*result.best]);
-  for (const std::string& format : study.exports) {
-    const std::filesystem::path file = directory / ("best." + format);
-    if (!is_field_format(format))
+  for (const ExportFormat format : study.exports) {
+    const std::filesystem::path file = directory / ("best." + std::string(to_string(format)));
+    if (format != ExportFormat::vtu)
       export_geometry(best, format, {}, file);
     else if (record.best_design && record.best_design->fields.mesh.element_count() > 0)
       export_fields(record.best_design->fields, file);

@@ -58,8 +58,9 @@ Json band_json(const WearBand& band) {
 
 Json choice_json(const HistoryChoice& choice) {
   const wear::HistoryOptions& options = choice.options;
-  Json json{{"integrator", options.integrator}, {"tolerance", json_of(options.tolerance)}, {"steps", options.steps}};
-  if (options.integrator == "explicit") json["increment_m"] = json_of(options.increment);
+  Json json{
+      {"integrator", json_of(options.integrator)}, {"tolerance", json_of(options.tolerance)}, {"steps", options.steps}};
+  if (options.integrator == wear::IntegratorKind::explicit_jumps) json["increment_m"] = json_of(options.increment);
   if (choice.depth_scale > 0) json["depth_scale_m"] = json_of(choice.depth_scale);
   json["cycles"] = json_of(options.cycles > 0 ? options.cycles : kUnknown);
   json["start_cycles"] = json_of(choice.start_cycles);
@@ -143,11 +144,11 @@ wear::Verdict wear_status(const wear::History& history) {
 
 std::string wear_json(const WearQuestion& question, const WearAnswer& answer) {
   Json json;
-  json["method"] = answer.history ? "history" : "asymptote";
+  json["method"] = json_of(answer.history ? WearMethod::history : WearMethod::asymptote);
   json["status"] = json_of(answer.status);
   if (answer.status == wear::Verdict::not_converged)
     json["reason"] = json_of(answer.reason.empty() ? std::string(to_string(answer.solver)) : answer.reason);
-  json["follow"] = question.follow;
+  json["follow"] = json_of(question.follow);
   json["frequency_hz"] = json_of(question.frequency_hz);
   json["frequencies_hz"] = json_of(answer.frequencies_hz);
   if (answer.history) {

@@ -53,7 +53,7 @@ paths::BackboneFamily worn_family(const steady::Joint& joint, double omega, cons
 std::string backbone_json(const BackboneOptions& options, const LoadedModel& loaded, int output,
                           const paths::Backbone& found) {
   Json json;
-  json["over"] = options.over;
+  json["over"] = json_of(options.over);
   json["output"] = loaded.model.output_names[static_cast<std::size_t>(output)];
   using Point = paths::BackbonePoint;
   const auto known = [](const auto& value) {
@@ -72,8 +72,9 @@ std::string backbone_json(const BackboneOptions& options, const LoadedModel& loa
 }
 
 std::string table(const BackboneOptions& options, const paths::Backbone& found) {
-  std::string text = fmt::format("{:>16} {:>16} {:>16} {:>16}\n", options.over == "wear" ? "depth_m" : "force factor",
-                                 "status", "frequency_hz", "amplitude");
+  std::string text =
+      fmt::format("{:>16} {:>16} {:>16} {:>16}\n", options.over == BackboneOver::wear ? "depth_m" : "force factor",
+                  "status", "frequency_hz", "amplitude");
   for (const paths::BackbonePoint& point : found.points) {
     text += fmt::format("{:>16.9g} {:>16}", point.parameter, to_string(point.status));
     if (point.status == Status::converged)
@@ -100,8 +101,9 @@ int run_backbone(const BackboneOptions& options, const Streams& streams) {
   const OrderlyInterrupt interrupt;
   steady::Joint joint = loaded.joint;
   joint.options.linearise = false;
-  const paths::BackboneFamily family =
-      options.over == "wear" ? worn_family(joint, omega, settings.resonance, options) : paths::excitation_levels(joint);
+  const paths::BackboneFamily family = options.over == BackboneOver::wear
+                                           ? worn_family(joint, omega, settings.resonance, options)
+                                           : paths::excitation_levels(joint);
   const bool terminal = error_is_terminal();
   const paths::Backbone found =
       paths::backbone(family, values, omega, settings, [&](const paths::BackbonePoint& point) {

@@ -69,13 +69,11 @@ int export_model(const ExportOptions& options, const std::string& input, const S
 }  // namespace
 
 int run_export(const ExportOptions& options, const Streams& streams) {
+  const std::optional<ExportFormat> format = named<ExportFormat>(options.format);
   const bool matrices = options.format == kMatrixMarket;
-  if (!matrices && !is_export_format(options.format)) {
-    std::string allowed = "must be one of";
-    for (const std::string_view known : export_formats()) (allowed += ' ') += known;
-    refuse("--format", allowed + " " + std::string(kMatrixMarket), options.format);
-  }
-  if (!is_deck_format(options.format) && options.deck != DeckOptions{})
+  if (!matrices && !format)
+    refuse("--format", "must be one of " + export_formats(" ") + " " + std::string(kMatrixMarket), options.format);
+  if (format != ExportFormat::inp && options.deck != DeckOptions{})
     refuse("--format", "must be inp with --nodal-diameter, --modes or --contact", options.format);
   check_replaceable(options.file);
   const bool of_run = fs::is_directory(options.input);
@@ -85,10 +83,10 @@ int run_export(const ExportOptions& options, const Streams& streams) {
   if (matrices) return export_model(options, design(), streams);
   if (!of_run && (is_hdf5_file(options.input) || is_model_document(load_document(options.input))))
     refuse(options.input, "is a reduced model: it has matrices (--format matrix-market), no geometry");
-  if (is_field_format(options.format))
+  if (format == ExportFormat::vtu)
     export_fields(fields_of(options, of_run), options.file);
   else
-    export_geometry(load_study(design(), overrides(options.set)).scene, options.format, options.deck, options.file);
+    export_geometry(load_study(design(), overrides(options.set)).scene, *format, options.deck, options.file);
   streams.out << options.file << ": written\n";
   return kDone;
 }

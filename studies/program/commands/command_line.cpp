@@ -21,11 +21,16 @@ namespace {
 template <class S>
 void add_option(CLI::App& command, S& options, const Option<S>& row) {
   CLI::Option* option = std::visit(
-      [&](auto member) {
-        using T = std::decay_t<decltype(options.*member)>;
-        if constexpr (std::is_same_v<T, bool>) {
+      [&]<class Member>(const Member& member) {
+        if constexpr (std::is_same_v<Member, EnumMember<S>>) {
+          const auto set = [&options, member](const std::string& word) { member.set(options, word); };
+          return command.add_option_function<std::string>(row.name, set, row.help)
+              ->type_name(std::string(row.type))
+              ->check(CLI::IsMember(std::vector<std::string>(member.names().begin(), member.names().end())));
+        } else if constexpr (std::is_same_v<Member, bool S::*>) {
           return command.add_flag(row.name, options.*member, row.help);
         } else {
+          using T = std::decay_t<decltype(options.*member)>;
           CLI::Option* added =
               command.add_option(row.name, options.*member, row.help)->type_name(std::string(row.type));
           if constexpr (std::is_same_v<T, std::vector<std::string>>)

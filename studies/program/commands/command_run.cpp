@@ -78,9 +78,8 @@ std::string conclusion(const Study& study, const OptimizationResult& result, con
   const auto all = static_cast<int>(result.evaluations.size());
   const auto count = [&](const auto& of) { return static_cast<int>(std::ranges::count_if(result.evaluations, of)); };
   const int feasible = count([](const optimizer::Candidate& c) { return c.judgement.feasible; });
-  const int failed = count([](const optimizer::Candidate& c) {
-    return c.evaluation.status != "converged" && c.evaluation.status != "infeasible";
-  });
+  const int failed =
+      count([](const optimizer::Candidate& c) { return !c.evaluation.converged() && !c.evaluation.infeasible(); });
   std::string text = fmt::format(
       "{}: {} evaluations, {} of them stored before; {} feasible, {} break a limit or a rule, {} failed; {}\n",
       study.name, all, counts.replayed, feasible, all - feasible - failed, failed,
@@ -109,12 +108,12 @@ std::string verified(const std::vector<report::VerificationRecord>& verification
 std::string shortcoming(const Study& study, const OptimizationResult& result, const report::RunRecord& record) {
   if (!result.best)
     return fmt::format("{}: no feasible design was found in {} evaluations", study.file, result.evaluations.size());
-  const bool stands = !record.best_design || record.best_design->status == "converged";
+  const bool stands = !record.best_design || optimizer::converged(record.best_design->status);
   if (!stands || !record.evaluations[*result.best].feasible)
     return fmt::format("the best design, evaluation {}, looked at with bars and its wear history: {}", *result.best + 1,
                        stands ? "breaks a limit" : record.best_design->status);
   for (const report::VerificationRecord& v : record.verifications)
-    if (v.evaluation == static_cast<std::int64_t>(*result.best) && v.status != "converged")
+    if (v.evaluation == static_cast<std::int64_t>(*result.best) && !optimizer::converged(v.status))
       return fmt::format("the verification of the best design, evaluation {}: {}", v.evaluation + 1, v.status);
   return {};
 }

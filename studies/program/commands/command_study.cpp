@@ -134,12 +134,13 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
   std::ranges::move(unjudged, std::back_inserter(evaluation.undecided_constraints));
   deliver_json(options.json, evaluation_json(evaluation), streams);
   if (options.json != "-") streams.out << evaluation_table(evaluation);
-  if (evaluation.status == "infeasible") throw infeasible(options.study, evaluation.messages);
+  if (evaluation.infeasible()) throw infeasible(options.study, evaluation.messages);
   for (const std::string& message : evaluation.messages) streams.err << "dovetail: " << message << "\n";
   if (evaluation.converged()) return automatic && *automatic != Status::converged ? kNotConverged : kDone;
-  const char* what = evaluation.status.ends_with("no_asymptote")    ? "wear has no end"
-                     : evaluation.status.ends_with("gross_sliding") ? "the joint slides"
-                                                                    : "not converged";
+  const auto ends_in = [&](auto why) { return evaluation.status.ends_with(to_string(why)); };
+  const char* what = ends_in(wear::Verdict::no_asymptote) ? "wear has no end"
+                     : ends_in(Status::gross_sliding)     ? "the joint slides"
+                                                          : "not converged";
   return not_converged(options.study, fmt::format("{}: {}", what, evaluation.status), streams);
 }
 

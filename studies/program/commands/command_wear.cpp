@@ -17,9 +17,16 @@
 namespace dovetail::studies {
 namespace {
 
-std::string follow_words(const std::string& follow) {
-  if (follow == "band") return "the worst of the band";
-  return follow == "resonance" ? "at first; following the resonance" : "held";
+std::string_view follow_words(Drive follow) {
+  switch (follow) {
+    case Drive::fixed:
+      return "held";
+    case Drive::resonance:
+      return "at first; following the resonance";
+    case Drive::band:
+      return "the worst of the band";
+  }
+  return "";
 }
 
 /// The wear that goes on at the worn state, as a share of the unworn rate.
@@ -81,7 +88,7 @@ int verdict(const std::string& input, const WearAnswer& answer, const Streams& s
   const bool out_of_steps = answer.history && answer.history->end == wear::HistoryEnd::steps;
   streams.err << fmt::format("dovetail: {}: the worn state did not converge: {}{}\n", input, to_string(answer.solver),
                              !out_of_steps ? ""
-                             : answer.choice.options.integrator == "implicit"
+                             : answer.choice.options.integrator == wear::IntegratorKind::implicit_steps
                                  ? ": allow more --steps"
                                  : ": allow more --steps, or a larger --increment of depth");
   return kNotConverged;
@@ -90,27 +97,31 @@ int verdict(const std::string& input, const WearAnswer& answer, const Streams& s
 /// The choices of the command line, or else of the study and what its law asks for: under a threshold nodes come to
 /// rest in slip, and increments of depth end well beyond that.
 WearOptions with_choices(WearOptions options, const LoadedModel& loaded) {
-  if (options.follow.empty()) options.follow = loaded.follow;
-  if (!options.integrator.empty()) return options;
+  if (!options.follow) options.follow = drive_of(loaded.follow);
+  if (options.integrator) return options;
   const Eigen::VectorXd& threshold = loaded.model.contact.wear_threshold;
   const bool rests_in_slip = threshold.size() > 0 && threshold.maxCoeff() > 0;
-  options.integrator = rests_in_slip && options.follow != "resonance" && !options.increment_m ? "implicit" : "explicit";
+  options.integrator = rests_in_slip && options.follow != Drive::resonance && !options.increment_m
+                           ? wear::IntegratorKind::implicit_steps
+                           : wear::IntegratorKind::explicit_jumps;
   return options;
 }
 
 /// What only the study and the model together can contradict.
 void check_model(const WearOptions& options, const LoadedModel& loaded) {
   if (loaded.model.contact.count() == 0) refuse(options.input, "has no contact nodes: nothing can wear");
-  if (options.follow != "resonance") return;
-  if (options.integrator == "implicit") refuse("--follow", "needs --integrator explicit", options.follow);
+  if (options.follow != Drive::resonance) return;
+  const std::string followed(to_string(Drive::resonance));
+  if (options.integrator == wear::IntegratorKind::implicit_steps)
+    refuse("--follow", "needs --integrator explicit", followed);
   if (loaded.model.mass.isZero(0.0))
-    refuse("--follow", "needs a model with mass: a quasi-static one has no resonance", options.follow);
+    refuse("--follow", "needs a model with mass: a quasi-static one has no resonance", followed);
 }
 
 /// Where the wear begins; of a band, the frequency at which harmonics and samples are chosen.
 WearStart begin(const WearOptions& options, const LoadedModel& loaded) {
-  return options.follow == "band" ? wear_start_at((*options.band_from_hz + *options.band_to_hz) / 2)
-                                  : wear_start(options, loaded);
+  return options.follow == Drive::band ? wear_start_at((*options.band_from_hz + *options.band_to_hz) / 2)
+                                       : wear_start(options, loaded);
 }
 
 /// What a computation of wear came to.
@@ -121,11 +132,11 @@ struct WearResult {
 };
 
 WearResult computed(const WearOptions& options, const LoadedModel& loaded, WearStart at, const wear::Watcher& watcher) {
-  WearResult result{.question = {.frequency_hz = at.hz, .follow = options.follow, .settings = loaded.joint.options},
+  WearResult result{.question = {.frequency_hz = at.hz, .follow = *options.follow, .settings = loaded.joint.options},
                     .answer = {}};
   WearQuestion& question = result.question;
   WearAnswer& answer = result.answer;
-  if (options.follow == "band") {
+  if (options.follow == Drive::band) {
     result.band = wear_band(options, loaded, watcher);
     answer = result.band->answer;
     if (!result.band->frequencies_hz.empty()) question.frequency_hz = result.band->frequencies_hz[result.band->worst];
@@ -143,7 +154,7 @@ WearResult computed(const WearOptions& options, const LoadedModel& loaded, WearS
 /// A computation that ends before it has a state leaves an answer, too.
 WearResult without_state(const WearOptions& options, const LoadedModel& loaded, Status status, const std::string& why) {
   WearResult result{
-      .question = {.frequency_hz = std::nan(""), .follow = options.follow, .settings = loaded.joint.options},
+      .question = {.frequency_hz = std::nan(""), .follow = *options.follow, .settings = loaded.joint.options},
       .answer = unknown_answer(options, loaded.model.contact.count(), status)};
   result.answer.reason = why;
   return result;

@@ -6,11 +6,14 @@
 #include <string_view>
 #include <vector>
 
+#include "core/enum_names.hpp"
 #include "core/options.hpp"
 #include "studies/program/answers/geometry_export.hpp"
+#include "studies/program/answers/wear_modes.hpp"
 #include "studies/program/commands/option.hpp"
 #include "studies/program/engine/run_engine.hpp"
 #include "studies/program/study_file/study.hpp"
+#include "wear/history/history.hpp"
 
 namespace dovetail::studies {
 
@@ -40,13 +43,16 @@ struct NewOptions {
 };
 int run_new(const NewOptions& options, const Streams& streams);
 
+/// Typed for a number that is chosen by refinement.
+inline constexpr std::string_view kAutomatic = "auto";
+
 /// Settings of the contact computation as typed; empty ones keep the file's or the default.
 struct SolverChoice {
-  std::string harmonics, samples;  ///< "auto": chosen by refinement
+  std::string harmonics, samples;  ///< or kAutomatic
   std::string tolerance, pseudo_penalty, pseudo_penalty_normal, solver;
   std::optional<double> accuracy;  ///< of what is chosen automatically
 
-  [[nodiscard]] bool automatic() const { return harmonics == "auto" || samples == "auto"; }
+  [[nodiscard]] bool automatic() const { return harmonics == kAutomatic || samples == kAutomatic; }
 };
 
 /// A key of [solver] that is an option, too: name and help follow from the table of SolverSettings.
@@ -54,7 +60,7 @@ struct SolverKey {
   std::string_view key;
   std::string SolverChoice::*member;
   std::string_view type;
-  bool automatic = false;  ///< may be "auto"
+  bool automatic = false;  ///< may be kAutomatic
 
   [[nodiscard]] std::string option() const;  ///< "--pseudo-penalty"
 };
@@ -95,11 +101,23 @@ struct ResponseOptions {
 };
 int run_response(const ResponseOptions& options, const Streams& streams);
 
+/// What a backbone is over.
+enum class BackboneOver {
+  force,  ///< factor of its harmonics
+  wear,   ///< largest depth, m
+};
+constexpr EnumNames<BackboneOver, 2> enum_names(BackboneOver) {
+  return {{{BackboneOver::force, "force"}, {BackboneOver::wear, "wear"}}};
+}
+[[nodiscard]] constexpr std::string_view to_string(BackboneOver over) {
+  return name_of(over);
+}
+
 struct BackboneOptions {
   std::string input;             ///< MODEL or STUDY.toml
   std::vector<std::string> set;  ///< KEY=VALUE, as given with --set
   SolverChoice solver;
-  std::string over = "force";  ///< force: factor of its harmonics; wear: largest depth, m
+  BackboneOver over = BackboneOver::force;
   double from = 0, to = 0;
   int points = 1;
   bool logarithmic = false;
@@ -113,8 +131,8 @@ struct WearOptions {
   std::string input;             ///< MODEL.h5 or STUDY.toml
   std::vector<std::string> set;  ///< KEY=VALUE, as given with --set
   SolverChoice solver;
-  std::string method = "asymptote";
-  std::string follow;                  ///< fixed | resonance | band; empty: as the study says, or fixed
+  WearMethod method = WearMethod::asymptote;
+  std::optional<Drive> follow;         ///< absent: as the study says, or fixed
   std::optional<double> frequency_hz;  ///< absent: the unworn resonance
   std::optional<double> band_from_hz, band_to_hz;
   int band_points = 11;
@@ -122,9 +140,9 @@ struct WearOptions {
   std::optional<int> steps;           ///< history
   std::optional<double> increment_m;  ///< history; absent: a hundredth of the depth that release comes to
   std::optional<double> history_tolerance;
-  std::string integrator;     ///< of a history: explicit | implicit; empty: as the wear law asks for
-  std::string resume;         ///< JSON of the history to go on with, or empty
-  std::optional<int> curves;  ///< response curves along a history
+  std::optional<wear::IntegratorKind> integrator;  ///< of a history; absent: as the wear law asks for
+  std::string resume;                              ///< JSON of the history to go on with, or empty
+  std::optional<int> curves;                       ///< response curves along a history
   int curve_points = 60;
   std::optional<double> curve_from_hz, curve_to_hz;
   bool error_bars = false;

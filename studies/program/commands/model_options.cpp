@@ -40,7 +40,7 @@ std::span<const Option<SolverChoice>> command_options<SolverChoice>() {
       rows.push_back({key.option(), key.member, key.type,
                       capitalised(field->help) + (unit.empty() ? "" : "; in " + unit) +
                           (key.automatic ? "; auto: as many as the error bars ask for" : ""),
-                      false, kAnyNumber, field->choices});
+                      false, kAnyNumber, choices_of(*field)});
     }
     rows.push_back(
         {"--accuracy",
@@ -101,14 +101,9 @@ std::span<const Option<BackboneOptions>> command_options<BackboneOptions>() {
   const Meaning positive{not_with, "--over force", "0", "must be > 0 with --over force"};
   static const std::vector<Option<B>> table{
       input_option<B>(),
-      {"--over",
-       &B::over,
-       "WHAT",
+      {"--over", &B::over, "WHAT",
        "force: the parameter multiplies the harmonics of the force, not its static part; wear: it is the largest "
-       "depth, m, of wear in proportion to the rates of the unworn resonance (default: force)",
-       false,
-       kAnyNumber,
-       {"force", "wear"}},
+       "depth, m, of wear in proportion to the rates of the unworn resonance (default: force)"},
       {"--from", &B::from, "X", "First value of the parameter", true, kNonNegative, {}, {positive}},
       {"--to", &B::to, "X", "Last value of the parameter", true, kNonNegative, {}, {positive}},
       {"--points", &B::points, "N", "Number of values", true, {.lower = 1, .upper = 100000}},
@@ -138,7 +133,7 @@ const std::string_view kBand = "--follow band";
 
 std::vector<Option<W>> drive_options() {
   return {
-      {"--method", &W::method, "METHOD", "history or asymptote", true, kAnyNumber, {"history", "asymptote"}},
+      {"--method", &W::method, "METHOD", "history or asymptote", true},
       {"--frequency",
        &W::frequency_hz,
        "HZ",
@@ -154,7 +149,7 @@ std::vector<Option<W>> drive_options() {
        "the worst of several held ones (default: loading.follow of a study, fixed for a model)",
        false,
        kAnyNumber,
-       {"fixed", "resonance", "band"},
+       {},
        {{not_with, "--integrator implicit", "resonance", "needs --integrator explicit"}}},
       {"--band-from",
        &W::band_from_hz,
@@ -204,7 +199,7 @@ std::vector<Option<W>> history_options() {
        "under an energy threshold implicit)",
        false,
        kAnyNumber,
-       {"explicit", "implicit"},
+       {},
        {{only_with, kHistory, "implicit"}}},
       {"--history-tolerance",
        &W::history_tolerance,

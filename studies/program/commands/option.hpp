@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -30,13 +31,13 @@ template <class S>
 struct Option {
   std::string name;  ///< "--from"; "-o,--output"; "INPUT": a word without a name
   std::variant<bool S::*, int S::*, double S::*, std::string S::*, std::optional<int> S::*, std::optional<double> S::*,
-               std::vector<int> S::*, std::vector<std::string> S::*>
+               std::vector<int> S::*, std::vector<std::string> S::*, EnumMember<S>>
       member;
   std::string_view type = {};  ///< of its value, as the help shows it
   std::string help = {};
   bool required = false;
   Range range = kAnyNumber;                    ///< numbers only
-  std::vector<std::string_view> choices = {};  ///< texts only; empty: anything
+  std::vector<std::string_view> choices = {};  ///< texts only; empty: anything. Of an enumeration: its names
   std::vector<Meaning> meaning = {};
 };
 
@@ -65,12 +66,14 @@ void check_meaning(const std::string& name, std::span<const Meaning> meaning, co
 template <class S>
 [[nodiscard]] std::optional<double> number_of(const S& options, const Option<S>& option) {
   return std::visit(
-      [&](auto member) -> std::optional<double> {
-        const auto& value = options.*member;
-        using T = std::decay_t<decltype(value)>;
-        if constexpr (std::is_same_v<T, int> || std::is_same_v<T, double>) return static_cast<double>(value);
-        if constexpr (requires { value.has_value(); })
-          if (value) return static_cast<double>(*value);
+      [&](const auto& member) -> std::optional<double> {
+        if constexpr (requires { options.*member; }) {
+          const auto& value = options.*member;
+          using T = std::decay_t<decltype(value)>;
+          if constexpr (std::is_same_v<T, int> || std::is_same_v<T, double>) return static_cast<double>(value);
+          if constexpr (requires { value.has_value(); })
+            if (value) return static_cast<double>(*value);
+        }
         return std::nullopt;
       },
       option.member);
@@ -79,8 +82,9 @@ template <class S>
 template <class S>
 [[nodiscard]] std::optional<std::string> text_of(const S& options, const Option<S>& option) {
   if (const std::optional<double> number = number_of(options, option)) return shortest(*number);
-  if (const auto* text = std::get_if<std::string S::*>(&option.member))
-    return (options.*(*text)).empty() ? std::nullopt : std::optional(options.*(*text));
+  const auto given = [](std::string text) { return text.empty() ? std::nullopt : std::optional(std::move(text)); };
+  if (const auto* text = std::get_if<std::string S::*>(&option.member)) return given(options.*(*text));
+  if (const auto* words = std::get_if<EnumMember<S>>(&option.member)) return given(std::string(words->name(options)));
   if (const auto* flag = std::get_if<bool S::*>(&option.member))
     return options.*(*flag) ? std::optional<std::string>("") : std::nullopt;
   return std::nullopt;

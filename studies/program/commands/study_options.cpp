@@ -91,11 +91,9 @@ template <>
 std::span<const Option<ExportOptions>> command_options<ExportOptions>() {
   using E = ExportOptions;
   static const std::vector<Option<E>> table = [] {
-    std::string formats;
-    for (const std::string_view format : export_formats()) formats += std::string(format) + ", ";
     return std::vector<Option<E>>{
         {"INPUT", &E::input, {}, "Directory of a run, a study file, or a reduced model", true},
-        {"--format", &E::format, "NAME", "One of " + formats + std::string(kMatrixMarket), true},
+        {"--format", &E::format, "NAME", "One of " + export_formats(", ") + ", " + std::string(kMatrixMarket), true},
         output_option<E>(&E::file, "FILE", "The file to write"),
         set_option<E>()};
   }();

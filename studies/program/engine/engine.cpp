@@ -80,7 +80,7 @@ std::vector<Override> overrides(const std::vector<std::string>& set, const Solve
     }
   for (const SolverKey& key : solver_keys()) {
     std::string text = solver.*key.member;
-    if (text.empty() || (key.automatic && text == "auto")) continue;
+    if (text.empty() || (key.automatic && text == kAutomatic)) continue;
     const std::string origin = key.option() + " " + one_line(text);
     // What is a number but not as TOML writes it: 1., .5, 1E-9
     char* end = nullptr;
@@ -108,7 +108,7 @@ namespace {
 LoadedModel from_study(const std::string& file, const std::vector<Override>& given) {
   const Study study = load_study(file, given);
   optimizer::CandidateModel candidate = scene_evaluator(study)->builder().build(study.scene);
-  if (candidate.status == "infeasible") throw infeasible(file, candidate.messages);
+  if (candidate.infeasible()) throw infeasible(file, candidate.messages);
   LoadedModel loaded;
   loaded.joint.options = optimizer::steady_options(study.scene.solver);
   loaded.follow = study.scene.loading.follow;
@@ -161,7 +161,7 @@ void fit_to_force(const std::string& file, const SolverChoice& solver, const red
   const auto wrong = [&](const std::string& key, int value, const std::string& allowed) {
     refuse(key, allowed, std::to_string(value), file);
   };
-  const auto left_open = [](const std::string& text) { return text.empty() || text == "auto"; };
+  const auto left_open = [](const std::string& text) { return text.empty() || text == kAutomatic; };
   if (left_open(solver.harmonics)) steady.harmonics = std::max(steady.harmonics, forced);
   if (steady.harmonics < forced)
     wrong("--harmonics", steady.harmonics, "must be >= " + std::to_string(forced) + ", the largest of the force");

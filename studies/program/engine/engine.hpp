@@ -36,8 +36,8 @@ struct LoadedModel {
   steady::Joint joint;                ///< of that model, unworn
   std::vector<wear::NodeLine> lines;  ///< of its contact nodes: a study's strips of cells
   double glued_omega = 0;             ///< rad/s, of the followed mode (a file: the lowest); 0 when the model has none
-  std::string follow = "fixed";       ///< the study's choice of what drives the wear
-  std::string failure;                ///< not empty: the candidate's model did not converge, and why
+  wear::Follow follow = wear::Follow::fixed;  ///< the study's choice of what drives the wear
+  std::string failure;                        ///< not empty: the candidate's model did not converge, and why
 };
 
 /// Whether the file is HDF5 rather than a text: by its first bytes, or its ending when it cannot be read.

@@ -117,16 +117,17 @@ std::string checksum(const reduction::ReducedModel& model) {
 
 std::vector<IdentityEntry> history_identity(const WearOptions& options, const LoadedModel& loaded, double hz) {
   const steady::Options& steady = loaded.joint.options;
+  const auto word = [](auto mode) { return std::string(to_string(mode)); };
   return {{"model", checksum(loaded.model)},
-          {"integrator", options.integrator},
-          {"follow", options.follow == "resonance" ? "resonance" : "fixed"},
+          {"integrator", word(options.integrator.value_or(wear::IntegratorKind::explicit_jumps))},
+          {"follow", word(follow_of(options.follow.value_or(Drive::fixed)))},
           {"frequency_hz", hz},
           {"harmonics", static_cast<double>(steady.harmonics)},
           {"samples", static_cast<double>(steady.samples)},
           {"pseudo_penalty_normal_n_per_m", steady.normal_penalty},
           {"pseudo_penalty_tangential_n_per_m", steady.tangential_penalty},
           {"penalty_scale", steady.penalty_scale},
-          {"slip_return", steady.slip_return}};
+          {"slip_return", word(steady.slip_return)}};
 }
 
 StoredHistory read_history(const std::string& file, Eigen::Index nodes) {
@@ -135,7 +136,7 @@ StoredHistory read_history(const std::string& file, Eigen::Index nodes) {
   const Json json = Json::parse(stream, nullptr, false);
   StoredHistory stored;
   try {
-    if (!json.is_object() || json.value("method", "") != "history")
+    if (!json.is_object() || named<WearMethod>(json.value("method", "")) != WearMethod::history)
       cannot_resume(file, "is no answer of dovetail wear --method history --json");
     const Json& choice = json.at("history");
     for (const auto& [key, value] : choice.at("identity").items()) {

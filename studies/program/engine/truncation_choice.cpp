@@ -19,8 +19,8 @@ std::optional<Status> choose_truncation(LoadedModel& loaded, const std::vector<d
   std::vector<double> omega;
   for (const double f : hz) omega.push_back(2 * std::numbers::pi * f);
   quality::AutomaticOptions options;
-  options.harmonics = solver.harmonics == "auto";
-  options.samples = solver.samples == "auto";
+  options.harmonics = solver.harmonics == kAutomatic;
+  options.samples = solver.samples == kAutomatic;
   options.amplitude_tolerance = accuracy(solver);
   options.energy_tolerance = 10 * accuracy(solver);
   const quality::AutomaticSettings chosen = quality::automatic_settings(loaded.joint, omega, options);

@@ -56,8 +56,8 @@ ComputedHistory compute_history(const WearOptions& options, const LoadedModel& l
   ComputedHistory result;
   HistoryChoice& choice = result.choice;
   wear::HistoryOptions& settings = choice.options;
-  if (options.integrator == "implicit") settings = wear::HistoryOptions::implicit();
-  settings.follow = options.follow == "resonance" ? "resonance" : "fixed";
+  if (options.integrator == wear::IntegratorKind::implicit_steps) settings = wear::HistoryOptions::implicit();
+  settings.follow = follow_of(options.follow.value_or(Drive::fixed));
   settings.cycles = options.cycles.value_or(settings.cycles);
   settings.steps = options.steps.value_or(kSteps);
   settings.tolerance = options.history_tolerance.value_or(settings.tolerance);
@@ -88,7 +88,7 @@ ComputedHistory compute_history(const WearOptions& options, const LoadedModel& l
     if (!increment && past->increment > 0) increment = past->increment;
   }
   int solves = 0;
-  if (options.integrator == "explicit" && !increment) {
+  if (options.integrator == wear::IntegratorKind::explicit_jumps && !increment) {
     const steady::State* initial =
         at.resonance && joint.condition.wear_depth.size() == 0 && joint.condition.slip_origin.size() == 0
             ? &at.resonance->state

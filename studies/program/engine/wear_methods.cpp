@@ -16,7 +16,7 @@ constexpr const char* kCyclesReached = "the cycles asked for were reached while 
 WearAnswer by_history(const WearOptions& options, const LoadedModel& loaded, const WearStart& at,
                       const wear::Watcher& watcher) {
   ComputedHistory computed = compute_history(options, loaded, at, watcher);
-  const bool held = computed.choice.options.follow == "fixed";
+  const bool held = computed.choice.options.follow == wear::Follow::fixed;
   WearAnswer answer;
   answer.history = std::move(computed.history);
   answer.choice = std::move(computed.choice);
@@ -39,7 +39,7 @@ WearAnswer by_asymptote(const WearOptions& options, const LoadedModel& loaded, c
   const bool unchanged = condition.slip_origin.size() == 0 && condition.wear_depth.size() == 0;
   const steady::State* initial = at.resonance && unchanged ? &at.resonance->state : nullptr;
   wear::RestOptions settings;
-  settings.follow = options.follow == "resonance";
+  settings.follow = options.follow == Drive::resonance;
   settings.lines = loaded.lines;
   wear::Rest found = wear::comes_to_rest(loaded.joint, at.omega, settings, initial, watcher);
   WearAnswer answer;
@@ -80,12 +80,12 @@ WearAnswer unknown_answer(const WearOptions& options, Eigen::Index nodes, Status
   WearAnswer answer;
   answer.solver = why;
   answer.depth = unknown;
-  if (options.method == "history") {
+  if (options.method == WearMethod::history) {
     wear::History& history = answer.history.emplace();
     history.status = why;
     history.end = why == Status::interrupted ? wear::HistoryEnd::interrupted : wear::HistoryEnd::failed;
     history.final_depth = unknown;
-    answer.choice.options.integrator = options.integrator;
+    if (options.integrator) answer.choice.options.integrator = *options.integrator;
   } else {
     wear::Asymptote& asymptote = answer.asymptote.emplace();
     asymptote.status = why;
@@ -97,8 +97,8 @@ WearAnswer unknown_answer(const WearOptions& options, Eigen::Index nodes, Status
 
 WearAnswer wear_answer(const WearOptions& options, const LoadedModel& loaded, const WearStart& at,
                        const wear::Watcher& watcher) {
-  return options.method == "history" ? by_history(options, loaded, at, watcher)
-                                     : by_asymptote(options, loaded, at, watcher);
+  return options.method == WearMethod::history ? by_history(options, loaded, at, watcher)
+                                               : by_asymptote(options, loaded, at, watcher);
 }
 
 WearBand wear_band(const WearOptions& options, const LoadedModel& loaded, const wear::Watcher& watcher) {

@@ -49,7 +49,7 @@ WearBars worn_bars(const WearOptions& options, const LoadedModel& loaded, const 
     if (watcher.stopped()) return WornState{};
     LoadedModel again = loaded;
     again.joint.options = std::move(settings);
-    const WearStart from = options.follow == "band" ? at : wear_start(options, again);
+    const WearStart from = options.follow == Drive::band ? at : wear_start(options, again);
     return from.found() ? worn_state(wear_answer(options, again, from, watcher)) : WornState{};
   };
   const auto scaled = [&](double ratio) {

@@ -1,19 +1,37 @@
 #pragma once
 
-#include <span>
+#include <string>
 #include <string_view>
+
+#include "core/enum_names.hpp"
 
 namespace dovetail::studies {
 
-/// Formats of the section [export] and of the command export: drawings of the section (dxf, svg), the surface in space
-/// (stl), fields on the mesh (vtu) and the finite elements themselves (inp).
-[[nodiscard]] std::span<const std::string_view> export_formats();
-[[nodiscard]] bool is_export_format(std::string_view format);
-/// Whether that format holds computed fields.
-[[nodiscard]] bool is_field_format(std::string_view format);
-/// Whether that format is an input deck of another finite-element program.
-[[nodiscard]] bool is_deck_format(std::string_view format);
-/// Whether a section has nothing to write in that format.
-[[nodiscard]] bool needs_space(std::string_view format);
+/// Formats of the section [export] and of the command export.
+enum class ExportFormat {
+  dxf,  ///< drawing of the section
+  svg,  ///< drawing of the section
+  stl,  ///< surfaces in space: a section has nothing to write
+  vtu,  ///< computed fields on the mesh
+  inp,  ///< the finite elements themselves, an input deck of another program
+};
+constexpr EnumNames<ExportFormat, 5> enum_names(ExportFormat) {
+  return {{{ExportFormat::dxf, "dxf"},
+           {ExportFormat::svg, "svg"},
+           {ExportFormat::stl, "stl"},
+           {ExportFormat::vtu, "vtu"},
+           {ExportFormat::inp, "inp"}}};
+}
+[[nodiscard]] constexpr std::string_view to_string(ExportFormat format) {
+  return name_of(format);
+}
+
+/// All of them with `between` from one to the next.
+[[nodiscard]] inline std::string export_formats(std::string_view between) {
+  std::string text;
+  for (const std::string_view format : names_of<ExportFormat>())
+    text.append(text.empty() ? "" : between).append(format);
+  return text;
+}
 
 }  // namespace dovetail::studies

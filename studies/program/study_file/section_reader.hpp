@@ -73,8 +73,8 @@ void SectionReader::fields(S& object, std::span<const Field<S>> table, bool need
       if (const auto value = whole(key, field.range, required)) object.*(*count) = *value;
     } else if (const auto* flag = std::get_if<bool S::*>(&field.member)) {
       if (const auto value = truth(key, required)) object.*(*flag) = *value;
-    } else if (const auto* word = std::get_if<std::string S::*>(&field.member)) {
-      if (const auto value = text(key, field.choices, required)) object.*(*word) = *value;
+    } else if (const auto value = text(key, choices_of(field), required)) {
+      set_text(object, field, *value);
     }
   }
 }

@@ -87,18 +87,19 @@ class SceneReader {
 
 void read_exports(SectionReader& root, Study& study, Problems& problems) {
   SectionReader section(root.take("export"), "export", problems);
-  std::string allowed = "must be one of";
-  for (const std::string_view format : export_formats()) (allowed += ' ') += format;
+  const std::string allowed = "must be one of " + export_formats(" ");
   if (const Node* formats = section.take("formats")) {
     if (formats->kind != Node::Kind::list)
       problems.add(*formats, "export.formats", "must be a list of formats, as in [\"dxf\"]; each " + allowed);
     for (const Node& item : formats->items) {
-      if (item.kind != Node::Kind::text || !is_export_format(item.text))
+      const std::optional<ExportFormat> format =
+          item.kind == Node::Kind::text ? named<ExportFormat>(item.text) : std::nullopt;
+      if (!format)
         problems.add(item, "export.formats", allowed);
-      else if (needs_space(item.text) && !study.scene.kind->in_space)
+      else if (format == ExportFormat::stl && !study.scene.kind->in_space)
         problems.add(item, "export.formats", "is a surface in space: scene.type must be \"sector\"");
-      else if (std::find(study.exports.begin(), study.exports.end(), item.text) == study.exports.end())
-        study.exports.push_back(item.text);
+      else if (std::ranges::find(study.exports, *format) == study.exports.end())
+        study.exports.push_back(*format);
     }
   }
   section.finish();
@@ -158,8 +159,8 @@ Study load_study(const std::string& file, std::span<const Override> overrides) {
 }
 
 std::string physics_text(const optimizer::Scene& scene) {
-  std::string text =
-      "scene.type = " + std::string(scene.kind->name) + "\nsolver.solver = " + scene.solver.solver + "\n";
+  std::string text = "scene.type = " + std::string(scene.kind->name) +
+                     "\nsolver.solver = " + std::string(to_string(scene.solver.solver)) + "\n";
   for (const auto& [key, value] : optimizer::parameters(scene)) text += key + " = " + shortest(value) + "\n";
   return text;
 }

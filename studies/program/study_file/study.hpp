@@ -8,6 +8,7 @@
 #include "optimizer/problem/problem.hpp"
 #include "optimizer/scene/scene.hpp"
 #include "studies/program/study_file/document.hpp"
+#include "studies/program/study_file/export.hpp"
 
 namespace dovetail::studies {
 
@@ -20,7 +21,7 @@ struct Study {
   optimizer::Scene scene;
   optimizer::Problem problem;  ///< variables in the file's units; may be without variables and objective
   optimizer::OptimizerOptions optimizer;
-  std::vector<std::string> exports;  ///< formats of the geometry a run writes
+  std::vector<ExportFormat> exports;  ///< formats of the geometry a run writes
 };
 
 /// Interprets a document. Throws InputError with everything that is wrong, in the order of the file: unknown keys and

@@ -15,7 +15,7 @@ using optimizer::Scene;
 
 template <class S>
 std::string value_text(const S& object, const Field<S>& field) {
-  if (const auto* text = std::get_if<std::string S::*>(&field.member)) return '"' + object.*(*text) + '"';
+  if (const std::optional<std::string> text = text_in(object, field)) return '"' + *text + '"';
   if (const auto* truth = std::get_if<bool S::*>(&field.member)) return object.*(*truth) ? "true" : "false";
   if (const auto* whole = std::get_if<int S::*>(&field.member)) return std::to_string(object.*(*whole));
   return shortest(value_in_file_unit(object, field));
@@ -35,9 +35,8 @@ template <class S>
 std::string allowed(const Field<S>& field) {
   std::vector<std::string> parts;
   if (const std::string unit = unit_of_key(field.key); !unit.empty()) parts.push_back(unit);
-  if (!field.choices.empty()) parts.push_back(joined(field.choices));
-  const bool number =
-      !std::holds_alternative<std::string S::*>(field.member) && !std::holds_alternative<bool S::*>(field.member);
+  if (!choices_of(field).empty()) parts.push_back(joined(choices_of(field)));
+  const bool number = !is_text(field) && !std::holds_alternative<bool S::*>(field.member);
   if (number && (std::isfinite(field.range.lower) || std::isfinite(field.range.upper)))
     parts.push_back(field.range.phrase().substr(std::string("must be ").size()));
   if (field.required) parts.push_back("required");
@@ -177,9 +176,7 @@ std::string study_template(const std::string& title) {
   text += scene_sections() + problem_sections();
   text += header("optimizer", "How the optimiser searches.");
   text += lines(optimizer::OptimizerOptions{}, option_table<optimizer::OptimizerOptions>());
-  std::string formats;
-  for (const std::string_view format : export_formats()) formats += (formats.empty() ? "" : ", ") + std::string(format);
-  text += header("export", "Files of the best design a run writes besides its results: " + formats + ".");
+  text += header("export", "Files of the best design a run writes besides its results: " + export_formats(", ") + ".");
   text += "formats = [\"dxf\"]\n";
   return text;
 }

@@ -13,6 +13,7 @@
 #include "studies/report/plots/report_plots.hpp"
 #include "studies/report/plots/section_drawing.hpp"
 #include "studies/report/texts.hpp"
+#include "wear/follow.hpp"
 
 namespace dovetail::report {
 
@@ -65,7 +66,7 @@ void add_designs(const Comparison& designs, Blanks& blanks) {
   blanks["notes"] = notes(designs);
   if (!design.history || design.history->cycles.empty()) return;
   blanks["history"] = figures_html(history_plots(design));
-  if (design.history->status != "converged") blanks["history_end"] = design.history->status;
+  if (!optimizer::converged(design.history->status)) blanks["history_end"] = design.history->status;
 }
 
 void add_verification(const RunRecord& record, Blanks& blanks) {
@@ -76,10 +77,10 @@ void add_verification(const RunRecord& record, Blanks& blanks) {
   if (first.harmonics > 0)
     blanks["finer"] = fmt::format(" ({} edges per flank, {} harmonics, {} samples)", first.flank_elements,
                                   first.harmonics, first.samples);
-  blanks["follows"] = when(first.follow == "resonance");
+  blanks["follows"] = when(named<wear::Follow>(first.follow) == wear::Follow::resonance);
   std::vector<Figure> plots;
   for (const VerificationRecord& v : record.verifications)  // of a design that does not wear there is no profile
-    if (v.status != "converged" || std::max({v.search_depth_m, v.direct_depth_m, v.history_depth_m}) > 0)
+    if (!optimizer::converged(v.status) || std::max({v.search_depth_m, v.direct_depth_m, v.history_depth_m}) > 0)
       plots.emplace_back(verification_plot(v));
   blanks["verification"] = verification_table(record) + figures_html(plots);
 }

@@ -178,7 +178,7 @@ std::string evaluation_table(const RunRecord& record) {
     table.columns.push_back({PlotAxis{.label = key_words(v.key), .unit = key_unit(v.key)}.title()});
   for (std::size_t i = 0; i < record.evaluations.size(); ++i) {
     const EvaluationRecord& e = record.evaluations[i];
-    const std::string status = e.status != "converged" ? e.status : e.feasible ? "feasible" : "breaks a limit";
+    const std::string status = !optimizer::converged(e.status) ? e.status : e.feasible ? "feasible" : "breaks a limit";
     Row row{.cells = {std::to_string(i + 1), e.phase, titled(status, fmt::format("{}", fmt::join(e.messages, " "))),
                       significant(objective.factor * e.objective, 4)},
             .style = record.best == i ? "aim"

@@ -140,12 +140,13 @@ std::string refutation(const RunRecord& record) {
   const EvaluationRecord* best = best_of(record);
   if (best != nullptr && !best->feasible)
     text += "Looked at with its wear history the best design does not keep every limit. ";
-  if (record.best_design && record.best_design->status != "converged")
+  if (record.best_design && !optimizer::converged(record.best_design->status))
     text += "Looked at with bars and its wear history the best design ends with \u201c" + record.best_design->status +
             "\u201d. ";
   for (const VerificationRecord& v : record.verifications) {
-    if (!record.best || v.evaluation != static_cast<std::int64_t>(*record.best) || v.status == "converged") continue;
-    text += v.status.starts_with("disagrees")
+    if (!record.best || v.evaluation != static_cast<std::int64_t>(*record.best) || optimizer::converged(v.status))
+      continue;
+    text += optimizer::outcome_of(v.status) == optimizer::Outcome::disagrees
                 ? "The verification does not confirm the best design: it " + v.status + ". "
                 : "The best design could not be verified (" + v.status + "). ";
   }
@@ -216,13 +217,15 @@ std::string ending(const RunRecord& record) {
   std::size_t feasible = 0, failed = 0;
   for (const EvaluationRecord& e : record.evaluations) {
     feasible += e.feasible ? 1 : 0;
-    failed += e.status != "converged" && e.status != "infeasible" ? 1 : 0;
+    const optimizer::Outcome outcome = optimizer::outcome_of(e.status);
+    failed += outcome != optimizer::Outcome::converged && outcome != optimizer::Outcome::infeasible ? 1 : 0;
   }
   const std::size_t all = record.evaluations.size();
+  const std::optional<Status> status = named<Status>(record.status);
   const std::string how =
-      record.status == "interrupted" ? "The run was interrupted; what follows is the state until then."
-      : record.status == "converged" ? "The search converged."
-      : record.status == "iteration_limit"
+      status == Status::interrupted ? "The run was interrupted; what follows is the state until then."
+      : status == Status::converged ? "The search converged."
+      : status == Status::iteration_limit
           ? "The search used up the evaluations it was allowed; more may find better designs."
           : "The search stopped early: " + (record.message.empty() ? record.status : record.message) +
                 (record.message.ends_with(".") ? "" : ".");

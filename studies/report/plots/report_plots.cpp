@@ -211,7 +211,7 @@ Plot nodal_diameter_plot(const DesignRecord& design) {
   for (std::size_t mode = 0; mode < modes; ++mode) {
     Series series{.mark = Mark::dot};
     for (std::size_t d = 0; d < record.nodal_diameter.size(); ++d)
-      series.add(static_cast<double>(record.nodal_diameter[d]), record.status[d] == "converged"
+      series.add(static_cast<double>(record.nodal_diameter[d]), optimizer::converged(record.status[d])
                                                                     ? record.frequency_hz[d * modes + mode]
                                                                     : std::numeric_limits<double>::quiet_NaN());
     plot.series.push_back(std::move(series));

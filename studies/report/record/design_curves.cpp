@@ -101,7 +101,7 @@ void add_curves(const Scene& scene, const CandidateResult& result, const DesignR
                                    {.wear_depth = result.asymptote->depth, .released = {}, .slip_origin = {}});
   for (const auto& [name, curve] : {std::pair{"new", &record.unworn}, std::pair{"worn", &record.worn}}) {
     const auto failed = std::count_if(curve->status.begin(), curve->status.end(),
-                                      [](const std::string& s) { return s != "converged"; });
+                                      [](const std::string& s) { return !optimizer::converged(s); });
     if (failed > 0)
       record.notes.push_back(
           fmt::format("{} of {} points of the response curve of the {} joint did not converge and are left out.",

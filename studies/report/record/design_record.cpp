@@ -189,7 +189,7 @@ DesignRecord make_design_record(const Scene& scene, const CandidateResult& resul
 VerificationRecord make_verification_record(const optimizer::Verification& v, const CandidateModel& model) {
   VerificationRecord record;
   record.status = v.status;
-  record.follow = v.follow;
+  record.follow = to_string(v.follow);
   record.flank_elements = v.flank_elements;
   record.harmonics = v.harmonics;
   record.samples = v.samples;

@@ -51,8 +51,8 @@ std::map<std::string, std::string> texts(const optimizer::OptimizerOptions& opti
   std::map<std::string, std::string> result;
   for (const Field<optimizer::OptimizerOptions>& field : option_table<optimizer::OptimizerOptions>()) {
     const std::string key(field.key);
-    if (const auto* text = std::get_if<std::string optimizer::OptimizerOptions::*>(&field.member))
-      result[key] = options.*(*text);
+    if (const std::optional<std::string> text = text_in(options, field))
+      result[key] = *text;
     else if (const auto* truth = std::get_if<bool optimizer::OptimizerOptions::*>(&field.member))
       result[key] = options.*(*truth) ? "true" : "false";
     else
@@ -97,7 +97,7 @@ RunRecord record_run(const optimizer::Problem& problem, const optimizer::Optimiz
 }
 
 std::string VerificationRecord::agreement() const {
-  if (status != "converged") return status;
+  if (!optimizer::converged(status)) return status;
   return search_bar_m3 < search_volume_m3 || search_volume_m3 == 0 ? "agree within their bars"
                                                                    : "cannot tell: the bar is larger than the value";
 }

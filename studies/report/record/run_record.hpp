@@ -118,7 +118,10 @@ struct VerificationRecord {
   Numbers search_profile_m, direct_profile_m, history_profile_m;  ///< [Nc] or empty
 
   /// Whether the history came to an end, so that its numbers say something.
-  [[nodiscard]] bool compared() const { return status == "converged" || status.starts_with("disagrees"); }
+  [[nodiscard]] bool compared() const {
+    const optimizer::Outcome outcome = optimizer::outcome_of(status);
+    return outcome == optimizer::Outcome::converged || outcome == optimizer::Outcome::disagrees;
+  }
   /// The status in words. Within a bar as large as the value anything lies.
   [[nodiscard]] std::string agreement() const;
 };

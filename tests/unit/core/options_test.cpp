@@ -4,23 +4,38 @@
 
 #include <array>
 #include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace {
+
+enum class Shape { round, flat };
+constexpr dovetail::EnumNames<Shape, 2> enum_names(Shape) {
+  return {{{Shape::round, "round"}, {Shape::flat, "flat_ended"}}};
+}
+static_assert(dovetail::name_of(Shape::flat) == "flat_ended");
+static_assert(dovetail::named<Shape>("round") == Shape::round);
+static_assert(!dovetail::named<Shape>("flat"));
 
 struct Sample {
   double length = 0.002;
   int count = 3;
   std::string law = "soft";
+  Shape shape = Shape::round;
+  std::optional<Shape> other = {};
 };
 
 }  // namespace
 
 template <>
 std::span<const dovetail::Field<Sample>> dovetail::option_table<Sample>() {
-  static const std::array<Field<Sample>, 3> table{
+  static const std::array<Field<Sample>, 5> table{
       Field<Sample>{.key = "length_mm", .member = &Sample::length, .si_per_unit = 1e-3, .range = kPositive},
       Field<Sample>{.key = "count", .member = &Sample::count, .range = {.lower = 1, .upper = 9}},
-      Field<Sample>{.key = "law", .member = &Sample::law, .choices = {"soft", "hard"}}};
+      Field<Sample>{.key = "law", .member = &Sample::law, .choices = {"soft", "hard"}},
+      Field<Sample>{.key = "shape", .member = &Sample::shape}, Field<Sample>{.key = "other", .member = &Sample::other}};
   return table;
 }
 
@@ -37,6 +52,33 @@ TEST(Options, EveryViolationIsReportedAtOnceInFileUnits) {
   EXPECT_EQ(found[0].sentence(), "sample.length_mm = -2: must be > 0");
   EXPECT_EQ(found[1].sentence(), "sample.count = 0: must be >= 1 and <= 9");
   EXPECT_EQ(found[2].sentence(), "sample.law = wrong: must be one of soft hard");
+}
+
+TEST(Options, AnEnumerationIsReadAndWrittenByItsNames) {
+  const Field<Sample>& shape = option_table<Sample>()[3];
+  Sample sample;
+  EXPECT_TRUE(is_text(shape));
+  EXPECT_EQ(choices_of(shape), (std::vector<std::string_view>{"round", "flat_ended"}));
+  EXPECT_EQ(text_in(sample, shape), "round");
+  set_text(sample, shape, "flat_ended");
+  EXPECT_EQ(sample.shape, Shape::flat);
+  EXPECT_TRUE(std::isnan(value_in_file_unit(sample, shape)));
+}
+
+TEST(Options, AnOptionalEnumerationMayBeLeftOpen) {
+  const Field<Sample>& other = option_table<Sample>()[4];
+  Sample sample;
+  EXPECT_EQ(text_in(sample, other), "");
+  EXPECT_TRUE(violations(sample).empty());
+  set_text(sample, other, "flat_ended");
+  EXPECT_EQ(sample.other, Shape::flat);
+  EXPECT_EQ(text_in(sample, other), "flat_ended");
+}
+
+TEST(Options, ANumberThatIsNoValueOfTheEnumerationIsRefused) {
+  const std::vector<Violation> found = violations(Sample{.shape = static_cast<Shape>(7)}, "sample");
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].sentence(), "sample.shape = unknown: must be one of round flat_ended");
 }
 
 TEST(Options, NotANumberIsNeverInRange) {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <span>
 #include <string>
-#include <utility>
+#include <vector>
 
 #include "optimizer/search/run.hpp"
 
@@ -29,7 +29,7 @@ inline Evaluation bowl(std::span<const double> x) {
 /// A candidate that breaks a rule by `violation`: no physics.
 inline Evaluation broken(double violation) {
   Evaluation e;
-  e.status = "infeasible";
+  e.status = status_of(Outcome::infeasible);
   e.feasible = false;
   e.constraints["rule:wall"] = violation;
   return e;
@@ -37,15 +37,21 @@ inline Evaluation broken(double violation) {
 
 inline Evaluation failed() {
   Evaluation e;
-  e.status = "steady_state: iteration_limit";
+  e.status = failed_at("steady_state", Status::iteration_limit);
   return e;
 }
 
-inline OptimizerOptions bowl_options(std::string algorithm) {
+inline std::vector<Algorithm> all_algorithms() {
+  std::vector<Algorithm> all;
+  for (const auto& entry : enum_names(Algorithm{})) all.push_back(entry.value);
+  return all;
+}
+
+inline OptimizerOptions bowl_options(Algorithm algorithm) {
   OptimizerOptions options;
   options.max_evaluations = 120;
-  options.scan_evaluations = algorithm == "scan" ? 0 : 6;  // a scan alone takes the whole budget
-  options.algorithm = std::move(algorithm);
+  options.scan_evaluations = algorithm == Algorithm::scan ? 0 : 6;  // a scan alone takes the whole budget
+  options.algorithm = algorithm;
   return options;
 }
 

@@ -14,7 +14,7 @@
 namespace dovetail::optimizer {
 namespace {
 
-class Failures : public ::testing::TestWithParam<std::string> {};
+class Failures : public ::testing::TestWithParam<Algorithm> {};
 
 // Without obstacles the bowl's bottom is 1, at (1, 4); global methods with 120 evaluations come within 0.3.
 constexpr double kNear = 1.3;
@@ -96,10 +96,8 @@ TEST_P(Failures, StopsWhenAskedAndKeepsWhatIsFinished) {
   EXPECT_TRUE(result.best);
 }
 
-INSTANTIATE_TEST_SUITE_P(Optimizer, Failures,
-                         ::testing::Values("cobyla", "bobyqa", "neldermead", "sbplx", "isres", "direct_l", "crs2",
-                                           "mma", "slsqp", "ipopt", "scan"),
-                         [](const auto& parameter) { return parameter.param; });
+INSTANTIATE_TEST_SUITE_P(Optimizer, Failures, ::testing::ValuesIn(all_algorithms()),
+                         [](const auto& parameter) { return std::string(to_string(parameter.param)); });
 
 TEST(RunErrors, RefusesAResponseThatIsNotThere) {
   Problem problem = bowl_problem();
@@ -108,7 +106,7 @@ TEST(RunErrors, RefusesAResponseThatIsNotThere) {
 }
 
 TEST(RunErrors, PassesOnWhatTheProgressCallbackThrows) {
-  for (const std::string algorithm : {"cobyla", "ipopt"}) {
+  for (const Algorithm algorithm : {Algorithm::cobyla, Algorithm::ipopt}) {
     const RunHooks hooks{.journal = nullptr,
                          .progress =
                              [](const Progress& progress) {

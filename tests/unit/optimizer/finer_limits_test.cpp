@@ -16,7 +16,7 @@ Problem low_bowl() {
 }
 
 OptimizerOptions options() {
-  OptimizerOptions result = bowl_options("cobyla");
+  OptimizerOptions result = bowl_options(Algorithm::cobyla);
   result.max_evaluations = 60;
   return result;
 }

@@ -11,7 +11,7 @@ TEST(OptimizerOptions, DefaultsAreAllowed) {
 
 TEST(OptimizerOptions, ReportsEveryValueOutsideItsRange) {
   OptimizerOptions options;
-  options.algorithm = "gradient_descent";
+  options.algorithm = static_cast<Algorithm>(-1);
   options.max_evaluations = 0;
   options.noise = -1;
   const std::vector<Violation> found = violations(options, "optimizer");
@@ -29,7 +29,7 @@ TEST(OptimizerOptions, DifferenceStepGrowsWithNoise) {
   options.noise = 0.5;
   EXPECT_DOUBLE_EQ(difference_step(options), 0.1);
   options.noise = 9e-6;
-  options.difference = "central";
+  options.difference = Difference::central;
   EXPECT_DOUBLE_EQ(difference_step(options), 0.03);
 }
 

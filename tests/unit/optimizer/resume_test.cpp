@@ -36,7 +36,7 @@ void expect_same_run(const OptimizationResult& a, const OptimizationResult& b) {
 
 class Resume : public ScratchFile {};
 
-class ResumeOf : public ScratchFile, public ::testing::WithParamInterface<std::string> {};
+class ResumeOf : public ScratchFile, public ::testing::WithParamInterface<Algorithm> {};
 
 TEST_P(ResumeOf, GivesTheSameBitsWhereverTheRunWasKilled) {
   const Problem problem = bowl_problem();
@@ -56,7 +56,7 @@ TEST_P(ResumeOf, GivesTheSameBitsWhereverTheRunWasKilled) {
     if (at > 0) cuts.push_back(at);                       // only the newline is missing
   }
   // Everywhere for one algorithm; the others show by every seventh place that they repeat themselves.
-  const std::size_t stride = GetParam() == "cobyla" ? 1 : 7;
+  const std::size_t stride = GetParam() == Algorithm::cobyla ? 1 : 7;
   for (std::size_t place = 0; place < cuts.size(); place += stride) {
     const std::size_t cut = cuts[place];
     overwrite(whole.substr(0, cut));
@@ -70,14 +70,12 @@ TEST_P(ResumeOf, GivesTheSameBitsWhereverTheRunWasKilled) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Optimizer, ResumeOf,
-                         ::testing::Values("cobyla", "bobyqa", "neldermead", "sbplx", "isres", "direct_l", "crs2",
-                                           "mma", "slsqp", "ipopt", "scan"),
-                         [](const auto& parameter) { return parameter.param; });
+INSTANTIATE_TEST_SUITE_P(Optimizer, ResumeOf, ::testing::ValuesIn(all_algorithms()),
+                         [](const auto& parameter) { return std::string(to_string(parameter.param)); });
 
 TEST_F(Resume, ContinuesWithALargerBudgetAsIfItHadBeenThereFromTheStart) {
   const Problem problem = bowl_problem();
-  OptimizerOptions options = bowl_options("cobyla");
+  OptimizerOptions options = bowl_options(Algorithm::cobyla);
   options.step_tolerance = 1e-6;
   options.max_evaluations = 50;
   const OptimizationResult reference = run_optimization(problem, rough, options);
@@ -100,7 +98,7 @@ TEST_F(Resume, ContinuesWithALargerBudgetAsIfItHadBeenThereFromTheStart) {
 
 TEST_F(Resume, ComputesNothingWhenTheRunWasComplete) {
   const Problem problem = bowl_problem();
-  const OptimizerOptions options = bowl_options("cobyla");
+  const OptimizerOptions options = bowl_options(Algorithm::cobyla);
   {
     Journal journal = Journal::create(file, "k");
     static_cast<void>(run_optimization(problem, rough, options, {.journal = &journal}));
@@ -114,7 +112,7 @@ TEST_F(Resume, ComputesNothingWhenTheRunWasComplete) {
 
 TEST_F(Resume, IsNotMovedByTimings) {
   const Problem problem = bowl_problem();
-  const OptimizerOptions options = bowl_options("bobyqa");
+  const OptimizerOptions options = bowl_options(Algorithm::bobyqa);
   double clock = 1;
   const Evaluator timed = [&](std::span<const double> x) {
     Evaluation e = rough(x);

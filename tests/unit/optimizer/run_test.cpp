@@ -20,23 +20,25 @@ TEST_F(Run, EvaluatesTheStartExactlyAndFirst) {
   Problem problem = bowl_problem();
   problem.space = DesignSpace(
       {{.key = "a", .lower = 0.1, .upper = 0.7, .start = 0.3}, {.key = "b", .lower = -3, .upper = 10, .start = 0.1}});
-  const OptimizationResult result = run_optimization(problem, bowl, bowl_options("cobyla"));
+  const OptimizationResult result = run_optimization(problem, bowl, bowl_options(Algorithm::cobyla));
   EXPECT_EQ(result.evaluations[0].x, (std::vector{0.3, 0.1}));
   EXPECT_EQ(result.evaluations[0].phase, "start");
   EXPECT_EQ(result.evaluations[0].evaluation.parameters.at("b"), 0.1);
 }
 
 TEST_F(Run, NeverEvaluatesTheSameCandidateTwice) {
-  for (const std::string algorithm : {"cobyla", "bobyqa", "slsqp", "ipopt", "direct_l"}) {
+  for (const Algorithm algorithm :
+       {Algorithm::cobyla, Algorithm::bobyqa, Algorithm::slsqp, Algorithm::ipopt, Algorithm::direct_l}) {
     const OptimizationResult result = run_optimization(bowl_problem(), bowl, bowl_options(algorithm));
     std::set<std::vector<double>> seen;
-    for (const Candidate& candidate : result.evaluations) EXPECT_TRUE(seen.insert(candidate.x).second) << algorithm;
+    for (const Candidate& candidate : result.evaluations)
+      EXPECT_TRUE(seen.insert(candidate.x).second) << to_string(algorithm);
   }
 }
 
 TEST_F(Run, KeepsTheBudget) {
   for (const int budget : {1, 2, 5, 7, 20}) {
-    OptimizerOptions options = bowl_options("slsqp");
+    OptimizerOptions options = bowl_options(Algorithm::slsqp);
     options.max_evaluations = budget;
     const OptimizationResult result = run_optimization(bowl_problem(), bowl, options);
     EXPECT_EQ(result.evaluations.size(), static_cast<std::size_t>(budget));
@@ -54,19 +56,20 @@ TEST_F(Run, HandlesOneVariable) {
     e.responses["f"] = 2 + (x[0] - 1) * (x[0] - 1);
     return e;
   };
-  for (const std::string_view algorithm : algorithm_names()) {
+  for (const Algorithm algorithm : all_algorithms()) {
     OptimizerOptions options;
     options.algorithm = algorithm;
     options.max_evaluations = 150;
     const OptimizationResult result = run_optimization(problem, evaluator, options);
-    ASSERT_TRUE(result.best) << algorithm;
+    ASSERT_TRUE(result.best) << to_string(algorithm);
     // Of 150 random points the nearest is within 2.5 times the mean distance 6/150 in all but one of 10^2 samples.
-    EXPECT_LT(result.evaluations[*result.best].judgement.objective, 2 + 1e-2) << algorithm << ": " << result.message;
+    EXPECT_LT(result.evaluations[*result.best].judgement.objective, 2 + 1e-2)
+        << to_string(algorithm) << ": " << result.message;
   }
 }
 
 TEST_F(Run, StartsTheAlgorithmFromTheBestOfTheScan) {
-  const OptimizerOptions options = bowl_options("cobyla");
+  const OptimizerOptions options = bowl_options(Algorithm::cobyla);
   const OptimizationResult result = run_optimization(bowl_problem(), bowl, options);
   std::size_t best = 0;
   double least = kInfinity;
@@ -84,7 +87,7 @@ TEST_F(Run, StartsTheAlgorithmFromTheBestOfTheScan) {
 }
 
 TEST_F(Run, GivesTheSameJournalForAnyNumberOfThreads) {
-  OptimizerOptions options = bowl_options("slsqp");
+  OptimizerOptions options = bowl_options(Algorithm::slsqp);
   options.scan_evaluations = 25;
   std::string one;
   for (const int threads : {1, 2, 5}) {
@@ -102,7 +105,7 @@ TEST_F(Run, GivesTheSameJournalForAnyNumberOfThreads) {
 }
 
 TEST_F(Run, KeepsFinishedCandidatesWhenStoppedWithThreads) {
-  OptimizerOptions options = bowl_options("scan");
+  OptimizerOptions options = bowl_options(Algorithm::scan);
   options.scan_evaluations = 40;
   options.threads = 2;
   std::atomic<bool> stop = false;
@@ -121,7 +124,7 @@ TEST_F(Run, KeepsFinishedCandidatesWhenStoppedWithThreads) {
 }
 
 TEST_F(Run, RunsTwoSearchesAtOnce) {
-  for (const std::string algorithm : {"ipopt", "isres", "cobyla"}) {
+  for (const Algorithm algorithm : {Algorithm::ipopt, Algorithm::isres, Algorithm::cobyla}) {
     const OptimizationResult alone = run_optimization(bowl_problem(), bowl, bowl_options(algorithm));
     OptimizationResult results[2];
     {
@@ -129,9 +132,9 @@ TEST_F(Run, RunsTwoSearchesAtOnce) {
       std::jthread second([&] { results[1] = run_optimization(bowl_problem(), bowl, bowl_options(algorithm)); });
     }
     for (const OptimizationResult& result : results) {
-      ASSERT_EQ(result.evaluations.size(), alone.evaluations.size()) << algorithm;
+      ASSERT_EQ(result.evaluations.size(), alone.evaluations.size()) << to_string(algorithm);
       for (std::size_t i = 0; i < result.evaluations.size(); ++i)
-        ASSERT_EQ(result.evaluations[i].x, alone.evaluations[i].x) << algorithm;
+        ASSERT_EQ(result.evaluations[i].x, alone.evaluations[i].x) << to_string(algorithm);
     }
   }
 }
@@ -148,7 +151,7 @@ TEST_F(Run, ReportsProgressInOrder) {
                              EXPECT_EQ(progress.best.has_value(), best < kInfinity);
                            },
                        .stop = nullptr};
-  const OptimizationResult result = run_optimization(bowl_problem(), bowl, bowl_options("cobyla"), hooks);
+  const OptimizationResult result = run_optimization(bowl_problem(), bowl, bowl_options(Algorithm::cobyla), hooks);
   EXPECT_EQ(result.evaluations.size(), expected);
   EXPECT_EQ(result.evaluations[*result.best].judgement.objective, best);
 }

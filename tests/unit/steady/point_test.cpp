@@ -22,7 +22,7 @@ bool same_branch(const steady::Point& a, const steady::Point& b) {
 struct Kind {
   const char* name;
   Eigen::Index tangential;
-  const char* slip_return;
+  contact::SlipReturn slip_return;
 };
 
 class Jacobian : public testing::TestWithParam<Kind> {};
@@ -64,8 +64,9 @@ TEST_P(Jacobian, MatchesFiniteDifferencesAndItsOwnSolver) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Jacobian,
-                         testing::Values(Kind{"Plane", 1, "first_order"}, Kind{"Space", 2, "first_order"},
-                                         Kind{"SpaceSecondOrder", 2, "second_order"}),
+                         testing::Values(Kind{"Plane", 1, contact::SlipReturn::first_order},
+                                         Kind{"Space", 2, contact::SlipReturn::first_order},
+                                         Kind{"SpaceSecondOrder", 2, contact::SlipReturn::second_order}),
                          [](const testing::TestParamInfo<Kind>& kind) { return std::string(kind.param.name); });
 
 TEST(CondensedModel, IsTheSchurComplementWithItsSlope) {
@@ -135,19 +136,19 @@ TEST(State, RefusesBadOptions) {
   const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(2, 1, false));
   EXPECT_THROW((void)paths::steady_state({model, {}, {.harmonics = 3, .samples = 6}}, 1), InputError);
   EXPECT_THROW((void)paths::steady_state({model, {}, {}}, -1), InputError);
-  EXPECT_THROW((void)paths::steady_state({model, {}, {.solver = "magic"}}, 1), InputError);
   EXPECT_THROW((void)paths::steady_state({model, {}, {}}, 1, Eigen::MatrixXd::Zero(2, 7)), InputError);
   EXPECT_THROW((void)paths::steady_state({model, {.wear_depth = Eigen::VectorXd::Zero(5)}, {}}, 1), InputError);
 }
 
 TEST(State, SolversAgree) {
   const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(2, 1, false));
-  const steady::State newton = paths::steady_state({model, {}, {.solver = "newton"}}, 1.3);
+  const steady::State newton = paths::steady_state({model, {}, {.solver = steady::Solver::newton}}, 1.3);
   ASSERT_EQ(newton.status, Status::converged);
-  for (const char* solver : {"powell", "powell_fd"}) {
+  for (const steady::Solver solver : {steady::Solver::powell, steady::Solver::powell_fd}) {
     const steady::State other = paths::steady_state({model, {}, {.solver = solver}}, 1.3);
-    ASSERT_EQ(other.status, Status::converged) << solver;
-    EXPECT_LT((other.displacement - newton.displacement).norm(), 1e-7 * newton.displacement.norm()) << solver;
+    ASSERT_EQ(other.status, Status::converged) << to_string(solver);
+    EXPECT_LT((other.displacement - newton.displacement).norm(), 1e-7 * newton.displacement.norm())
+        << to_string(solver);
   }
 }
 

@@ -42,9 +42,9 @@ inline reduction::ReducedModel random_model(Eigen::Index nodes, Eigen::Index tan
   return model;
 }
 
-inline std::shared_ptr<const steady::Problem> problem(const std::shared_ptr<const dynamics::CondensedModel>& model,
-                                                      double omega, const steady::Condition& condition,
-                                                      const char* slip_return = "first_order") {
+inline std::shared_ptr<const steady::Problem> problem(
+    const std::shared_ptr<const dynamics::CondensedModel>& model, double omega, const steady::Condition& condition,
+    contact::SlipReturn slip_return = contact::SlipReturn::first_order) {
   const steady::Options options{.harmonics = 3, .samples = 64, .slip_return = slip_return, .periodic_tolerance = 1e-13};
   auto system = std::make_shared<const dynamics::HarmonicSystem>(dynamics::harmonic_system(*model, 3, omega));
   return std::make_shared<const steady::Problem>(steady::Joint{model, condition, options}, std::move(system));

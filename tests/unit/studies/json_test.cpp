@@ -47,7 +47,7 @@ wear::History history(wear::HistoryEnd end) {
 }
 
 TEST(WearJson, AHistoryEndsWithItsLastState) {
-  const WearQuestion question{.frequency_hz = 490, .follow = "resonance"};
+  const WearQuestion question{.frequency_hz = 490, .follow = Drive::resonance};
   WearAnswer answer;
   answer.history = history(wear::HistoryEnd::worn_out);
   answer.status = wear_status(*answer.history);
@@ -153,7 +153,7 @@ TEST(WearJson, ABandSaysWhichFrequencyIsTheWorst) {
   band.envelope = Eigen::Vector2d(2, 1);
   WearAnswer answer;
   answer.status = wear::Verdict::asymptote;
-  WearQuestion question{.frequency_hz = 490, .follow = "band"};
+  WearQuestion question{.frequency_hz = 490, .follow = Drive::band};
   question.band = &band;
   const Json json = Json::parse(wear_json(question, answer));
   EXPECT_EQ(json["follow"], "band");

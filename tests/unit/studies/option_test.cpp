@@ -47,13 +47,13 @@ TEST(CommandOptions, TellEverythingThatIsWrongAtOnce) {
 
 TEST(CommandOptions, AMeaningMayBeOfOneValueAlone) {
   WearOptions options;
-  options.integrator = "explicit";
+  options.integrator = wear::IntegratorKind::explicit_jumps;
   EXPECT_EQ(said(options), "");
-  options.integrator = "implicit";
+  options.integrator = wear::IntegratorKind::implicit_steps;
   EXPECT_THAT(said(options), HasSubstr("--integrator = implicit: only has a meaning with --method history"));
-  options.method = "history";
+  options.method = WearMethod::history;
   options.history_tolerance = 0;
-  options.follow = "resonance";
+  options.follow = Drive::resonance;
   EXPECT_THAT(said(options),
               AllOf(HasSubstr("--history-tolerance = 0: must be > 0"), Not(HasSubstr("--integrator ="))));
   EXPECT_THAT(said(options), HasSubstr("--follow = resonance: needs --integrator explicit"));
@@ -70,11 +70,11 @@ TEST(CommandOptions, AnyOfSeveralAlternativesGivesAMeaning) {
 
 TEST(CommandOptions, SomeNeedEachOther) {
   WearOptions options;
-  options.method = "history";
-  options.follow = "band";
+  options.method = WearMethod::history;
+  options.follow = Drive::band;
   EXPECT_THAT(said(options), AllOf(HasSubstr("--band-from: is needed with --follow band"),
                                    HasSubstr("--band-to: is needed with --follow band")));
-  options.follow.clear();
+  options.follow.reset();
   options.curve_from_hz = 1;
   EXPECT_THAT(said(options), HasSubstr("--curve-from = 1: only has a meaning with --curve-to"));
 }
@@ -83,7 +83,7 @@ TEST(CommandOptions, ABackboneNeedsAForceButNoWear) {
   BackboneOptions options;
   EXPECT_THAT(said(options), AllOf(HasSubstr("--from = 0: must be > 0 with --over force"),
                                    HasSubstr("--to = 0: must be > 0 with --over force")));
-  options.over = "wear";
+  options.over = BackboneOver::wear;
   options.to = 1e-6;
   options.points = 100000;
   EXPECT_EQ(said(options), "");

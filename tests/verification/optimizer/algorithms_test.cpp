@@ -10,14 +10,14 @@ namespace {
 
 /// What an algorithm is expected to reach: the best feasible objective at most `excess` above the optimum.
 struct Expectation {
-  std::string algorithm;
+  Algorithm algorithm;
   int evaluations;
   double smooth_excess;  ///< on Hock-Schittkowski 22 and 35 (objective 1 and 1/9, about 1 and 2.25 at the start)
   double valley_excess;  ///< on Rosenbrock's valley (24.2 at the start)
 };
 
 void PrintTo(const Expectation& e, std::ostream* stream) {
-  *stream << e.algorithm;
+  *stream << to_string(e.algorithm);
 }
 
 class EveryAlgorithm : public ::testing::TestWithParam<Expectation> {
@@ -77,16 +77,17 @@ INSTANTIATE_TEST_SUITE_P(
     // Local methods end within the constraint margin times the multipliers (1e-6 times about 2)
     // of the optimum; linear models (cobyla) creep along a curved valley; forward differences of
     // step 2e-6 shift its floor by about 5e-6; the global methods are held to a few per cent.
-    ::testing::Values(Expectation{"cobyla", 1000, 1e-5, 0.5}, Expectation{"bobyqa", 2000, 1e-5, 1e-6},
-                      Expectation{"neldermead", 3000, 1e-5, 1e-6}, Expectation{"sbplx", 4000, 1e-5, 1e-4},
-                      Expectation{"isres", 5000, 5e-2, 1e-2}, Expectation{"direct_l", 3000, 5e-2, 1e-2},
-                      Expectation{"crs2", 3000, 1e-3, 1e-3}, Expectation{"mma", 3000, 1e-5, 1e-2},
-                      Expectation{"slsqp", 1000, 1e-5, 2e-5}, Expectation{"ipopt", 1000, 1e-5, 2e-5},
-                      Expectation{"scan", 1000, 0.5, 0.5}),
-    [](const auto& parameter) { return parameter.param.algorithm; });
+    ::testing::Values(Expectation{Algorithm::cobyla, 1000, 1e-5, 0.5}, Expectation{Algorithm::bobyqa, 2000, 1e-5, 1e-6},
+                      Expectation{Algorithm::neldermead, 3000, 1e-5, 1e-6},
+                      Expectation{Algorithm::sbplx, 4000, 1e-5, 1e-4}, Expectation{Algorithm::isres, 5000, 5e-2, 1e-2},
+                      Expectation{Algorithm::direct_l, 3000, 5e-2, 1e-2},
+                      Expectation{Algorithm::crs2, 3000, 1e-3, 1e-3}, Expectation{Algorithm::mma, 3000, 1e-5, 1e-2},
+                      Expectation{Algorithm::slsqp, 1000, 1e-5, 2e-5}, Expectation{Algorithm::ipopt, 1000, 1e-5, 2e-5},
+                      Expectation{Algorithm::scan, 1000, 0.5, 0.5}),
+    [](const auto& parameter) { return std::string(to_string(parameter.param.algorithm)); });
 
 /// Without mma, whose separable models creep along a curved valley whatever the gradient.
-class EveryCurvatureMethod : public ::testing::TestWithParam<std::string> {};
+class EveryCurvatureMethod : public ::testing::TestWithParam<Algorithm> {};
 
 TEST_P(EveryCurvatureMethod, IsMoreAccurateWithCentralDifferences) {
   const KnownProblem known = rosenbrock();
@@ -96,7 +97,7 @@ TEST_P(EveryCurvatureMethod, IsMoreAccurateWithCentralDifferences) {
   options.noise = 1e-12;
   options.tolerance = 1e-12;
   options.step_tolerance = 1e-7;
-  options.difference = "central";
+  options.difference = Difference::central;
   const OptimizationResult result = run_optimization(known.problem, known.evaluator, options);
   ASSERT_TRUE(result.best);
   // Truncation is of order h^2 = 2e-8 of the third derivative against h = 2e-6 of the second: the floor of the valley
@@ -104,8 +105,8 @@ TEST_P(EveryCurvatureMethod, IsMoreAccurateWithCentralDifferences) {
   EXPECT_LE(result.evaluations[*result.best].judgement.objective, 5e-8) << result.message;
 }
 
-INSTANTIATE_TEST_SUITE_P(Optimizer, EveryCurvatureMethod, ::testing::Values("slsqp", "ipopt"),
-                         [](const auto& parameter) { return parameter.param; });
+INSTANTIATE_TEST_SUITE_P(Optimizer, EveryCurvatureMethod, ::testing::Values(Algorithm::slsqp, Algorithm::ipopt),
+                         [](const auto& parameter) { return std::string(to_string(parameter.param)); });
 
 }  // namespace
 }  // namespace dovetail::optimizer

@@ -29,7 +29,7 @@ Problem study() {
   return problem;
 }
 
-class NoisyWear : public ::testing::TestWithParam<std::string> {};
+class NoisyWear : public ::testing::TestWithParam<Algorithm> {};
 
 TEST_P(NoisyWear, ComesWithinTheNoiseOfTheBestDesign) {
   OptimizerOptions options;
@@ -47,8 +47,9 @@ TEST_P(NoisyWear, ComesWithinTheNoiseOfTheBestDesign) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Optimizer, NoisyWear,
-                         ::testing::Values("cobyla", "bobyqa", "neldermead", "sbplx", "crs2", "direct_l"),
-                         [](const auto& parameter) { return parameter.param; });
+                         ::testing::Values(Algorithm::cobyla, Algorithm::bobyqa, Algorithm::neldermead,
+                                           Algorithm::sbplx, Algorithm::crs2, Algorithm::direct_l),
+                         [](const auto& parameter) { return std::string(to_string(parameter.param)); });
 
 TEST(NoisyWear, IsFoundBetterByASearchThanByAsManyRandomDesigns) {
   OptimizerOptions options;

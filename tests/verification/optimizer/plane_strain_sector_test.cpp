@@ -50,7 +50,7 @@ struct Chain {
     const steady::Options steady = steady_options(scene.solver);
     unworn = paths::resonance({condensed, {}, steady}, reduction.glued_frequencies(0));
     wear::AsymptoteOptions options;
-    options.arbitration = "never";
+    options.arbitration = wear::Arbitration::never;
     options.certify_finer = false;
     worn = wear::asymptote({condensed, {}, steady}, unworn.omega, options, &unworn.state);
   }

@@ -40,7 +40,7 @@ TEST(PenaltySensitivity, VanishesWithMoreHarmonics) {
 // e_lambda sees what the series leaves out of the forces, e_E of their power - not the error of the results.
 TEST(TruncationEstimators, FallWhileTheTrueErrorGrows) {
   const auto model = condensed(single_node());
-  steady::Options options{.samples = 1024, .penalty_cascade = false, .slip_return = "second_order"};
+  steady::Options options{.samples = 1024, .penalty_cascade = false, .slip_return = contact::SlipReturn::second_order};
   const double exact = 11.4313802832;  // energy per cycle, known to 2e-8
   const auto at = [&](double penalty_scale) {
     options.penalty_scale = penalty_scale;
@@ -62,7 +62,7 @@ TEST(TruncationEstimators, FallWhileTheTrueErrorGrows) {
   options.harmonics = 15;
   const steady::State many = at(1);
   options.samples = 32;
-  options.slip_return = "first_order";
+  options.slip_return = contact::SlipReturn::first_order;
   const steady::State few = at(1);
   EXPECT_GT(error(few), 5 * error(many));
   EXPECT_LT(few.error_force, 1.2 * many.error_force);

@@ -346,7 +346,8 @@ TEST_P(NodeInSpace, HasTheMultipliersOfItsPerturbedMotion) {
   model.cosine_force(0, 2) *= c.normal_amplitude;
   model.sine_force(0, 2) *= c.normal_amplitude;
   const steady::State state = paths::steady_state(
-      {condensed(model), {}, {.harmonics = 31, .samples = 1024, .slip_return = "second_order"}}, c.omega);
+      {condensed(model), {}, {.harmonics = 31, .samples = 1024, .slip_return = contact::SlipReturn::second_order}},
+      c.omega);
   ASSERT_EQ(state.status, Status::converged);
   const stability::Stability found = stability::local_stability(model, state);
   EXPECT_EQ(found.verdict, c.verdict) << found.reason;

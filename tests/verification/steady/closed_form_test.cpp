@@ -18,7 +18,8 @@ TEST(SingleNode, ApproachesTheKnownFrictionEnergy) {
   const int harmonics[] = {3, 7, 15, 31};
   for (int i = 0; i < 4; ++i) {
     const steady::State state = paths::steady_state(
-        {model, {}, {.harmonics = harmonics[i], .samples = 4096, .slip_return = "second_order"}}, 1.1);
+        {model, {}, {.harmonics = harmonics[i], .samples = 4096, .slip_return = contact::SlipReturn::second_order}},
+        1.1);
     ASSERT_EQ(state.status, Status::converged);
     EXPECT_LT(std::abs(state.friction_energy / exact - 1), bounds[i]) << harmonics[i];
     EXPECT_NEAR(state.input_energy, state.damping_energy + state.contact_work, 1e-9 * state.input_energy);

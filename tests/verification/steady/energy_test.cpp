@@ -47,7 +47,8 @@ TEST(Energy, OfSlipConvergesToTheContactWork) {
       Eigen::MatrixXd guess;
       for (const int samples : {256, 1024, 4096}) {
         const steady::State state = paths::steady_state(
-            {model, {}, {.harmonics = harmonics, .samples = samples, .slip_return = "second_order"}}, at.omega, guess);
+            {model, {}, {.harmonics = harmonics, .samples = samples, .slip_return = contact::SlipReturn::second_order}},
+            at.omega, guess);
         ASSERT_EQ(state.status, Status::converged) << at.name;
         guess = state.displacement;
         const double error = std::abs(state.friction_energy / state.contact_work - 1);
@@ -64,8 +65,8 @@ TEST(Energy, OfTheSingleNodeConvergesWithHarmonics) {
   const auto model = condensed(single_node());
   double before = 1;
   for (const int harmonics : {3, 7, 15, 31, 63}) {
-    const steady::State state =
-        paths::steady_state({model, {}, {.harmonics = harmonics, .samples = 4096, .slip_return = "second_order"}}, 1.1);
+    const steady::State state = paths::steady_state(
+        {model, {}, {.harmonics = harmonics, .samples = 4096, .slip_return = contact::SlipReturn::second_order}}, 1.1);
     ASSERT_EQ(state.status, Status::converged);
     const double error = std::abs(state.contact_work / exact - 1);
     // Measured slopes of log error over log H: 2.0 to 2.7.

@@ -13,7 +13,7 @@ inline steady::State fine_reference(const std::shared_ptr<const dynamics::Conden
   const steady::Options options{.harmonics = harmonics,
                                 .samples = samples,
                                 .penalty_scale = 1 / near.penalty_ratio,
-                                .slip_return = "second_order",
+                                .slip_return = contact::SlipReturn::second_order,
                                 .linearise = false};
   return paths::refined_state({model, {}, options}, near);
 }

@@ -72,8 +72,11 @@ void expect_same(reduction::ReducedModel model, double omega, int harmonics, boo
   ASSERT_GT(motion.periods, 0);
   ASSERT_EQ(motion.separates, separates);
   model.contact.slip_origin = motion.slip_end;
-  const steady::State state = paths::steady_state(
-      {condensed(model), {}, {.harmonics = harmonics, .samples = 4096, .slip_return = "second_order"}}, omega);
+  const steady::State state =
+      paths::steady_state({condensed(model),
+                           {},
+                           {.harmonics = harmonics, .samples = 4096, .slip_return = contact::SlipReturn::second_order}},
+                          omega);
   ASSERT_EQ(state.status, Status::converged);
   EXPECT_NEAR(state.input_energy / motion.input_energy, 1, 1e-4);
   EXPECT_NEAR(state.damping_energy / motion.damping_energy, 1, 1e-4);

@@ -229,7 +229,7 @@ TEST(HardDesigns, ADoubtIsKeptWhereTheResonanceIsFollowed) {
   optimizer::Scene scene = load_study(QUICKSTART, {}).scene;
   const optimizer::SceneEvaluator evaluator(scene);
   const optimizer::CandidateResult held = evaluator.evaluate(scene, {.bars = false});
-  scene.loading.follow = "resonance";
+  scene.loading.follow = wear::Follow::resonance;
   const optimizer::CandidateResult followed = evaluator.evaluate(scene, {.bars = false});
   ASSERT_TRUE(held.evaluation.converged() && followed.evaluation.converged()) << followed.evaluation.status;
   ASSERT_NE(held.asymptote->doubt, wear::Doubt::none);

@@ -54,7 +54,7 @@ INSTANTIATE_TEST_SUITE_P(Six, RandomBlock, testing::Values(1u, 2u, 3u, 4u, 5u, 7
 TEST(Block, HistoryCanEndDeeperThanTheAsymptote) {
   const auto model = condensed(scenes::random_block(0));
   AsymptoteOptions unasked = kEveryRate;
-  unasked.arbitration = "never";
+  unasked.arbitration = Arbitration::never;
   const Asymptote worn = asymptote({model, {}, kBlock}, 1.0, unasked);
   ASSERT_EQ(worn.verdict, Verdict::asymptote);
   EXPECT_EQ(worn.doubt, Doubt::reload);

@@ -34,7 +34,7 @@ Worn wear_off(const optimizer::ModelBuilder& builder, optimizer::Scene scene, do
   EXPECT_EQ(peak.status, Status::converged);
   worn.omega = peak.omega;
   AsymptoteOptions options;
-  options.arbitration = "never";
+  options.arbitration = Arbitration::never;
   worn.direct = asymptote({worn.model.condensed, {}, worn.steady}, worn.omega, options, &peak.state);
   return worn;
 }

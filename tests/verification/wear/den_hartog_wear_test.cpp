@@ -16,7 +16,8 @@ constexpr double kDepth = 0.4430184939;
 
 double depth_after_100_cycles(int harmonics, double increment) {
   const auto model = std::make_shared<const dynamics::CondensedModel>(scenes::den_hartog(0.4, 1.0, 2.0, 1e-3));
-  const steady::Options steady{.harmonics = harmonics, .samples = 64 * harmonics, .slip_return = "second_order"};
+  const steady::Options steady{
+      .harmonics = harmonics, .samples = 64 * harmonics, .slip_return = contact::SlipReturn::second_order};
   const HistoryOptions options{
       .increment = increment, .steps = 1000, .cycles = 100.0, .rate_fraction = 0.0, .rate_threshold = 0.0};
   const History run = history({model, {}, steady}, {.omega = 0.8}, options);

@@ -47,7 +47,7 @@ TEST(Drift, IsFollowedByTheHistory) {
   const paths::Resonance unworn = paths::resonance(joint, 1.05, kResonance);
   ASSERT_EQ(unworn.status, Status::converged);
   const HistoryOptions options{
-      .increment = 0.01, .steps = 100, .rate_fraction = 1e-3, .rate_threshold = 0.0, .follow = "resonance"};
+      .increment = 0.01, .steps = 100, .rate_fraction = 1e-3, .rate_threshold = 0.0, .follow = Follow::resonance};
   const History run = history(joint, {.omega = unworn.omega, .resonance = kResonance}, options);
   EXPECT_EQ(run.status, Status::converged);
   EXPECT_EQ(run.end, HistoryEnd::worn_out);

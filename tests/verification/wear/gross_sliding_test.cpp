@@ -26,7 +26,7 @@ Model punch(double share, int nodes = 81) {
   return std::make_shared<const dynamics::CondensedModel>(scenes::punch(data));
 }
 
-AsymptoteOptions settings(const char* arbitration) {
+AsymptoteOptions settings(Arbitration arbitration) {
   AsymptoteOptions options;
   options.rate_threshold = 0.0;
   options.arbitration = arbitration;
@@ -37,7 +37,7 @@ AsymptoteOptions settings(const char* arbitration) {
 TEST(GrossSliding, IsMeasuredByWhatBearsAndHowFarItCloses) {
   Bearing before{.needed = true, .share = 1.0, .closing = 0.0};
   for (const double used : {0.2, 0.5, 0.8}) {
-    const Asymptote worn = asymptote({punch(used), {}, kSteady}, 1.0, settings("unsettled"));
+    const Asymptote worn = asymptote({punch(used), {}, kSteady}, 1.0, settings(Arbitration::unsettled));
     ASSERT_EQ(worn.verdict, Verdict::asymptote) << used << ": " << dovetail::to_string(worn.status);
     EXPECT_EQ(worn.decided_by, FoundBy::release) << used;
     EXPECT_TRUE(worn.bearing.needed);
@@ -62,7 +62,7 @@ TEST(GrossSliding, DoesNotDependOnTheMesh) {
 TEST(GrossSliding, IsNotJudgedWhereSpringsHold) {
   // Wear takes all the load away, and the oscillator goes on without.
   const Model model = std::make_shared<const dynamics::CondensedModel>(scenes::rubbing_oscillator(0.1, 2.0, 1.0, 0.05));
-  const Asymptote worn = asymptote({model, {}, kSteady}, 1.0, settings("never"));
+  const Asymptote worn = asymptote({model, {}, kSteady}, 1.0, settings(Arbitration::never));
   EXPECT_EQ(worn.verdict, Verdict::asymptote) << dovetail::to_string(worn.status);
   EXPECT_FALSE(worn.bearing.needed);
 }
@@ -71,11 +71,11 @@ TEST(GrossSliding, IsNotJudgedWhereSpringsHold) {
 // too, when more of its friction is used, and slides for ever.
 TEST(GrossSliding, NeedsTheHistorysWord) {
   for (const double used : {0.94, 0.97}) {
-    const Asymptote alone = asymptote({punch(used), {}, kSteady}, 1.0, settings("never"));
+    const Asymptote alone = asymptote({punch(used), {}, kSteady}, 1.0, settings(Arbitration::never));
     EXPECT_LT(alone.bearing.share, 0.25);
     EXPECT_EQ(alone.verdict, Verdict::not_converged);
     EXPECT_EQ(alone.status, Status::gross_sliding) << used << ": " << dovetail::to_string(alone.status);
-    const Asymptote judged = asymptote({punch(used), {}, kSteady}, 1.0, settings("unsettled"));
+    const Asymptote judged = asymptote({punch(used), {}, kSteady}, 1.0, settings(Arbitration::unsettled));
     EXPECT_EQ(judged.doubt, Doubt::gross_sliding);
     EXPECT_TRUE(judged.confirmed_by_history);
     EXPECT_EQ(judged.status, Status::converged);

@@ -28,7 +28,7 @@ HistoryOptions implicit_down_to_nothing() {
 AsymptoteOptions alone() {
   AsymptoteOptions options;
   options.rate_threshold = 0.0;
-  options.arbitration = "never";
+  options.arbitration = Arbitration::never;
   return options;
 }
 
@@ -111,9 +111,10 @@ TEST(ImplicitHistory, SaysThatItStoppedOrFailed) {
   const History failed = history({block(1), {}, hasty}, {.omega = 1.0}, implicit_down_to_nothing());
   EXPECT_EQ(failed.end, HistoryEnd::failed);
   EXPECT_NE(failed.status, Status::converged);
-  EXPECT_THROW((void)history({block(1), {}, kSteady}, {.omega = 1.0}, {.integrator = "implicit"}), InputError);
+  EXPECT_THROW((void)history({block(1), {}, kSteady}, {.omega = 1.0}, {.integrator = IntegratorKind::implicit_steps}),
+               InputError);
   HistoryOptions following = HistoryOptions::implicit();
-  following.follow = "resonance";
+  following.follow = Follow::resonance;
   EXPECT_THROW((void)history({block(1), {}, kSteady}, {.omega = 1.0}, following), InputError);
   steady::Condition start;
   start.released.assign(static_cast<std::size_t>(block(1)->nodes()), 1);

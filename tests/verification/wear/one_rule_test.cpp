@@ -25,8 +25,8 @@ std::vector<std::string> set(const Design& design) {
 
 WearAnswer asymptote(const LoadedModel& loaded, double hz) {
   WearOptions options;
-  options.method = "asymptote";
-  options.follow = "fixed";
+  options.method = WearMethod::asymptote;
+  options.follow = Drive::fixed;
   return wear_answer(options, loaded, wear_start_at(hz), {});
 }
 

@@ -41,7 +41,7 @@ struct Limit {
 
 // The direct answer: histories of the discrete punch wear one node more where the last one that sticks has little to
 // spare, which the continuum, whose c stays, does not.
-const AsymptoteOptions kDirect{.rate_threshold = 0.0, .arbitration = "unsettled"};
+const AsymptoteOptions kDirect{.rate_threshold = 0.0, .arbitration = Arbitration::unsettled};
 
 TEST(Punch, SticksInTheMiddle) {
   const scenes::Punch data{.nodes = 121};

@@ -21,7 +21,7 @@ steady::Options settings() {
 
 WornEnd worn(const steady::Joint& joint) {
   // The direct answer of every member: one decided by a history would differ from its neighbours by a node.
-  const Asymptote found = asymptote(joint, 1.0, AsymptoteOptions{.arbitration = "unsettled"});
+  const Asymptote found = asymptote(joint, 1.0, AsymptoteOptions{.arbitration = Arbitration::unsettled});
   return {.verdict = found.verdict,
           .status = found.status,
           .volume = found.worn_volume,

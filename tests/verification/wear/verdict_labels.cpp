@@ -39,7 +39,7 @@ Label explicit_label(const std::shared_ptr<const dynamics::CondensedModel>& mode
   AsymptoteOptions direct;
   direct.rate_threshold = 0.0;
   direct.certify_finer = false;
-  direct.arbitration = "never";
+  direct.arbitration = Arbitration::never;
   const Asymptote released = asymptote({model, {}, steady}, omega, direct, &first);
   const bool settled = released.verdict == Verdict::asymptote;
   HistoryOptions options{.rate_fraction = 1e-6, .rate_threshold = 0.0, .finish = false};

@@ -35,7 +35,7 @@ std::shared_ptr<const dynamics::CondensedModel> condensed(Family family, unsigne
   return std::make_shared<const dynamics::CondensedModel>(scenes::verdict_model(family, number));
 }
 
-AsymptoteOptions settings(const char* arbitration) {
+AsymptoteOptions settings(Arbitration arbitration) {
   AsymptoteOptions options;
   options.rate_threshold = 0.0;
   options.arbitration = arbitration;
@@ -46,7 +46,7 @@ class Verdicts : public testing::TestWithParam<Labelled> {};
 
 TEST_P(Verdicts, AreThoseOfTheHistory) {
   const auto [family, number, label] = GetParam();
-  const Asymptote worn = asymptote({condensed(family, number), {}, kSteady}, 1.0, settings("auto"));
+  const Asymptote worn = asymptote({condensed(family, number), {}, kSteady}, 1.0, settings(Arbitration::automatic));
   RecordProperty("doubt", std::string(to_string(worn.doubt)));
   RecordProperty("jacobians", worn.jacobians);
   EXPECT_EQ(worn.status, Status::converged) << dovetail::to_string(worn.status);
@@ -70,7 +70,8 @@ INSTANTIATE_TEST_SUITE_P(Labelled, Verdicts, testing::ValuesIn(kScenes), [](cons
 // Labelled by construction: loaded far below friction without a crown nothing slips.
 TEST(Verdict, IsTrivialWherePressedBlocksStick) {
   for (unsigned number = 0; number < 8; ++number) {
-    const Asymptote worn = asymptote({condensed(Family::pressed, number), {}, kSteady}, 1.0, settings("auto"));
+    const Asymptote worn =
+        asymptote({condensed(Family::pressed, number), {}, kSteady}, 1.0, settings(Arbitration::automatic));
     EXPECT_EQ(worn.verdict, Verdict::asymptote) << number;
     EXPECT_EQ(worn.worn_volume, 0.0) << number;
     EXPECT_EQ(worn.doubt, Doubt::none) << number;
@@ -86,7 +87,7 @@ TEST(Verdict, OfAnOscillatorFollowsFromItsNormalSpring) {
       const steady::State unworn = paths::steady_state({model, {}, kSteady}, omega);
       ASSERT_EQ(unworn.status, Status::converged);
       if (unworn.wear_rate[0] == 0.0) continue;
-      const Asymptote worn = asymptote({model, {}, kSteady}, omega, settings("always"));
+      const Asymptote worn = asymptote({model, {}, kSteady}, omega, settings(Arbitration::always));
       EXPECT_EQ(worn.verdict, Verdict::asymptote) << load << " " << omega << " " << to_string(worn.doubt);
       EXPECT_TRUE(worn.confirmed_by_history);
       // Worn until it sticks or carries nothing, whichever comes first; sliding gets easier as the load falls.
