@@ -116,11 +116,13 @@ void report_contradictions(const Document& document, const optimizer::Scene& sce
     else
       problems.missing(section, found.key, "= " + found.value + " by default " + found.allowed);
   }
-  // A file may keep the coefficient of the law it does not use; who gives one on the command line expects it to count.
-  constexpr const char* kOfArchard = "contact.wear_coefficient_per_pa";
-  const Node* coefficient = document.root.at(kOfArchard);
-  if (scene.contact.wear_law == "energy" && coefficient && !coefficient->origin.empty())
-    problems.add(*coefficient, kOfArchard, "changes nothing with contact.wear_law = \"energy\"");
+  // A file may keep the numbers of the law that is used by default; who gives one on the command line expects it to
+  // count.
+  for (const optimizer::Parameter& p : optimizer::scene_parameters()) {
+    if (p.wear_law != contact::wear_laws().front() || !p.left_aside(scene)) continue;
+    const Node* given = document.root.at(p.key);
+    if (given && !given->origin.empty()) problems.add(*given, p.key, left_aside_words(scene));
+  }
 }
 
 }  // namespace

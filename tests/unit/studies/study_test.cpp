@@ -130,7 +130,9 @@ TEST(Study, AThresholdNeedsTheLawThatHasOne) {
   const std::string threshold = replaced(sample(), "energy_threshold_j_per_m2 = 0", "energy_threshold_j_per_m2 = 3");
   EXPECT_THAT(complaints(threshold),
               HasSubstr("contact.energy_threshold_j_per_m2 = 3: has no meaning unless contact.wear_law = \"energy\""));
-  EXPECT_EQ(read(replaced(threshold, "wear_law = \"archard\"", "wear_law = \"energy\"")).scene.contact.energy_threshold,
+  EXPECT_EQ(read(replaced(threshold, "wear_law = \"archard\"", "wear_law = \"energy\""))
+                .scene.contact.wear.at("energy")
+                .threshold,
             3);
 }
 
