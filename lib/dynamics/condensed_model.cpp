@@ -33,7 +33,6 @@ CondensedModel::CondensedModel(const reduction::ReducedModel& model) {
   n_ = model.size();
   contact_ = model.contact;
   wear_law_ = contact::find_wear_law(contact_.wear_law);
-  if (contact_.wear_threshold.size() == 0) contact_.wear_threshold = Eigen::VectorXd::Zero(nodes());
   if (contact_.slip_origin.size() == 0)
     contact_.slip_origin = Eigen::MatrixXd::Zero(nodes(), contact_.tangential.cols());
   output_names_ = model.output_names;
@@ -78,8 +77,8 @@ CondensedModel::CondensedModel(const reduction::ReducedModel& model) {
 contact::WearNode CondensedModel::wear_node(Eigen::Index node) const {
   return {.area = contact_.area(node),
           .friction = contact_.friction(node),
-          .coefficient = contact_.wear_coefficient(node),
-          .threshold = contact_.wear_threshold(node)};
+          .law = {.coefficient = contact_.wear_coefficient(node),
+                  .threshold = contact_.wear_threshold.size() > 0 ? contact_.wear_threshold(node) : 0}};
 }
 
 reduction::ReducedModel CondensedModel::reduced() const {

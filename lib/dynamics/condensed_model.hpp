@@ -104,7 +104,7 @@ class CondensedModel {
 
   Eigen::Index n_ = 0;
   reduction::ContactNodes contact_;
-  const contact::WearLaw* wear_law_ = &contact::kArchard;
+  const contact::WearLaw* wear_law_ = nullptr;
   std::vector<std::string> output_names_;
   std::vector<Eigen::Index> contact_dofs_, internal_dofs_;
   Eigen::MatrixXd basis_;  // internal dofs = basis_ * internal coordinates

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "contact/wear_law.hpp"
 #include "core/errors.hpp"
 #include "core/options.hpp"
+#include "reduction/validation.hpp"
 
 namespace dovetail::dynamics {
 namespace {
@@ -59,11 +59,8 @@ void check(const reduction::ReducedModel& model) {
   findings.at_least("contact.wear_coefficient", contact.wear_coefficient, 0, false, nodes);
   if (contact.wear_threshold.size() > 0)
     findings.at_least("contact.wear_threshold", contact.wear_threshold, 0, false, nodes);
-  if (!contact::find_wear_law(contact.wear_law)) {
-    std::string allowed = "must be one of";
-    for (const contact::WearLaw* law : contact::wear_laws()) allowed += " " + std::string(law->name);
-    findings.add("contact.wear_law", contact.wear_law, allowed);
-  }
+  for (const Violation& of_wear : reduction::wear_law_violations(contact, "contact."))
+    findings.add(of_wear.key, of_wear.value, of_wear.allowed);
   findings.matrix("contact.gap", contact.gap, nodes, 1);
   findings.size("contact.tangential", contact.tangential.rows(), nodes);
   if (contact.tangential.cols() < 1 || contact.tangential.cols() > 2)

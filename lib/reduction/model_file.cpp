@@ -56,6 +56,19 @@ class Reader {
   void strings(const std::string& name, std::vector<std::string>& target) {
     attempt(name, 1, [&] { target = file_.read_strings(name).values; });
   }
+  void one_string(const std::string& name, std::string& target) {
+    attempt(name, 1, [&] {
+      std::vector<std::string> values = file_.read_strings(name).values;
+      if (values.size() == 1)
+        target = std::move(values.front());
+      else
+        found_.push_back({.file = file_.path(),
+                          .line = 0,
+                          .key = name,
+                          .value = std::to_string(values.size()) + " texts",
+                          .allowed = "must be one text"});
+    });
+  }
 
  private:
   template <class Read>
@@ -146,10 +159,7 @@ ReducedModel read_model(const std::string& path) {
   read.numbers("/contact/friction", contact.friction);
   read.numbers("/contact/wear_coefficient", contact.wear_coefficient);
   if (file.exists("/contact/wear_threshold")) read.numbers("/contact/wear_threshold", contact.wear_threshold);
-  if (std::vector<std::string> law; file.exists("/contact/wear_law")) {
-    read.strings("/contact/wear_law", law);
-    if (law.size() == 1) contact.wear_law = law.front();
-  }
+  if (file.exists("/contact/wear_law")) read.one_string("/contact/wear_law", contact.wear_law);
   Eigen::MatrixXd position(0, 3);
   if (file.exists("/contact/position")) read.numbers("/contact/position", position);
   if (file.exists("/contact/group")) read.numbers("/contact/group", contact.group);
@@ -180,6 +190,7 @@ ReducedModel read_model(const std::string& path) {
   if (!found.empty()) refuse_all(path, std::move(found));
   contact.position = position;
   present("/contact/position", contact.position.rows());
+  present("/contact/wear_threshold", contact.wear_threshold.size());
   present("/contact/group", contact.group.size());
   present("/contact/slip_origin", contact.slip_origin.rows());
   if (found.empty()) found = violations(model);

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "core/options.hpp"
 #include "reduction/params.hpp"
@@ -104,6 +105,7 @@ void check_contact(const ContactNodes& contact, Eigen::Index n, Checks& checks) 
   if (contact.wear_threshold.size() > 0 &&
       checks.sized("/contact/wear_threshold", contact.wear_threshold.size(), nodes, "[Nc]"))
     checks.each_inside("/contact/wear_threshold", contact.wear_threshold, kNonNegative);
+  for (Violation& of_wear : wear_law_violations(contact, "/contact/")) checks.found.push_back(std::move(of_wear));
   if (contact.position.rows() > 0 && checks.sized("/contact/position", contact.position.rows(), 3, nodes, 3, "[Nc,3]"))
     checks.finite("/contact/position", contact.position);
   if (contact.group.size() > 0) checks.sized("/contact/group", contact.group.size(), nodes, "[Nc]");
@@ -122,7 +124,30 @@ void check_names(const std::vector<std::string>& names, Eigen::Index outputs, Ch
   }
 }
 
+/// "energy" or "another": the laws with a threshold.
+std::string laws_with_threshold() {
+  std::string text;
+  for (const contact::WearLaw* law : contact::wear_laws())
+    if (law->parameter(&contact::WearNumbers::threshold))
+      text += (text.empty() ? "\"" : " or \"") + std::string(law->name) + "\"";
+  return text;
+}
+
 }  // namespace
+
+std::vector<Violation> wear_law_violations(const ContactNodes& contact, const std::string& section) {
+  const contact::WearLaw* law = contact::find_wear_law(contact.wear_law);
+  if (law == nullptr) {
+    std::string allowed = "must be one of";
+    for (const contact::WearLaw* known : contact::wear_laws()) allowed += " " + std::string(known->name);
+    return {{.file = {}, .key = section + "wear_law", .value = contact.wear_law, .allowed = allowed}};
+  }
+  if (contact.wear_threshold.size() == 0 || law->parameter(&contact::WearNumbers::threshold)) return {};
+  return {{.file = {},
+           .key = section + "wear_threshold",
+           .value = {},
+           .allowed = "has no meaning unless wear_law = " + laws_with_threshold()}};
+}
 
 std::vector<Violation> violations(const ReducedModel& model) {
   Checks checks;

@@ -42,7 +42,7 @@ double FamilyQuantity::scale(const steady::State& member) const {
   if (quantity_ != BoundedQuantity::wear_rate) return 0;
   double ratio = 0;
   for (Eigen::Index i = 0; i < joint_.model->nodes(); ++i)
-    ratio = std::max(ratio, joint_.model->wear_law().volume_per_energy(joint_.model->wear_node(i)));
+    ratio = std::max(ratio, joint_.model->wear_law().volume_per_energy(joint_.model->wear_node(i), energy));
   return ratio * energy;
 }
 

@@ -15,7 +15,8 @@ double no_wear_rate(double given, const dynamics::CondensedModel& model, const s
     const double force = unworn.nodes[static_cast<std::size_t>(i)].max_normal_force;
     const double limit = model.contact_law(i).limit(force).force;
     const double energy = limit * 4.0 * limit / own_stiffness(model, i, 1);
-    largest = std::max(largest, model.wear_law().volume_per_energy(model.wear_node(i)) * energy / contact.area[i]);
+    const double volume = model.wear_law().volume_per_energy(model.wear_node(i), energy) * energy;
+    largest = std::max(largest, volume / contact.area[i]);
   }
   return NoWearParams{}.share * largest;
 }

@@ -131,7 +131,7 @@ class ErrorBarSources {
   /// What the ends of slipping zones leave open, and worn zones narrower than the contact nodes.
   void add_slip() {
     double left_open = slip_at_zone_ends(result_);  // J per cycle
-    if (result_.asymptote->worn_volume == 0 && worn_per_energy(result_.model) > 0) {
+    if (result_.asymptote->worn_volume == 0 && worn_per_energy(result_, left_open) > 0) {
       const Evaluation shorter = on_nodes(kCompanion.shorter_nodes);
       bars_.add("contact_grid", {{&shorter, same_for_all(kCompanion.shorter_factor)}}, result_.evaluation);
       left_open += add_unseen_zones(scene_, result_, bars_);

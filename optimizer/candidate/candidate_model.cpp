@@ -30,11 +30,11 @@ reduction::ContactNodes contact_nodes(const Surface& surface, Eigen::Index first
   nodes.area = surface.area;
   nodes.gap = surface.gap;
   nodes.friction = Eigen::VectorXd::Constant(count, properties.friction);
-  const bool energy = properties.wear_law == "energy";
   nodes.wear_law = properties.wear_law;
-  nodes.wear_coefficient =
-      Eigen::VectorXd::Constant(count, energy ? properties.energy_coefficient : properties.wear_coefficient);
-  if (energy) nodes.wear_threshold = Eigen::VectorXd::Constant(count, properties.energy_threshold);
+  const contact::WearNumbers& wear = properties.wear.at(properties.wear_law);
+  nodes.wear_coefficient = Eigen::VectorXd::Constant(count, wear.coefficient);
+  if (contact::find_wear_law(properties.wear_law)->parameter(&contact::WearNumbers::threshold))
+    nodes.wear_threshold = Eigen::VectorXd::Constant(count, wear.threshold);
   nodes.position = Eigen::MatrixX3d::Zero(count, 3);
   nodes.position.leftCols(directions) = surface.position.transpose();
   nodes.group = surface.flank;
@@ -118,10 +118,6 @@ SharedBudget new_budget(const SolverSettings& solver, const CandidateModel& cand
   return std::make_shared<Budget>(
       solver.max_jacobians > 0 ? times * solver.max_jacobians * jacobian_operations(solver, candidate) : kInfinity,
       solver.time_limit > 0 ? times * solver.time_limit : kInfinity);
-}
-
-double worn_per_energy(const CandidateModel& candidate) {
-  return candidate.condensed->wear_law().volume_per_energy(candidate.condensed->wear_node(0));
 }
 
 void renew_budget(const SolverSettings& solver, CandidateModel& candidate) {

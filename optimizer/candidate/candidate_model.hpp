@@ -55,9 +55,6 @@ void lay_contact(const Scene& scene, const std::vector<fem::FlankCells>& flanks,
 /// Gives the candidate a new one for what is computed on it next.
 void renew_budget(const SolverSettings& solver, CandidateModel& candidate);
 
-/// Volume worn off per friction energy before anything has worn, m^3/J.
-[[nodiscard]] double worn_per_energy(const CandidateModel& candidate);
-
 /// Builds the models of many candidates on one mesh topology, that of the reference scene's geometry and
 /// mesh sizes. When the reference is a geometry that cannot be meshed, each candidate is meshed on its own
 /// topology and says so. A candidate's model depends on the reference and the candidate only. `build` may be called

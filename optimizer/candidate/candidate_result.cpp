@@ -106,6 +106,18 @@ steady::Joint joint_of(const Scene& scene, const CandidateModel& model, double p
   return joint;
 }
 
+double worn_per_energy(const CandidateResult& result, double more) {
+  const dynamics::CondensedModel& model = *result.model.condensed;
+  double most = 0;
+  for (Eigen::Index i = 0; i < model.nodes(); ++i) {
+    const contact::WearNode node = model.wear_node(i);
+    const double energy = result.unworn->state.nodes[static_cast<std::size_t>(i)].dissipated_energy;
+    const double beyond = std::max(0.0, energy - model.wear_law().resting_energy(node));
+    most = std::max(most, model.wear_law().volume_per_energy(node, beyond + more));
+  }
+  return most;
+}
+
 double drift(const CandidateResult& result) {
   return result.worn->omega / result.unworn->omega - 1.0;
 }

@@ -28,6 +28,10 @@ struct CandidateResult {
 /// evaluation has no responses, see computed.
 [[nodiscard]] CandidateResult through_stages(const Scene& scene, CandidateModel model, const Computation& how);
 
+/// Volume worn off by friction energy before anything has worn, at most, m^3/J, where a node may dissipate `more`, J,
+/// than it does.
+[[nodiscard]] double worn_per_energy(const CandidateResult& result, double more);
+
 /// By wear, relative, of a joint that came through all stages.
 [[nodiscard]] double drift(const CandidateResult& result);
 

@@ -8,7 +8,7 @@ namespace dovetail::optimizer {
 
 const Response kInitialWearRate{
     .name = "initial_wear_rate_m3_per_cycle",
-    .unit = "m^3",
+    .unit = "m^3 per cycle",
     .help = "Volume worn off per cycle while the flanks are unworn.",
     .stage = Stage::unworn,
     .value =
@@ -19,7 +19,7 @@ const Response kInitialWearRate{
     .amount = true,
     .off = [](const CandidateResult& result, const LeftOpen& open) -> std::optional<double> {
       if (!open.slip_energy) return {};
-      return worn_per_energy(result.model) * *open.slip_energy;
+      return worn_per_energy(result, *open.slip_energy) * *open.slip_energy;
     }};
 
 }  // namespace dovetail::optimizer

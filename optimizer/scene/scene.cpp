@@ -50,7 +50,11 @@ std::vector<Parameter> describe_all() {
   visit_tables(scene, [&](std::string_view section, const auto& object, auto fields) {
     if (static_cast<const void*>(&object) == &scene.geometry.flanks.front())
       for (const auto& field : fields) all.push_back(described(kAllFlanks, field));
-    for (const auto& field : fields) all.push_back(described(section, field));
+    for (const auto& field : fields) {
+      all.push_back(described(section, field));
+      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(object)>, contact::WearNumbers>)
+        all.back().wear_law = contact::law_with_parameter(field.key);
+    }
   });
   return all;
 }
@@ -175,13 +179,14 @@ std::vector<Violation> contradictions(const Scene& scene) {
   if (scene.loading.mode > scene.solver.modes)
     contradiction("scene.mode", scene.loading.mode,
                   "must be <= solver.modes = " + std::to_string(scene.solver.modes) + ", the modes kept");
-  const ContactProperties unset;
-  const auto of_energy = [&](const char* key, double value, double otherwise) {
-    if (scene.contact.wear_law != "energy" && value != otherwise)
-      contradiction(key, value, "has no meaning unless contact.wear_law = \"energy\"");
-  };
-  of_energy("contact.energy_threshold_j_per_m2", scene.contact.energy_threshold, unset.energy_threshold);
-  of_energy("contact.energy_wear_coefficient_m3_per_j", scene.contact.energy_coefficient, unset.energy_coefficient);
+  // Of the law that is used by default a file may keep the numbers beside those of another one.
+  for (const contact::WearLaw* law : contact::wear_laws().subspan(1)) {
+    const std::string name(law->name);
+    for (const contact::WearParameter& p : law->parameters)
+      if (const double value = scene.contact.wear.at(name).*p.number;
+          name != scene.contact.wear_law && value != p.standard)
+        contradiction(joined("contact", p.key), value, "has no meaning unless contact.wear_law = \"" + name + "\"");
+  }
   // Their asperities would give way by a tenth of a metre under 100 MPa.
   constexpr double kSoftest = 1e9;
   for (const auto& [key, stiffness] :

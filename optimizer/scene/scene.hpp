@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "contact/wear_law.hpp"
 #include "core/options.hpp"
 #include "fem/material.hpp"
 #include "geometry/profile/parameters.hpp"
@@ -21,15 +22,14 @@ extern const SceneKind kSection;
 /// The kind of this name; null when there is none.
 [[nodiscard]] const SceneKind* find_scene_kind(std::string_view name);
 
-/// Contact law of the flanks.
+/// Friction and wear of the flanks.
 struct ContactProperties {
-  double friction = 0.5;              ///< mu
-  double wear_coefficient = 1e-13;    ///< k_w, 1/Pa
-  std::string wear_law = "archard";   ///< archard | energy
-  double energy_coefficient = 2e-13;  ///< alpha, m^3/J
-  double normal_stiffness = 0;        ///< of the rough interface, N/m^3; 0: rigid
-  double tangential_stiffness = 0;    ///< N/m^3; 0: rigid
-  double energy_threshold = 0;        ///< J/m^2 per cycle
+  double friction = 0.5;                                     ///< mu
+  std::string wear_law{contact::wear_laws().front()->name};  ///< one of contact::wear_laws()
+  /// Of every law, by its name: a study may give those of laws that it does not use.
+  std::map<std::string, contact::WearNumbers> wear = contact::standard_wear_numbers();
+  double normal_stiffness = 0;      ///< of the rough interface, N/m^3; 0: rigid
+  double tangential_stiffness = 0;  ///< N/m^3; 0: rigid
 };
 
 /// What acts on the sector.
@@ -101,6 +101,14 @@ namespace dovetail::optimizer {
 [[nodiscard]] std::span<const Field<Loading>> scene_loading_fields();
 [[nodiscard]] std::span<const Field<Loading>> loading_fields();
 
+/// The numbers of a wear law as fields of a study file.
+[[nodiscard]] std::span<const Field<contact::WearNumbers>> wear_fields(const contact::WearLaw& law);
+
+/// The part of visit_tables on the section [contact]. The numbers of the law that is used by default stand before the
+/// choice of a law, those of the others after it.
+template <class AnyContact, class Visitor>
+void visit_contact_tables(AnyContact& contact, Visitor&& visit);
+
 /// Calls visit(section, object, fields) once for each flat struct of a scene: the dotted section of the
 /// study file it is read from, the struct (constant when the scene is) and its table. Two structs may
 /// share a section. A type that the visitor writes is the scene's from then on, if there is such a kind.
@@ -115,6 +123,12 @@ struct Parameter {
   std::string_view help;
   bool required = false;
   std::vector<std::string_view> choices;
+  const contact::WearLaw* wear_law = nullptr;  ///< the one that it is a number of; null: it counts whatever the law
+
+  /// Whether it is a number of a wear law that the scene does not use.
+  [[nodiscard]] bool left_aside(const Scene& scene) const {
+    return wear_law != nullptr && wear_law->name != scene.contact.wear_law;
+  }
 };
 
 /// Every key of a scene in the order of the study file. Flank keys appear as "geometry.KEY" (all flanks) and once for
@@ -146,6 +160,21 @@ void set_parameter(Scene& scene, std::string_view key, double value_in_file_unit
 /// harmonics need). Empty: the scene may be computed.
 [[nodiscard]] std::vector<Violation> violations(const Scene& scene);
 
+template <class AnyContact, class Visitor>
+void visit_contact_tables(AnyContact& contact, Visitor&& visit) {
+  constexpr const char* kHere = "contact";
+  const auto own = option_table<ContactProperties>();
+  const auto numbers = [&](const contact::WearLaw* law) {
+    visit(kHere, contact.wear.at(std::string(law->name)), wear_fields(*law));
+  };
+  const auto laws = contact::wear_laws();
+  visit(kHere, contact, own.first(1));
+  numbers(laws.front());
+  visit(kHere, contact, own.subspan(1, 1));
+  for (const contact::WearLaw* law : laws.subspan(1)) numbers(law);
+  visit(kHere, contact, own.subspan(2));
+}
+
 template <class AnyScene, class Visitor>
 void visit_tables(AnyScene& scene, Visitor&& visit) {
   SceneType type = type_of(scene);
@@ -161,7 +190,7 @@ void visit_tables(AnyScene& scene, Visitor&& visit) {
   visit("limits", scene.limits, option_table<geometry::FeasibilityLimits>());
   visit("material.blade", scene.blade, option_table<fem::Material>());
   visit("material.disk", scene.disk, option_table<fem::Material>());
-  visit("contact", scene.contact, option_table<ContactProperties>());
+  visit_contact_tables(scene.contact, visit);
   visit("loading", scene.loading, loading_fields());
   visit("mesh", scene.mesh, option_table<geometry::MeshSizes>());
   visit("mesh", scene.solid_mesh, option_table<geometry::SolidSizes>());

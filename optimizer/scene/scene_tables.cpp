@@ -2,9 +2,18 @@
 #include "optimizer/scene/scene_kind.hpp"
 
 #include <array>
+#include <map>
 #include <numbers>
 
 namespace dovetail {
+
+/// What a study file may choose from.
+template <class Kind>
+static std::vector<std::string_view> names_of(std::span<const Kind* const> kinds) {
+  std::vector<std::string_view> names;
+  for (const Kind* kind : kinds) names.push_back(kind->name);
+  return names;
+}
 
 template <>
 std::span<const Field<fem::Material>> option_table<fem::Material>() {
@@ -29,27 +38,18 @@ constexpr Range kInterface{.lower = 0, .upper = 1e20};
 template <>
 std::span<const Field<optimizer::ContactProperties>> option_table<optimizer::ContactProperties>() {
   using C = optimizer::ContactProperties;
-  static const std::array<Field<C>, 7> table{
+  static const std::string laws = [] {
+    std::string text;
+    for (const contact::WearLaw* law : contact::wear_laws())
+      text += (text.empty() ? "" : "; ") + std::string(law->name) + ": " + std::string(law->meaning);
+    return text;
+  }();
+  static const std::array<Field<C>, 4> table{
       Field<C>{.key = "friction",
                .member = &C::friction,
                .range = {.lower = 0, .upper = 2},
                .help = "Coulomb coefficient of friction of the flanks"},
-      Field<C>{.key = "wear_coefficient_per_pa",
-               .member = &C::wear_coefficient,
-               .range = {.lower = 0, .upper = 1e-6},
-               .help = "Archard's k_w: wear depth per pressure and slipped distance"},
-      Field<C>{.key = "wear_law",
-               .member = &C::wear_law,
-               .help = "archard: depth by pressure and slipped distance; energy: volume by dissipated energy",
-               .choices = {"archard", "energy"}},
-      Field<C>{.key = "energy_wear_coefficient_m3_per_j",
-               .member = &C::energy_coefficient,
-               .range = {.lower = 0, .upper = 1e-6},
-               .help = "of the law energy: volume per energy dissipated beyond the threshold"},
-      Field<C>{.key = "energy_threshold_j_per_m2",
-               .member = &C::energy_threshold,
-               .range = kNonNegative,
-               .help = "of the law energy: dissipated per cycle and area without wear"},
+      Field<C>{.key = "wear_law", .member = &C::wear_law, .help = laws, .choices = names_of(contact::wear_laws())},
       Field<C>{.key = "normal_stiffness_n_per_m3",
                .member = &C::normal_stiffness,
                .range = kInterface,
@@ -148,18 +148,29 @@ std::span<const Field<optimizer::SceneType>> option_table<optimizer::SceneType>(
       text += (text.find(';') == text.npos ? "; " : ", ") + std::string(kind->name) + ": " + std::string(kind->meaning);
     return text;
   }();
-  static const std::array<Field<S>, 1> table{
-      Field<S>{.key = "type", .member = &S::type, .help = help, .required = true, .choices = [] {
-                 std::vector<std::string_view> names;
-                 for (const optimizer::SceneKind* kind : optimizer::scene_kinds()) names.push_back(kind->name);
-                 return names;
-               }()}};
+  static const std::array<Field<S>, 1> table{Field<S>{.key = "type",
+                                                      .member = &S::type,
+                                                      .help = help,
+                                                      .required = true,
+                                                      .choices = names_of(optimizer::scene_kinds())}};
   return table;
 }
 
 }  // namespace dovetail
 
 namespace dovetail::optimizer {
+
+std::span<const Field<contact::WearNumbers>> wear_fields(const contact::WearLaw& law) {
+  using Fields = std::vector<Field<contact::WearNumbers>>;
+  static const std::map<std::string_view, Fields> tables = [] {
+    std::map<std::string_view, Fields> fields;
+    for (const contact::WearLaw* of : contact::wear_laws())
+      for (const contact::WearParameter& p : of->parameters)
+        fields[of->name].emplace_back(p.key, p.number, 1.0, p.range, p.help);
+    return fields;
+  }();
+  return tables.at(law.name);
+}
 
 std::span<const SceneKind* const> scene_kinds() {
   static constexpr std::array kKinds{&kSection, &kSector};

@@ -74,6 +74,7 @@ report::RunRecord record_of(const Study& study, OptimizationResult result, const
   report::RunRecord record = report::record_run(study.problem, study.optimizer, result);
   record.name = study.name;
   record.title = study.title;
+  record.wear_law = study.scene.contact.wear_law;
   record.seconds = seconds;
   record.provenance.program_version = version();
   record.provenance.study_file = study.file;

@@ -13,6 +13,7 @@
 #include "studies/program/engine/truncation_choice.hpp"
 #include "studies/program/engine/wear_quality.hpp"
 #include "studies/program/study_file/refusal.hpp"
+#include "wear/measures.hpp"
 
 namespace dovetail::studies {
 namespace {
@@ -99,8 +100,7 @@ int verdict(const std::string& input, const WearAnswer& answer, const Streams& s
 WearOptions with_choices(WearOptions options, const LoadedModel& loaded) {
   if (!options.follow) options.follow = drive_of(loaded.follow);
   if (options.integrator) return options;
-  const Eigen::VectorXd& threshold = loaded.model.contact.wear_threshold;
-  const bool rests_in_slip = threshold.size() > 0 && threshold.maxCoeff() > 0;
+  const bool rests_in_slip = loaded.joint.model && wear::rests_in_slip(*loaded.joint.model);
   options.integrator = rests_in_slip && options.follow != Drive::resonance && !options.increment_m
                            ? wear::IntegratorKind::implicit_steps
                            : wear::IntegratorKind::explicit_jumps;

@@ -22,7 +22,7 @@ namespace dovetail::studies {
 ///     area = 1e-6                     # m^2; one number is that of all nodes
 ///     gap = [0.0, -1e-6]
 ///     friction = 0.5
-///     wear_coefficient = 1e-13
+///     wear_coefficient = 1e-13        # in the unit of wear_law, which is Archard's unless given
 ///
 ///     [[force]]
 ///     dof = 9

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "contact/wear_law.hpp"
 #include "core/options.hpp"
 #include "core/replace_file.hpp"
 #include "reduction/matrix_market.hpp"
@@ -65,7 +66,10 @@ std::string rows(const Matrix& matrix, const Entry& entry) {
 
 std::string contact_section(const reduction::ContactNodes& contact) {
   const auto whole = [](int value) { return std::to_string(value); };
-  std::string text = "\n# One entry for each contact node. Dofs count from 0; m, m^2, 1/Pa.\n[contact]\n";
+  std::string text = "\n# One entry for each contact node. Dofs count from 0; m, m^2";
+  for (const contact::WearParameter& of_law : contact::find_wear_law(contact.wear_law)->parameters)
+    text += ", " + std::string(of_law.unit);
+  text += ".\n[contact]\n";
   text += "normal = " + rows(contact.normal, whole) + "\n";
   text += "tangential = " + rows(contact.tangential, whole) + "\n";
   text += "area = " + numbers(contact.area) + "\n";

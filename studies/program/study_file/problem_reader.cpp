@@ -6,6 +6,11 @@
 #include "optimizer/responses/response_table.hpp"
 
 namespace dovetail::studies {
+
+std::string left_aside_words(const optimizer::Scene& scene) {
+  return "changes nothing with contact.wear_law = \"" + scene.contact.wear_law + "\"";
+}
+
 namespace {
 
 using optimizer::DesignVariable;
@@ -108,11 +113,6 @@ void start_from_value(DesignVariable& variable, bool overridden, const Node& nod
                          " and upper = " + shortest(variable.upper) + ", or give the variable a start");
 }
 
-/// Whether a key belongs to the wear law that the study does not use.
-bool of_another_law(const std::string& key, const std::string& law) {
-  return law == "energy" ? key == "contact.wear_coefficient_per_pa" : key.starts_with("contact.energy_");
-}
-
 std::vector<DesignVariable> read_variables(SectionReader& root, const optimizer::Scene& scene, Problems& problems) {
   std::vector<DesignVariable> variables;
   for (const auto& [node, path] : entries(root, "variable", problems)) {
@@ -126,9 +126,7 @@ std::vector<DesignVariable> read_variables(SectionReader& root, const optimizer:
     const std::optional<double> start = section.number("start", range);
     section.finish();
     if (!parameter) continue;
-    if (of_another_law(*key, scene.contact.wear_law))
-      problems.add(*node->find("key"), section.path("key"),
-                   "changes nothing with contact.wear_law = \"" + scene.contact.wear_law + "\"");
+    if (parameter->left_aside(scene)) problems.add(*node->find("key"), section.path("key"), left_aside_words(scene));
     for (const DesignVariable& other : variables)
       if (overlap(other.key, *key))
         problems.add(*node->find("key"), section.path("key"),

@@ -1,10 +1,15 @@
 #pragma once
 
+#include <string>
+
 #include "optimizer/problem/problem.hpp"
 #include "optimizer/scene/scene.hpp"
 #include "studies/program/study_file/section_reader.hpp"
 
 namespace dovetail::studies {
+
+/// What is said of a number of a wear law that the scene does not use.
+[[nodiscard]] std::string left_aside_words(const optimizer::Scene& scene);
 
 /// Reads [[variable]], [[objective]] and [[constraint]]. `scene` gives the start of a variable that names none. What is
 /// wrong goes to `problems`; the result is meaningful only when nothing was.

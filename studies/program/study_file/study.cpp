@@ -117,11 +117,13 @@ void report_contradictions(const Document& document, const optimizer::Scene& sce
     else
       problems.missing(section, found.key, "= " + found.value + " by default " + found.allowed);
   }
-  // A file may keep the coefficient of the law it does not use; who gives one on the command line expects it to count.
-  constexpr const char* kOfArchard = "contact.wear_coefficient_per_pa";
-  const Node* coefficient = document.root.at(kOfArchard);
-  if (scene.contact.wear_law == "energy" && coefficient && !coefficient->origin.empty())
-    problems.add(*coefficient, kOfArchard, "changes nothing with contact.wear_law = \"energy\"");
+  // A file may keep the numbers of the law that is used by default; who gives one on the command line expects it to
+  // count.
+  for (const optimizer::Parameter& p : optimizer::scene_parameters()) {
+    if (p.wear_law != contact::wear_laws().front() || !p.left_aside(scene)) continue;
+    const Node* given = document.root.at(p.key);
+    if (given && !given->origin.empty()) problems.add(*given, p.key, left_aside_words(scene));
+  }
 }
 
 }  // namespace
@@ -162,6 +164,14 @@ std::string physics_text(const optimizer::Scene& scene) {
   std::string text = "scene.type = " + std::string(scene.kind->name) +
                      "\nsolver.solver = " + std::string(to_string(scene.solver.solver)) + "\n";
   for (const auto& [key, value] : optimizer::parameters(scene)) text += key + " = " + shortest(value) + "\n";
+  // Other texts where they are not what they are by default: runs from before a text was there can be resumed.
+  optimizer::visit_tables(
+      scene, [&]<class S>(std::string_view section, const S& object, std::span<const Field<S>> table) {
+        if constexpr (!std::is_same_v<S, optimizer::SceneType> && !std::is_same_v<S, optimizer::SolverSettings>)
+          for (const Field<S>& field : table)
+            if (const auto word = text_in(object, field); word && word != text_in(S{}, field))
+              text += std::string(section) + "." + std::string(field.key) + " = " + *word + "\n";
+      });
   return text;
 }
 

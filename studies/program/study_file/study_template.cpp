@@ -82,7 +82,10 @@ std::string scene_sections() {
   text += lines(scene.blade, option_table<fem::Material>());
   text += "\n[material.disk]\n" + lines(scene.disk, option_table<fem::Material>(), "# ");
   text += header("contact", "Friction and wear on the flanks.");
-  text += lines(scene.contact, option_table<optimizer::ContactProperties>());
+  optimizer::visit_contact_tables(scene.contact,
+                                  [&]<class S>(std::string_view, const S& object, std::span<const Field<S>> fields) {
+                                    text += lines(object, fields);
+                                  });
   text += header("loading", "What excites the blade, besides the rotation.");
   text += lines(scene.loading, optimizer::loading_fields());
   text += header("mesh", "Sizes of the finite elements.");
@@ -147,12 +150,10 @@ std::string capitalised(std::string_view help) {
 }
 
 std::string unit_of_key(std::string_view key) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 13> endings{{{"_m3_per_j", "m^3/J"},
-                                                                                          {"_j_per_m2", "J/m^2"},
-                                                                                          {"_n_per_m3", "N/m^3"},
+  if (const contact::WearParameter* wear = contact::find_wear_parameter(key)) return std::string(wear->unit);
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 10> endings{{{"_n_per_m3", "N/m^3"},
                                                                                           {"_kg_m3", "kg/m^3"},
                                                                                           {"_n_per_m", "N/m"},
-                                                                                          {"_per_pa", "1/Pa"},
                                                                                           {"_gpa", "GPa"},
                                                                                           {"_rpm", "1/min"},
                                                                                           {"_deg", "degrees"},

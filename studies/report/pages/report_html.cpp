@@ -97,7 +97,7 @@ void add_search(const RunRecord& record, Blanks& blanks) {
 }  // namespace
 
 std::string report_html(const RunRecord& record) {
-  Blanks blanks{{"provenance", provenance_section(record)}};
+  Blanks blanks{{"provenance", provenance_section(record)}, {"wear", wear_words(record)}};
   add_opening(record, blanks);
   add_designs(designs_of(record), blanks);
   add_verification(record, blanks);

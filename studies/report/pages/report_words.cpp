@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "contact/wear_law.hpp"
 #include "optimizer/responses/response_table.hpp"
 
 namespace dovetail::report {
@@ -108,10 +109,16 @@ Unit response_unit(const std::string& name, double largest) {
   const optimizer::Response* known = optimizer::find_response(name);
   std::string si = known ? std::string(known->unit) : si_unit_of(name);
   if (!name.ends_with("_per_cycle")) return readable_unit(si, largest);
-  if (const std::size_t slash = si.find('/'); slash != std::string::npos) si.resize(slash);
+  si.resize(std::min(si.size(), si.find(" per cycle")));
   Unit unit = readable_unit(si, largest);
   unit.symbol += "/cycle";
   return unit;
+}
+
+std::string wear_words(const RunRecord& record) {
+  const contact::WearLaw* law =
+      record.wear_law.empty() ? contact::wear_laws().front() : contact::find_wear_law(record.wear_law);
+  return law ? std::string(law->title) : "wear by the law " + record.wear_law;
 }
 
 std::string objective_words(const optimizer::Problem& problem) {

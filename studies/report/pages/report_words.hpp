@@ -42,6 +42,9 @@ struct ObjectiveScale {
 /// How the run ended, and how many candidates it saw.
 [[nodiscard]] std::string ending(const RunRecord& record);
 
+/// The wear law in a sentence, as "Archard wear".
+[[nodiscard]] std::string wear_words(const RunRecord& record);
+
 /// "lower" or "upper" when the value is at that bound, else empty.
 [[nodiscard]] std::string at_bound(const optimizer::DesignVariable& variable, double value);
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "contact/wear_law.hpp"
 #include "geometry/profile/parameters.hpp"
 
 namespace dovetail::report {
@@ -86,6 +87,24 @@ std::string true_minus(std::string text) {
   return text;
 }
 
+/// A unit as people write it: m^3 with a superscript.
+std::string typeset(std::string_view unit) {
+  std::string text(unit);
+  for (const auto& [power, written] : {std::pair{"^2", "\u00b2"}, std::pair{"^3", "\u00b3"}})
+    for (std::size_t at = text.find(power); at != text.npos; at = text.find(power)) text.replace(at, 2, written);
+  return text;
+}
+
+/// A key of the study file without the unit that it ends with, and that unit. What a wear law is given in is in its
+/// table, and its key may end with a unit that is in no list.
+std::pair<std::string_view, std::string> named(std::string_view key) {
+  const auto [name, unit] = split(key, kKeyEndings);
+  const contact::WearParameter* wear = contact::find_wear_parameter(key.substr(key.rfind('.') + 1));
+  if (wear == nullptr) return {name, std::string(unit)};
+  const std::string own = typeset(wear->unit);
+  return {own == unit ? name : key, own};
+}
+
 std::string superscript(int exponent) {
   constexpr std::array<std::string_view, 10> kDigits{"\u2070", "\u00b9", "\u00b2", "\u00b3", "\u2074",
                                                      "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
@@ -121,11 +140,11 @@ std::string si_unit_of(std::string_view name) {
 }
 
 std::string key_unit(std::string_view key) {
-  return std::string(split(key, kKeyEndings).second);
+  return named(key).second;
 }
 
 std::string key_words(std::string_view key) {
-  const std::string_view name = split(key, kKeyEndings).first;
+  const std::string_view name = named(key).first;
   std::string side;
   for (const geometry::FlankPlace& place : geometry::kFlanks)
     if (name.starts_with("geometry." + std::string(place.name) + ".")) side = ", " + std::string(place.name);

@@ -207,6 +207,7 @@ inline constexpr auto kFields<Provenance> = std::tuple{RecordField{"library", &P
 template <>
 inline constexpr auto kFields<RunRecord> = std::tuple{RecordField{"name", &RunRecord::name},
                                                       RecordField{"title", &RunRecord::title},
+                                                      RecordField{"wear_law", &RunRecord::wear_law, true},
                                                       RecordField{"status", &RunRecord::status},
                                                       RecordField{"message", &RunRecord::message},
                                                       RecordField{"seconds", &RunRecord::seconds},

@@ -77,6 +77,9 @@ class Archive {
   [[nodiscard]] static std::string in(const std::string& group, const std::string& name) {
     return name.empty() ? group : group + "/" + name;
   }
+  [[nodiscard]] bool has_attribute(const std::string& group, const std::string& name) const {
+    return file_.has_attribute(group.empty() ? "/" : group, name);
+  }
   template <class R, class Field>
   void exchange_field(const std::string& group, R& record, const Field& field) {
     const std::string path = in(group, field.name);
@@ -84,7 +87,7 @@ class Archive {
       const std::size_t columns = table(path, record.*field.member, out_ ? field.columns(record) : 0);
       if ((record.*field.member).empty() || columns == field.columns(record)) return;
       refuse(path, {}, "must have " + std::to_string(field.columns(record)) + " columns");
-    } else if (out_ || !field.later || file_.exists(path)) {
+    } else if (out_ || !field.later || file_.exists(path) || has_attribute(group, field.name)) {
       exchange(group, field.name, record.*field.member);
     }
   }

@@ -164,6 +164,7 @@ struct RunRecord {
   std::vector<VerificationRecord> verifications;  ///< of the best designs, best first
   std::vector<FinerRecord> finer;                 ///< in the order asked for; the best design is among the last
   Provenance provenance;
+  std::string wear_law;  ///< its name; empty in older records: the law that is used by default
 };
 
 /// The part of a record that follows from the run alone: problem, evaluations, best, baseline (the start), status,

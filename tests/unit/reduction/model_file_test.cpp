@@ -270,6 +270,47 @@ TEST_F(ModelFile, RefusesWrongValues) {
   EXPECT_THAT(refusal(), HasSubstr("/contact/normal[3] = 1099511627776"));
 }
 
+TEST_F(ModelFile, KeepsTheWearLaw) {
+  for (const contact::WearLaw* law : contact::wear_laws()) {
+    SCOPED_TRACE(law->name);
+    model_.contact.wear_law = law->name;
+    const bool threshold = law->parameter(&contact::WearNumbers::threshold);
+    model_.contact.wear_threshold = Eigen::VectorXd::LinSpaced(threshold ? 4 : 0, 1.0 / 3, 7);
+    write_model(path_, model_);
+    const ReducedModel read = read_model(path_);
+    EXPECT_EQ(read.contact.wear_law, law->name);
+    EXPECT_EQ(read.contact.wear_threshold, model_.contact.wear_threshold);
+  }
+}
+
+TEST_F(ModelFile, RefusesAThresholdThatTheLawDoesNotHave) {
+  const auto threshold = [](hdf5::File& f) { f.write("/contact/wear_threshold", std::vector<double>(4, 3.0)); };
+  write_with({}, threshold);
+  const std::string refused = ": /contact/wear_threshold: has no meaning unless wear_law = \"energy\"";
+  EXPECT_EQ(refusal(), path_ + refused);
+  write_with({}, [&](hdf5::File& f) {
+    threshold(f);
+    f.write("/contact/wear_law", std::vector<std::string>{"archard"});
+  });
+  EXPECT_EQ(refusal(), path_ + refused);
+  write_with({}, [&](hdf5::File& f) {
+    threshold(f);
+    f.write("/contact/wear_law", std::vector<std::string>{"energy"});
+  });
+  EXPECT_EQ(refusal(), "");
+  model_.contact.wear_threshold = Eigen::VectorXd::Zero(4);
+  EXPECT_THROW(write_model(path_, model_), InputError);
+}
+
+TEST_F(ModelFile, RefusesAWearLawThatThereIsNot) {
+  const auto law = [&](const std::vector<std::string>& names) {
+    write_with({}, [&](hdf5::File& f) { f.write("/contact/wear_law", names); });
+    return refusal();
+  };
+  EXPECT_THAT(law({"gravity"}), HasSubstr("model.h5: /contact/wear_law = gravity: must be one of archard energy"));
+  EXPECT_EQ(law({"archard", "energy"}), path_ + ": /contact/wear_law = 2 texts: must be one text");
+}
+
 TEST_F(ModelFile, RefusesAPathThatCannotBeWritten) {
   EXPECT_THROW(write_model((folder_ / "absent" / "model.h5").string(), model_), InputError);
   EXPECT_THROW(write_model(folder_.string(), model_), InputError);

@@ -52,14 +52,16 @@ TEST(BestFile, ColumnsCountCodePoints) {
 TEST(BestFile, InlineTablesAreWrittenAnew) {
   std::string text = study_template("sample");
   text = without(text, "[contact]");
-  for (const Field<optimizer::ContactProperties>& field : option_table<optimizer::ContactProperties>())
-    text = without(text, std::string(field.key));
+  const optimizer::Scene scene;
+  optimizer::visit_contact_tables(scene.contact, [&](std::string_view, const auto&, auto fields) {
+    for (const auto& field : fields) text = without(text, std::string(field.key));
+  });
   text = replaced(text, "title = \"sample\"\n", "title = \"sample\"\ncontact = { friction = 0.4 }\n");
   text += "[[variable]]\nkey = \"contact.wear_coefficient_per_pa\"\nlower = 1e-14\nupper = 1e-12\n";
   const std::string best =
       with_values(parse_document(text, "s.toml"), {{"contact.wear_coefficient_per_pa", 1.2345678901234567e-13}});
   const Study study = read_study(parse_document(best, "best.toml"));
-  EXPECT_EQ(study.scene.contact.wear_coefficient, 1.2345678901234567e-13);
+  EXPECT_EQ(study.scene.contact.wear.at("archard").coefficient, 1.2345678901234567e-13);
   EXPECT_EQ(study.scene.contact.friction, 0.4);
 }
 

@@ -116,6 +116,14 @@ class ModelFiles(unittest.TestCase):
         both = self.response(slider(), 1.0, 1.0, 1, "--pseudo-penalty", 5, "--pseudo-penalty-normal", 7)
         self.assertEqual(both["settings"]["pseudo_penalty_n_per_m"], {"normal": [7.0], "tangential": [5.0]})
 
+    def test_a_threshold_of_a_law_without_one_is_refused(self):
+        data = {**slider(), "/contact/wear_threshold": np.array([3.0])}
+        for command in (("wear", self.model, "--method", "asymptote", "--frequency", 1),
+                        ("import", self.model, "-o", "again.h5"), ()):
+            self.assertIn('model.h5: /contact/wear_threshold: has no meaning unless wear_law = "energy"',
+                          self.refusal(data, *command))
+        self.response({**data, "/contact/wear_law": ["energy"]}, 1.0, 1.0, 1)
+
     def test_a_quasi_static_cycle_is_the_hysteresis_loop_at_any_frequency(self):
         # k u + lambda = F cos, |lambda| <= R: for F > R, u runs to +-(F - R)/k and friction takes 4 R (F - R)/k.
         stiffness, limit, force = 2.0, 0.3, 1.0

@@ -168,6 +168,10 @@ TEST_F(ModelToml, RefusesEachFlawWithItsLine) {
   EXPECT_THAT(refusal("friction = 0.5", "friction = [true]"),
               HasSubstr("contact.friction[0] = true: must be a number"));
   EXPECT_THAT(refusal("friction = 0.5", "frction = 0.5"), HasSubstr("did you mean contact.friction?"));
+  EXPECT_THAT(refusal("friction = 0.5", "friction = 0.5\nwear_law = \"gravity\""),
+              HasSubstr("contact.wear_law = \"gravity\": must be one of archard energy"));
+  EXPECT_THAT(refusal("friction = 0.5", "friction = 0.5\nwear_threshold = 3"),
+              HasSubstr("contact.wear_threshold: has no meaning unless wear_law = \"energy\""));
   EXPECT_THAT(refusal("dof = 1\n", "dof = 3\n"), HasSubstr(":14: force[0].dof = 3: must be a dof from 0 to 2"));
   EXPECT_THAT(refusal("harmonic = 0\n", ""), HasSubstr("force[0].harmonic: is missing"));
   EXPECT_THAT(refusal("harmonic = 0\ncosine", "harmonic = 0\nsine"), HasSubstr("has no sine; give cosine"));
@@ -180,6 +184,19 @@ TEST_F(ModelToml, RefusesEachFlawWithItsLine) {
               HasSubstr("output[1].factors: must be as many as dofs, 2"));
   EXPECT_THAT(refusal("dofs = [0, 2]", "dofs = [0, 0]"), HasSubstr("must not name a dof twice"));
   EXPECT_THAT(refusal("[contact]", "[contacts]"), HasSubstr("contact.normal: is missing"));
+}
+
+TEST_F(ModelToml, SaysTheUnitsOfItsWearLaw) {
+  reduction::ReducedModel model = reading(kByHand);
+  const auto units = [&] {
+    write_model_document(path("units.toml"), model, "");
+    const std::string text = load_document(path("units.toml")).text, start = "Dofs count from 0; ";
+    const std::size_t begin = text.find(start) + start.size();
+    return text.substr(begin, text.find('\n', begin) - begin);
+  };
+  EXPECT_EQ(units(), "m, m^2, 1/Pa.");
+  model.contact.wear_law = "energy";
+  EXPECT_EQ(units(), "m, m^2, m^3/J, J/m^2.");
 }
 
 TEST_F(ModelToml, IsWrittenOnlyWhereItsMatricesCanStandBesideIt) {

@@ -86,6 +86,16 @@ TEST(Report, EscapesWhatTheStudySays) {
   EXPECT_THAT(page, HasSubstr("The post is too thin &amp; &lt;breaks&gt;."));
 }
 
+TEST(Report, NamesTheWearLawAmongTheLimitsOfTheModel) {
+  RunRecord record = sample_record();
+  record.wear_law = "";
+  EXPECT_THAT(report_html(record), HasSubstr("Coulomb friction and Archard wear have constant coefficients"));
+  record.wear_law = "energy";
+  EXPECT_THAT(report_html(record), HasSubstr("Coulomb friction and wear by dissipated energy have constant"));
+  record.wear_law = "of a later <version>";
+  EXPECT_THAT(report_html(record), HasSubstr("friction and wear by the law of a later &lt;version&gt; have constant"));
+}
+
 TEST(Report, SaysWhatChangedAndWhatHoldsTheBest) {
   const RunRecord record = sample_record();
   // 0.8 to 0.1 mm3, error bars 2 % of each: 0.7 / 0.018 = 39 times their sum.

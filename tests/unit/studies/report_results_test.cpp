@@ -185,8 +185,8 @@ void expect_same(const VerificationRecord& a, const VerificationRecord& b) {
   EXPECT_TRUE(all_same(a27, b27));
 }
 void expect_same(const RunRecord& a, const RunRecord& b) {
-  const auto& [a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15] = a;
-  const auto& [b1, b2, b3, b4, b5, b6, b7, b8, b9, b10, b11, b12, b13, b14, b15] = b;
+  const auto& [a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15, a16] = a;
+  const auto& [b1, b2, b3, b4, b5, b6, b7, b8, b9, b10, b11, b12, b13, b14, b15, b16] = b;
   EXPECT_TRUE(a1 == b1 && a2 == b2 && a3 == b3 && a4 == b4);
   EXPECT_TRUE(same(a5, b5));
   EXPECT_TRUE(all_same(a6.space.variables(), b6.space.variables()));
@@ -210,6 +210,7 @@ void expect_same(const RunRecord& a, const RunRecord& b) {
     EXPECT_TRUE(all_same(a14[i].constraints, b14[i].constraints));
   }
   expect_same(a15, b15);
+  EXPECT_EQ(a16, b16);
 }
 
 TEST_F(ResultsFile, ReadsBackEveryBit) {

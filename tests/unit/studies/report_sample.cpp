@@ -98,6 +98,7 @@ RunRecord sample_record() {
   RunRecord record;
   record.name = "sample";
   record.title = "A sample & its <limits>";
+  record.wear_law = "energy";
   record.status = "iteration_limit";
   record.message = "the budget of 4 evaluations is used up";
   record.seconds = 12.5;

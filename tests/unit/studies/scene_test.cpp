@@ -54,6 +54,26 @@ TEST(Scene, FrictionIsThatOfTheSelfLockingRuleToo) {
   EXPECT_EQ(scene.limits.friction, 0.3);
 }
 
+TEST(Scene, NumbersOfAWearLawCountWithThatLawAlone) {
+  for (const contact::WearLaw* law : contact::wear_laws())
+    for (const contact::WearParameter& wear : law->parameters) {
+      SCOPED_TRACE(wear.key);
+      const std::string key = "contact." + std::string(wear.key);
+      const Parameter* parameter = find_parameter(key);
+      ASSERT_NE(parameter, nullptr);
+      EXPECT_EQ(parameter->wear_law, law);
+      Scene scene;
+      set_parameter(scene, key, 2 * wear.standard + 1e-7);
+      EXPECT_EQ(scene.contact.wear.at(std::string(law->name)).*wear.number, 2 * wear.standard + 1e-7);
+      for (const contact::WearLaw* used : contact::wear_laws()) {
+        scene.contact.wear_law = used->name;
+        EXPECT_EQ(parameter->left_aside(scene), used != law);
+        // A file may keep the numbers of the law that is used by default.
+        EXPECT_EQ(violations(scene).empty(), used == law || law == contact::wear_laws().front());
+      }
+    }
+}
+
 TEST(Scene, WrongKeysAndKindsAreRefused) {
   Scene scene;
   const auto refusal = [&](const char* key, double value) -> std::string {

@@ -130,7 +130,9 @@ TEST(Study, AThresholdNeedsTheLawThatHasOne) {
   const std::string threshold = replaced(sample(), "energy_threshold_j_per_m2 = 0", "energy_threshold_j_per_m2 = 3");
   EXPECT_THAT(complaints(threshold),
               HasSubstr("contact.energy_threshold_j_per_m2 = 3: has no meaning unless contact.wear_law = \"energy\""));
-  EXPECT_EQ(read(replaced(threshold, "wear_law = \"archard\"", "wear_law = \"energy\"")).scene.contact.energy_threshold,
+  EXPECT_EQ(read(replaced(threshold, "wear_law = \"archard\"", "wear_law = \"energy\""))
+                .scene.contact.wear.at("energy")
+                .threshold,
             3);
 }
 
@@ -204,6 +206,17 @@ TEST(Study, ASectorHasKeysOfItsOwnAndASectionMayCarryThem) {
     EXPECT_THAT(physics_text(study.scene), HasSubstr(std::string("scene.type = ") + type + "\n"));
     EXPECT_THAT(physics_text(study.scene), HasSubstr("geometry.stagger_deg = 30\n"));
   }
+}
+
+// A run is resumed with its own wear law and its own way of following the resonance alone.
+TEST(Study, ModesOtherThanTheDefaultOnesAreItsPhysics) {
+  const Study plain = read(sample());
+  optimizer::Scene scene = plain.scene;
+  EXPECT_THAT(physics_text(scene), Not(AnyOf(HasSubstr("wear_law"), HasSubstr("follow"))));
+  scene.contact.wear_law = "energy";
+  scene.loading.follow = wear::Follow::resonance;
+  EXPECT_THAT(physics_text(scene),
+              AllOf(HasSubstr("contact.wear_law = energy\n"), HasSubstr("loading.follow = resonance\n")));
 }
 
 TEST(Study, AContactGridFinerThanTheMeshIsRefused) {

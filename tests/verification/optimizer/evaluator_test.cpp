@@ -290,14 +290,14 @@ TEST(SectionEvaluation, NodesOfAConfirmingHistoryAreInTheBar) {
 TEST(SectionEvaluation, WearsByEnergyAsByArchardAndLessBeyondAThreshold) {
   Scene scene = coarse_scene();
   scene.contact.wear_law = "energy";
-  scene.contact.energy_coefficient = scene.contact.wear_coefficient / scene.contact.friction;
+  scene.contact.wear.at("energy").coefficient = scene.contact.wear.at("archard").coefficient / scene.contact.friction;
   const Purpose without_bars{.bars = false};
   const Evaluation energy = evaluator().evaluate(scene, without_bars).evaluation;
   ASSERT_TRUE(energy.converged()) << energy.status;
   const auto volume = [](const Evaluation& evaluation) { return evaluation.responses.at("asymptotic_wear_volume_m3"); };
   EXPECT_NEAR(volume(energy), volume(baseline().evaluation), 1e-6 * volume(energy));
   // Where nodes rest in slip no release of nodes finds the end: a search asks the history, too.
-  scene.contact.energy_threshold = 10;
+  scene.contact.wear.at("energy").threshold = 10;
   const Evaluation less = evaluator().evaluate(scene, without_bars).evaluation;
   const Evaluation searched = evaluator().evaluate(scene, kSearch).evaluation;
   ASSERT_TRUE(less.converged()) << less.status;

@@ -151,7 +151,7 @@ TEST(HardDesigns, TheBarOfTheWornAmplitudeReachesToTheOtherState) {
 TEST(HardDesigns, TheDirectStateIsNoBarUnderAnEnergyThreshold) {
   optimizer::Scene scene = load_study(QUICKSTART, {}).scene;
   scene.contact.wear_law = "energy";
-  scene.contact.energy_threshold = 100;
+  scene.contact.wear.at("energy").threshold = 100;
   const optimizer::Evaluation evaluation = optimizer::SceneEvaluator(scene).evaluate(scene, {.bars = true}).evaluation;
   ASSERT_TRUE(evaluation.converged()) << evaluation.status;
   const double volume = evaluation.responses.at("asymptotic_wear_volume_m3");

@@ -81,8 +81,8 @@ TEST(WhereWearComesToRest, IsTheSameWhereTheHistoryEndsANodeApart) {
 TEST(WhereWearComesToRest, KeepsOtherStatesAlongResonances) {
   const LoadedModel loaded = load_model(QUICKSTART, {"contact.normal_stiffness_n_per_m3=1e14"}, {});
   WearOptions options;
-  options.method = "asymptote";
-  options.follow = "resonance";
+  options.method = WearMethod::asymptote;
+  options.follow = Drive::resonance;
   const WearAnswer answer = wear_answer(options, loaded, wear_start(options, loaded), {});
   ASSERT_TRUE(answer.worn_out());
   const wear::Asymptote& worn = *answer.asymptote;
