@@ -28,7 +28,7 @@ const Results& quick_results() {
   return results;
 }
 
-const Sweep& sweep(const Diagram& diagram, const std::string& key) {
+const Sweep& sweep(const Diagram& diagram, SweepKey key) {
   return *std::ranges::find(diagram.sweeps, key, &Sweep::key);
 }
 
@@ -51,16 +51,16 @@ std::size_t occurrences(const std::string& text, const std::string& of) {
 TEST(SpeedVsError, ReferencesAgreeBetterThanFewHarmonicsErr) {
   for (const Diagram& diagram : quick_results().diagrams) {
     ASSERT_TRUE(diagram.reference.run.converged() && diagram.reference.check.converged()) << diagram.key;
-    const Point& at = sweep(diagram, "harmonics").lines[0].points.front();
+    const Point& at = sweep(diagram, SweepKey::harmonics).lines[0].points.front();
     // Energy, the quantity that converges slowest.
     EXPECT_LT(diagram.reference.agreement[1], at.error[1]) << diagram.key;
   }
 }
 
 TEST(SpeedVsError, ErrorsFallWithHarmonicsAndMesh) {
-  const std::vector<Point>& harmonics = sweep(quick_results().diagrams[0], "harmonics").lines[0].points;
+  const std::vector<Point>& harmonics = sweep(quick_results().diagrams[0], SweepKey::harmonics).lines[0].points;
   for (std::size_t q = 0; q < 3; ++q) EXPECT_LT(harmonics.back().error[q], harmonics.front().error[q]) << q;
-  const std::vector<Point>& mesh = sweep(quick_results().diagrams[1], "mesh").lines[0].points;
+  const std::vector<Point>& mesh = sweep(quick_results().diagrams[1], SweepKey::mesh).lines[0].points;
   EXPECT_LT(mesh.back().error[0], mesh.front().error[0]);
 }
 
@@ -69,7 +69,7 @@ TEST(SpeedVsError, EverySweepOverItsSettingHoldsTheDefault) {
     for (const Sweep& one : diagram.sweeps) {
       bool found = false;
       for (const Line& line : one.lines) found = found || std::ranges::any_of(line.points, &Point::is_default);
-      EXPECT_TRUE(found) << diagram.key << " " << one.key;
+      EXPECT_TRUE(found) << diagram.key << " " << to_string(one.key);
       EXPECT_NE(verdict(one, kGoal).find("Default"), std::string::npos) << verdict(one, kGoal);
     }
 }
