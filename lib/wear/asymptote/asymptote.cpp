@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "wear/asymptote/signs_of_doubt.hpp"
@@ -52,6 +53,7 @@ class WornStateSearch {
         model_(*joint.model),
         options_(options),
         watcher_(watcher),
+        omega_(omega),
         wearing_(joint, omega, watcher),
         passes_(joint.model->nodes()) {}
 
@@ -145,17 +147,32 @@ class WornStateSearch {
 
   /// The other order of release, and nodes that hardly stick.
   void look_further() {
-    const SlowRelease slow = release_slowly(wearing_, result_.unworn, threshold_, options_.passes);
+    WearingJoint looking(closer(), omega_, watcher_);
+    look_with(looking);
+    wearing_.count(looking.solves(), looking.jacobians());
+  }
+
+  void look_with(WearingJoint& looking) {
+    const SlowRelease slow = release_slowly(looking, result_.unworn, threshold_, options_.passes);
     const bool elsewhere = !same_depth(slow.depth, result_.depth, options_.state_tolerance);
     if (slow.settled && elsewhere)
       result_.other_states.push_back(other_state(FoundBy::worst_first, contact(), slow.depth));
     if (doubt() != Doubt::none) return;
     if (!slow.settled || elsewhere || reloads(slow.deepest, slow.depth, options_.state_tolerance))
       result_.doubt = Doubt::worst_first;
-    else if (slips_on_the_way(wearing_, result_.unworn, result_.depth, passes_.released))
+    else if (slips_on_the_way(looking, result_.unworn, result_.depth, passes_.released))
       result_.doubt = Doubt::on_the_way;
     else if (near_slip(model_, result_.steady, passes_.released))
       result_.doubt = Doubt::near_slip;
+  }
+
+  /// The joint on the budget of the closer look and of the history.
+  [[nodiscard]] const steady::Joint& closer() {
+    if (!closer_) {
+      closer_ = joint_;
+      if (options_.history_budget) closer_->options.budget = options_.history_budget(closer_->options);
+    }
+    return *closer_;
   }
 
   [[nodiscard]] bool history_decides() const {
@@ -170,9 +187,8 @@ class WornStateSearch {
     options.tolerance = options_.history_tolerance;
     options.rate_fraction = options_.relative_threshold;
     options.rate_threshold = rates_.none;
-    steady::Joint joint = joint_;
-    if (options_.history_budget) joint.options.budget = options_.history_budget(joint.options);
-    const History past = history(joint, {.omega = result_.unworn.omega, .unworn = &result_.unworn}, options, watcher_);
+    const History past =
+        history(closer(), {.omega = result_.unworn.omega, .unworn = &result_.unworn}, options, watcher_);
     wearing_.count(past.solves, past.jacobians);
     const bool certified = settled_ && rests();
     if (past.end != HistoryEnd::worn_out && past.end != HistoryEnd::steady_rate) return keep_direct(past, certified);
@@ -230,6 +246,8 @@ class WornStateSearch {
   const dynamics::CondensedModel& model_;
   const AsymptoteOptions& options_;
   const Watcher& watcher_;
+  double omega_;
+  std::optional<steady::Joint> closer_;
   WearingJoint wearing_;
   Passes passes_;
   Rates rates_;
@@ -239,18 +257,6 @@ class WornStateSearch {
 };
 
 }  // namespace
-
-std::string_view to_string(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::asymptote:
-      return "asymptote";
-    case Verdict::no_asymptote:
-      return "no_asymptote";
-    case Verdict::not_converged:
-      return "not_converged";
-  }
-  return "unknown";
-}
 
 OtherState other_state(FoundBy found_by, const reduction::ContactNodes& contact, const VectorXd& depth) {
   return {.found_by = found_by,

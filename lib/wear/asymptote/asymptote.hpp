@@ -26,7 +26,14 @@ enum class Verdict {
   no_asymptote,   ///< wear goes on for ever at the rates in `rate`
   not_converged,  ///< not known; `status` says what failed
 };
-[[nodiscard]] std::string_view to_string(Verdict verdict);
+constexpr EnumNames<Verdict, 3> enum_names(Verdict) {
+  return {{{Verdict::asymptote, "asymptote"},
+           {Verdict::no_asymptote, "no_asymptote"},
+           {Verdict::not_converged, "not_converged"}}};
+}
+[[nodiscard]] constexpr std::string_view to_string(Verdict verdict) {
+  return name_of(verdict);
+}
 
 /// Whether the implicit history has the last word.
 enum class Arbitration {
@@ -69,7 +76,7 @@ struct AsymptoteOptions {
   // Check the certificate at 2H+1 harmonics and 2N samples, too. Above its limit there the worn state rests at these
   // settings only: `doubt` says so.
   bool certify_finer = true;
-  // A budget of its own for each history, at the settings given; empty: that of the joint.
+  // A budget of its own, at the settings given, for what tells of doubt and the history; empty: that of the joint.
   std::function<SharedBudget(const steady::Options&)> history_budget = {};
 };
 

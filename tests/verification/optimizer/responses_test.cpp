@@ -24,6 +24,7 @@ TEST(Responses, HaveANameAUnitASentenceAndOrders) {
     if (!response.unit.empty()) {
       std::string unit(response.unit);
       std::erase(unit, '^');
+      std::ranges::replace(unit, ' ', '_');
       std::ranges::transform(unit, unit.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
       EXPECT_NE(response.name.find("_" + unit), std::string_view::npos);
     }
