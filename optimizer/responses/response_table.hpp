@@ -1,7 +1,7 @@
 #pragma once
 
 #include <array>
-#include <ranges>
+#include <boost/range/adaptor/indirected.hpp>
 #include <string_view>
 
 #include "optimizer/responses/response.hpp"
@@ -23,7 +23,7 @@ inline constexpr std::array kResponses{&kWornVolume,    &kWornDepth,          &k
 
 /// The same to go through. An evaluation may leave some out, never add others.
 [[nodiscard]] inline auto responses() {
-  return std::views::transform(kResponses, [](const Response* each) -> const Response& { return *each; });
+  return boost::adaptors::indirect(kResponses);
 }
 
 /// The entry of that name, or nullptr.
