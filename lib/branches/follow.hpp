@@ -12,15 +12,17 @@ namespace dovetail::branches {
 /// static part included, by the size of their vibration, so the steps adapt to a resonance of any width; see ArcMetric.
 struct FollowOptions {
   double largest_parameter_step = 0.05;  ///< between points, fraction of the interval followed, (0, 1]
-  double largest_change = 0.3;           ///< of outputs between points, relative, > 0; of the contact far more
-  double largest_turn = 0.5;             ///< between the tangents of neighbouring points, rad, > 0
-  double initial_step = 0.02;            ///< first step, arc length, > 0
-  double smallest_step = 1e-8;           ///< arc length at which the branch is given up, > 0
-  double smallest_turn = 1e-3;           ///< reversal of the parameter that counts, fraction of the interval, [0, 1]
-  int max_corrections = 12;              ///< Jacobians per point tried, >= 2
-  int max_points = 2000;                 ///< >= 2
-  int max_jacobians = 0;                 ///< of everything, rejected steps included; 0: no limit
-  bool locate_turns = true;              ///< put a point on every turning point of the parameter
+  /// Of outputs between points, relative, > 0. The contact may change by FollowParams::creep times that: its static
+  /// part may creep while nothing else changes.
+  double largest_change = 0.3;
+  double largest_turn = 0.5;    ///< between the tangents of neighbouring points, rad, > 0
+  double initial_step = 0.02;   ///< first step, arc length, > 0
+  double smallest_step = 1e-8;  ///< arc length at which the branch is given up, > 0
+  double smallest_turn = 1e-3;  ///< reversal of the parameter that counts, fraction of the interval, [0, 1]
+  int max_corrections = 12;     ///< Jacobians per point tried, >= 2
+  int max_points = 2000;        ///< >= 2
+  int max_jacobians = 0;        ///< of everything, rejected steps included; 0: no limit
+  bool locate_turns = true;     ///< put a point on every turning point of the parameter
 };
 
 /// Where a branch begins, where it leads, and the other end by which it may leave when it comes back: `from` and `to`

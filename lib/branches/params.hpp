@@ -66,6 +66,7 @@ static_assert(BorderedParams{}.exact < BorderedParams{}.usable, "refinement aims
 static_assert(FollowParams{}.short_step < FollowParams{}.place, "a short step reaches no new place");
 static_assert(FollowParams{}.longest_cut < FollowParams{}.safety, "a step that changed too much comes back shorter");
 static_assert(FollowParams{}.safety * FollowParams{}.tolerated >= 1, "a tolerated step need not shrink twice");
+static_assert(FollowParams{}.creep >= 1, "the contact may change at least as much as outputs");
 static_assert(CorrectorParams{}.straight < FollowParams{}.bent, "straight on is not bent at once");
 
 }  // namespace dovetail::branches
