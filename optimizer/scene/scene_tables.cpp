@@ -118,8 +118,7 @@ std::span<const Field<optimizer::SolverSettings>> option_table<optimizer::Solver
                .member = &S::solver,
                .help = "algorithm for the nonlinear equations; auto: Newton, then other pseudo-penalties and "
                        "neighbouring problems where it fails; powell: hybrid Powell with the exact Jacobian; "
-                       "powell_fd: with finite "
-                       "differences, for comparison"},
+                       "powell_fd: with finite differences, for comparison"},
       Field<S>{.key = "pseudo_penalty_n_per_m",
                .member = &S::pseudo_penalty,
                .range = kNonNegative,
@@ -165,8 +164,10 @@ std::span<const Field<contact::WearNumbers>> wear_fields(const contact::WearLaw&
   static const std::map<std::string_view, Fields> tables = [] {
     std::map<std::string_view, Fields> fields;
     for (const contact::WearLaw* of : contact::wear_laws())
-      for (const contact::WearParameter& p : of->parameters)
-        fields[of->name].emplace_back(p.key, p.number, 1.0, p.range, p.help);
+      for (const contact::WearParameter& p : of->parameters) {
+        const Field<contact::WearNumbers> field{.key = p.key, .member = p.number, .range = p.range, .help = p.help};
+        fields[of->name].push_back(field);
+      }
     return fields;
   }();
   return tables.at(law.name);
