@@ -4,11 +4,11 @@
 #include <cassert>
 #include <cmath>
 
-#include "dynamics/contact_model_check.hpp"
 #include "dynamics/params.hpp"
 #include "numerics/dense_product.hpp"
 #include "numerics/dense_symmetric.hpp"
 #include "reduction/contact_order.hpp"
+#include "reduction/validation.hpp"
 
 namespace dovetail::dynamics {
 namespace {
@@ -29,7 +29,7 @@ bool is_diagonal(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& scale, do
 }  // namespace
 
 CondensedModel::CondensedModel(const reduction::ReducedModel& model) {
-  check(model);
+  if (std::vector<Violation> found = violations(model); !found.empty()) throw InputError(std::move(found));
   n_ = model.size();
   contact_ = model.contact;
   wear_law_ = contact::find_wear_law(contact_.wear_law);
@@ -58,11 +58,12 @@ CondensedModel::CondensedModel(const reduction::ReducedModel& model) {
                       (mass_.ci.size() == 0 || mass_.ci.cwiseAbs().maxCoeff() <= rounding);
   diagonalise();
 
-  const Eigen::Index harmonics = std::max(model.cosine_force.rows(), model.sine_force.rows());
-  Eigen::MatrixXcd force = Eigen::MatrixXcd::Zero(n_, harmonics + 1);
+  Eigen::MatrixXcd force = Eigen::MatrixXcd::Zero(n_, model.cosine_force.rows() + 1);
   force.col(0).real() = model.static_force;
-  for (Eigen::Index j = 0; j < model.cosine_force.rows(); ++j) force.col(j + 1).real() = model.cosine_force.row(j);
-  for (Eigen::Index j = 0; j < model.sine_force.rows(); ++j) force.col(j + 1).imag() = -model.sine_force.row(j);
+  for (Eigen::Index j = 0; j < model.cosine_force.rows(); ++j) {
+    force.col(j + 1).real() = model.cosine_force.row(j);
+    force.col(j + 1).imag() = -model.sine_force.row(j);
+  }
   force_contact_ = force(contact_dofs_, Eigen::all);
   const Eigen::MatrixXcd on_internal = force(internal_dofs_, Eigen::all);
   force_internal_.resize(basis_.cols(), on_internal.cols());

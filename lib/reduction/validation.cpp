@@ -166,15 +166,14 @@ std::vector<Violation> violations(const ReducedModel& model) {
   check_contact(model.contact, n, checks);
   if (checks.sized("/force/static", model.static_force.size(), n, "[n]"))
     checks.finite("/force/static", model.static_force);
-  if (checks.sized("/force/cosine", model.cosine_force.rows(), model.cosine_force.cols(), model.cosine_force.rows(), n,
-                   "[H_f,n]"))
-    checks.finite("/force/cosine", model.cosine_force);
-  if (checks.sized("/force/sine", model.sine_force.rows(), model.sine_force.cols(), model.cosine_force.rows(), n,
-                   "[H_f,n], as many harmonics as /force/cosine"))
-    checks.finite("/force/sine", model.sine_force);
-  if (checks.sized("/output/vectors", model.output_vectors.rows(), model.output_vectors.cols(),
-                   model.output_vectors.rows(), n, "[n_out,n]"))
-    checks.finite("/output/vectors", model.output_vectors);
+  const auto lists = [&](const std::string& key, const Eigen::MatrixXd& rows, Eigen::Index count,
+                         const std::string& meaning) {
+    if (rows.rows() == 0 && count == 0) return;  // none, however wide
+    if (checks.sized(key, rows.rows(), rows.cols(), count, n, meaning)) checks.finite(key, rows);
+  };
+  lists("/force/cosine", model.cosine_force, model.cosine_force.rows(), "[H_f,n]");
+  lists("/force/sine", model.sine_force, model.cosine_force.rows(), "[H_f,n], as many harmonics as /force/cosine");
+  lists("/output/vectors", model.output_vectors, model.output_vectors.rows(), "[n_out,n]");
   check_names(model.output_names, model.output_vectors.rows(), checks);
   return checks.found;
 }

@@ -1,7 +1,6 @@
 #include "stability/stability.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -81,11 +80,6 @@ Pass pass(const reduction::ReducedModel& model, const steady::Tangent& tangent, 
 }
 
 }  // namespace
-
-std::string_view to_string(StabilityVerdict verdict) {
-  constexpr std::array<std::string_view, 5> kNames{"stable", "unstable", "marginal", "not_meaningful", "undetermined"};
-  return kNames[static_cast<std::size_t>(verdict)];
-}
 
 Stability local_stability(const reduction::ReducedModel& model, const steady::State& state,
                           const StabilityOptions& options) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/enum_names.hpp"
 #include "core/options.hpp"
 #include "reduction/reduced_model.hpp"
 #include "steady/state.hpp"
@@ -24,7 +25,16 @@ enum class StabilityVerdict {
   undetermined,    ///< defined, but not computed: see the reason
 };
 
-[[nodiscard]] std::string_view to_string(StabilityVerdict verdict);
+constexpr EnumNames<StabilityVerdict, 5> enum_names(StabilityVerdict) {
+  return {{{StabilityVerdict::stable, "stable"},
+           {StabilityVerdict::unstable, "unstable"},
+           {StabilityVerdict::marginal, "marginal"},
+           {StabilityVerdict::not_meaningful, "not_meaningful"},
+           {StabilityVerdict::undetermined, "undetermined"}}};
+}
+[[nodiscard]] constexpr std::string_view to_string(StabilityVerdict verdict) {
+  return name_of(verdict);
+}
 
 /// Local (Floquet) stability of one periodic solution. Numbers are only filled with stable, unstable and marginal.
 struct Stability {

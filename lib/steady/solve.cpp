@@ -1,7 +1,6 @@
 #include "steady/solve.hpp"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <utility>
 
@@ -63,12 +62,6 @@ struct Scaled {
 };
 
 }  // namespace
-
-std::string_view to_string(Way way) {
-  constexpr std::array<std::string_view, 7> kNames{"guess",   "closed",         "other_penalty", "harmonics",
-                                                   "damping", "softer_damping", "none"};
-  return kNames[static_cast<std::size_t>(way)];
-}
 
 Attempt solve(const std::shared_ptr<const Problem>& problem, const Eigen::MatrixXd& start, Method method,
               int max_iterations, const std::shared_ptr<const Tangent>& reuse) {

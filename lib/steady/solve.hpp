@@ -4,6 +4,7 @@
 #include <memory>
 #include <string_view>
 
+#include "core/enum_names.hpp"
 #include "steady/tangent.hpp"
 
 namespace dovetail::steady {
@@ -20,7 +21,18 @@ enum class Way {
   softer_damping,  ///< the same with a tenth of eps
   none,
 };
-[[nodiscard]] std::string_view to_string(Way way);
+constexpr EnumNames<Way, 7> enum_names(Way) {
+  return {{{Way::guess, "guess"},
+           {Way::closed, "closed"},
+           {Way::other_penalty, "other_penalty"},
+           {Way::harmonics, "harmonics"},
+           {Way::damping, "damping"},
+           {Way::softer_damping, "softer_damping"},
+           {Way::none, "none"}}};
+}
+[[nodiscard]] constexpr std::string_view to_string(Way way) {
+  return name_of(way);
+}
 
 /// What solving took.
 struct Work {

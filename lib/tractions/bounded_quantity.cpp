@@ -1,7 +1,6 @@
 #include "tractions/bounded_quantity.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "paths/amplitude.hpp"
@@ -56,11 +55,6 @@ double FamilyQuantity::value(const steady::State& member) const {
 Eigen::MatrixXd FamilyQuantity::gradient(const steady::State& member) const {
   if (quantity_ == BoundedQuantity::amplitude) return amplitude_to_slip_origin(member, output_);
   return slip_to_slip_origin(member, weights(member));
-}
-
-std::string_view to_string(BoundedQuantity quantity) {
-  constexpr std::array<std::string_view, 3> kNames{"amplitude", "friction_energy", "wear_rate"};
-  return kNames[static_cast<std::size_t>(quantity)];
 }
 
 }  // namespace dovetail::tractions

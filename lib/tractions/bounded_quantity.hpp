@@ -4,6 +4,7 @@
 #include <memory>
 #include <string_view>
 
+#include "core/enum_names.hpp"
 #include "steady/state.hpp"
 #include "tractions/slip_origin_sensitivity.hpp"
 
@@ -16,7 +17,14 @@ enum class BoundedQuantity {
   wear_rate,        ///< sum over nodes of area times depth per cycle, m^3
 };
 
-[[nodiscard]] std::string_view to_string(BoundedQuantity quantity);
+constexpr EnumNames<BoundedQuantity, 3> enum_names(BoundedQuantity) {
+  return {{{BoundedQuantity::amplitude, "amplitude"},
+           {BoundedQuantity::friction_energy, "friction_energy"},
+           {BoundedQuantity::wear_rate, "wear_rate"}}};
+}
+[[nodiscard]] constexpr std::string_view to_string(BoundedQuantity quantity) {
+  return name_of(quantity);
+}
 
 /// One quantity of the family of steady states over the slip origins: how a member is solved for, its value and
 /// d value / d X_T. Counts the solves.

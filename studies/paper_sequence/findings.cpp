@@ -237,18 +237,6 @@ Finding grows(const Results& r) {
 
 }  // namespace
 
-const char* to_string(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::holds:
-      return "holds";
-    case Verdict::partly:
-      return "holds in part";
-    case Verdict::fails:
-      return "does not hold";
-  }
-  return "unknown";
-}
-
 Largest largest_of(const Numbers& values) {
   Largest most;
   for (std::size_t i = 0; i < values.size(); ++i)

@@ -1,14 +1,21 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "core/enum_names.hpp"
 #include "studies/paper_sequence/results.hpp"
 
 namespace dovetail::paper_sequence {
 
 enum class Verdict { holds, partly, fails };
-[[nodiscard]] const char* to_string(Verdict verdict);
+constexpr EnumNames<Verdict, 3> enum_names(Verdict) {
+  return {{{Verdict::holds, "holds"}, {Verdict::partly, "holds in part"}, {Verdict::fails, "does not hold"}}};
+}
+[[nodiscard]] constexpr std::string_view to_string(Verdict verdict) {
+  return name_of(verdict);
+}
 
 /// One finding of the reference beside what the scene gives.
 struct Finding {

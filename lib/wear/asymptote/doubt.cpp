@@ -42,18 +42,4 @@ std::string_view to_string(Doubt doubt) {
   return entry(doubt).name;
 }
 
-std::string_view to_string(FoundBy way) {
-  switch (way) {
-    case FoundBy::release:
-      return "release";
-    case FoundBy::worst_first:
-      return "worst_first";
-    case FoundBy::history:
-      return "history";
-    case FoundBy::finer_history:
-      return "finer_history";
-  }
-  return "unknown";
-}
-
 }  // namespace dovetail::wear

@@ -2,6 +2,8 @@
 
 #include <string_view>
 
+#include "core/enum_names.hpp"
+
 namespace dovetail::wear {
 
 /// Why the direct answer may not be where wear ends, in the order in which it is looked for.
@@ -42,6 +44,14 @@ enum class FoundBy {
   history,        ///< step by step
   finer_history,  ///< the same with more harmonics and samples
 };
-[[nodiscard]] std::string_view to_string(FoundBy way);
+constexpr EnumNames<FoundBy, 4> enum_names(FoundBy) {
+  return {{{FoundBy::release, "release"},
+           {FoundBy::worst_first, "worst_first"},
+           {FoundBy::history, "history"},
+           {FoundBy::finer_history, "finer_history"}}};
+}
+[[nodiscard]] constexpr std::string_view to_string(FoundBy way) {
+  return name_of(way);
+}
 
 }  // namespace dovetail::wear

@@ -217,24 +217,6 @@ double Course::error_scale(const VectorXd& depth) const {
   return std::max(memory.penetration, (depth - first_depth).maxCoeff());
 }
 
-std::string_view to_string(HistoryEnd end) {
-  switch (end) {
-    case HistoryEnd::worn_out:
-      return "worn_out";
-    case HistoryEnd::steady_rate:
-      return "steady_rate";
-    case HistoryEnd::cycles:
-      return "cycles";
-    case HistoryEnd::steps:
-      return "steps";
-    case HistoryEnd::failed:
-      return "failed";
-    case HistoryEnd::interrupted:
-      return "interrupted";
-  }
-  return "unknown";
-}
-
 History history(const steady::Joint& joint, const HistoryStart& start, const HistoryOptions& options,
                 const Watcher& watcher) {
   std::vector<Violation> wrong = violations(options, "history");

@@ -64,7 +64,17 @@ enum class HistoryEnd {
   failed,       ///< no step could be solved however short
   interrupted,
 };
-[[nodiscard]] std::string_view to_string(HistoryEnd end);
+constexpr EnumNames<HistoryEnd, 6> enum_names(HistoryEnd) {
+  return {{{HistoryEnd::worn_out, "worn_out"},
+           {HistoryEnd::steady_rate, "steady_rate"},
+           {HistoryEnd::cycles, "cycles"},
+           {HistoryEnd::steps, "steps"},
+           {HistoryEnd::failed, "failed"},
+           {HistoryEnd::interrupted, "interrupted"}}};
+}
+[[nodiscard]] constexpr std::string_view to_string(HistoryEnd end) {
+  return name_of(end);
+}
 
 /// What a history carries from step to step besides its states: with it a resumed one goes on as if never stopped.
 struct StepMemory {

@@ -111,8 +111,11 @@ TEST(CondensedModel, ReportsEverythingWrong) {
     dynamics::CondensedModel condensed(model);
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_EQ(error.violations().size(), 3u);
+    EXPECT_EQ(error.violations().size(), 3u) << error.what();
   }
+  model = random_model(3, 1, false);
+  model.stiffness(0, 1) += 1;  // the engine would see half of it
+  EXPECT_THROW(dynamics::CondensedModel{model}, InputError);
 }
 
 TEST(Extremes, FindsTheLargestOfSeveral) {

@@ -24,7 +24,8 @@ inline reduction::ReducedModel random_model(Eigen::Index nodes, Eigen::Index tan
   if (general_damping) model.damping(0, 0) += 0.7;
   model.static_force = Eigen::VectorXd::Zero(n);
   model.cosine_force = Eigen::MatrixXd::NullaryExpr(2, n, draw);
-  model.sine_force = Eigen::MatrixXd::NullaryExpr(1, n, draw);
+  model.sine_force = Eigen::MatrixXd::Zero(2, n);
+  model.sine_force.row(0) = Eigen::RowVectorXd::NullaryExpr(n, draw);
   model.contact.normal.resize(nodes);
   model.contact.tangential.resize(nodes, tangential);
   for (Eigen::Index i = 0; i < nodes; ++i) {
