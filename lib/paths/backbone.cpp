@@ -75,25 +75,22 @@ class Tracker {
     const bool known = point.status == Status::converged;
     const double middle = known ? point.omega : near;
     const double low = middle * (1 - backbone_.check_range), high = middle * (1 + backbone_.check_range);
-    // Downwards, upwards when the start is not found there, and far out when there is no peak to be held against.
-    std::vector<std::pair<double, double>> ways{{high, low}, {low, high}};
-    if (!known && backbone_.search) ways.emplace_back(kParams.far * high, low / kParams.far);
     const steady::Joint joint = family_(point.parameter);
-    Resonance swept;
-    for (const auto& [from, to] : ways) {
-      Resonance found = peak_sweep(joint, from, to, backbone_.resonance);
-      point.checking += found.jacobians;
-      if (found.status == Status::converged && (swept.status != Status::converged || found.unresolved == 0))
-        swept = std::move(found);
-      if (swept.status == Status::converged && swept.unresolved == 0) break;
+    Resonance swept = peak_sweep(joint, low, high, backbone_.resonance);
+    point.checking += swept.jacobians;
+    // Where there is no peak to be held against, far out as well.
+    if (swept.status != Status::converged && !known && backbone_.search) {
+      swept = peak_sweep(joint, low / kParams.far, kParams.far * high, backbone_.resonance);
+      point.checking += swept.jacobians;
     }
     if (swept.status != Status::converged) return;
-    const double level = 1 + noise_of_peaks(joint.options);
     // What stands as high as the highest point of the branch has been held against all of it.
-    point.checked = swept.unresolved <= level * std::max(swept.amplitude, known ? point.amplitude : 0.0);
-    if (known && swept.amplitude <= level * point.amplitude) return;
+    const double noise = 1 + noise_of_peaks(joint.options);
+    point.checked = swept.unresolved <= noise * std::max(swept.amplitude, known ? point.amplitude : 0.0);
+    if (known && swept.amplitude <= (1 + kParams.same) * point.amplitude) return;
+    point.jumped = !known || swept.amplitude > noise * point.amplitude;
     point.status = Status::converged;
-    point.searched = point.jumped = true;
+    point.searched = true;
     adopt(std::move(swept), point);
     // Elsewhere the range contains others.
     if (rounds > 1 && std::abs(point.omega / middle - 1) > kParams.moved) check(point, point.omega, rounds - 1);
@@ -127,7 +124,6 @@ class Tracker {
     keep({.parameter = point.parameter, .point = {.displacement = point.state.displacement, .parameter = point.omega}});
     last_state_ = point.state;
     last_state_.tangent.reset();
-    curvature_ = kParams.linear;
     width_ = amplitude_slope(point.state, backbone_.resonance.output).width;
     if (!keeps_tangents_) point.state.tangent.reset();
   }
@@ -139,7 +135,7 @@ class Tracker {
                            .frequency_tolerance = backbone_.resonance.frequency_tolerance,
                            .max_iterations = backbone_.max_iterations};
     const branches::Vector start = predicted(parameter);
-    const Peak found = find_peak(branch, start, metric, peak, curvature_);
+    const Peak found = find_peak(branch, start, metric, peak);
     BackbonePoint point{.parameter = parameter,
                         .status = found.status,
                         .omega = found.at.parameter,
@@ -159,8 +155,6 @@ class Tracker {
     keep({.parameter = parameter, .point = found.at});
     last_state_ = point.state;
     last_state_.tangent.reset();
-    // The next metric has the width found here as its unit, in which the curvature of a peak hardly varies.
-    curvature_ = found.curvature;
     width_ = std::clamp(found.width, kParams.narrower * width_, kParams.wider * width_);
     return point;
   }
@@ -190,7 +184,7 @@ class Tracker {
   std::vector<Support> supports_;
   steady::State last_state_;
   bool keeps_tangents_ = true;
-  double penalty_ratio_ = 1, curvature_ = kParams.linear, width_ = 0, omega_start_ = 0;
+  double penalty_ratio_ = 1, width_ = 0, omega_start_ = 0;
 };
 
 }  // namespace

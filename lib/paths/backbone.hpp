@@ -37,7 +37,8 @@ struct BackbonePoint {
   bool searched = false;  ///< found by resonance() or by the check instead of Newton on (U, omega)
   /// Not the peak followed from the point before (or next to omega_start), which was lost or lower than this one.
   bool jumped = false;
-  /// Held against the branch in check_range, which holds no higher point. False: a maximum, perhaps not the largest.
+  /// Held against the branch in check_range, of which no hump is higher by more than 1 / samples. False: a maximum,
+  /// perhaps not the largest.
   bool checked = false;
   int intermediate = 0;  ///< points between the one before and this that were needed and not reported
   int jacobians = 0;     ///< of this point and its intermediate ones
@@ -57,9 +58,10 @@ struct Backbone {
 /// that of the first point, or of the last jump.
 ///
 /// A maximum that is followed can become a side maximum, since contact that slips or opens adds peaks: each point is
-/// held against the highest on the branch of its parameter, followed coarsely through `check_range` (some thirty to
-/// a hundred solves), and replaced by that when it is higher by more than 1 / samples. The points do then not depend on
-/// the way they were reached in, as long as the ranges contain the peak. Where there are modes closer than check_range
+/// held against the highest on the branch of its parameter, followed coarsely through `check_range` (some fifty to
+/// two hundred solves), and replaced by that when it is higher. The points do then not depend on the way they were
+/// reached in, as long as the ranges contain the peak, but for humps between the points of the coarse branch that are
+/// higher by up to 1 / samples. Where there are modes closer than check_range
 /// the answer is the largest of their peaks; with a check_range of 0 it is the one followed.
 ///
 /// A parameter that fails has its status, and the next one starts from the last that did not.

@@ -24,6 +24,10 @@ struct StationarityParams {
   /// Where a bracket is not halved: factor of a step that is meant to pass the maximum, and the part of the bracket
   /// below which a step counts as clinging to one end. Factor 1: one end stays for ever.
   double overshoot = 3, one_sided = 0.1;
+  double part = 0.2;  ///< of the tolerance, which the last step may take
+  /// Length, over the tolerance, of a step that looks for the other side of a jump of the slope, and how much longer
+  /// the next is when it was none: below 1 the bracket that it makes is narrow enough.
+  double probe = 0.9, farther = 3;
 };
 
 /// Newton's method on (U, s) for a peak. Lengths are in the metric of the branch: 1 is a change of the vibration by its
@@ -40,8 +44,10 @@ struct PeakParams {
   double turned = 0.2;      ///< cosine between branch and reference below which a search is begun anew
   int shortenings = 4;      ///< of a step whose end is not found,
   double shortening = 0.3;  ///< by this factor
-  double flat = 1e-4;       ///< last step along the branch at the maximum
-  double part = 0.2;        ///< of the frequency tolerance, which the last step may take
+  /// Second derivative of ln A with the arc length at the peak of a linear system: of theory, -1 over the width squared
+  /// in frequency, along which the vibration changes as fast.
+  double linear = -0.5;
+  double flat = 5e-4;  ///< how well the place on the branch is known, even where the frequency hardly moves
 };
 
 /// Steps in frequency towards a peak.
@@ -49,7 +55,6 @@ struct ClosingInParams {
   double longest = 0.05;        ///< step over frequency: longer ones reach the peaks of other modes
   double near = 0.5;            ///< step over half width from which on slopes are bracketed,
   double trust = 4;             ///< and the longest step from then on, in half widths
-  double part = 0.2;            ///< of the frequency tolerance, which the last step may take
   int hard = 12;                ///< Jacobians: a step within one branch takes fewer
   int cautious = 3, tries = 5;  ///< halvings of a step by Newton's method alone, and with all rescues
   int off_pole = 4;  ///< tries beside a start at an undamped pole of the glued joint, by turns on both sides,
@@ -70,25 +75,25 @@ struct ClimbParams {
 /// Peaks of a coarse sweep.
 struct PeakSweepParams {
   /// What counts is that no peak is stepped over, and the change of the outputs sees to that.
-  branches::FollowOptions steps{.largest_parameter_step = 0.02,
+  branches::FollowOptions steps{.largest_parameter_step = 0.01,
                                 .largest_change = 0.5,
                                 .largest_turn = 0.8,
                                 .max_points = 1000,
                                 .locate_turns = false};
   std::size_t tried =
-      3;  ///< summits that are climbed: one of coarse steps may be lower than the peak beside it is high
+      6;  ///< summits that are climbed: one of coarse steps may be lower than the peak beside it is high
   double hopeless = 0.8;  ///< of the highest peak found: lower summits are not climbed
 };
 
 /// Following a peak over a parameter.
 struct BackboneParams {
   std::size_t supports = 3;  ///< points of the predictor: more make it swing where the peak jumps
+  double same = 1e-6;        ///< difference of height within which two searches have ended on one maximum
   double elsewhere = 0.5;    ///< change of frequency beyond which the peak is another one
   double moved = 0.05;       ///< change of frequency by the check after which it is made once more
   int rounds = 3;            ///< of it at most
   double far = 2;            ///< how far out it looks where there is no peak to be held against, over its range
   double narrower = 0.1, wider = 10;  ///< change of the width from one point to the next
-  double linear = -0.5;               ///< curvature of a linear peak in its metric: of theory
 };
 
 /// Sweeps in frequency.
@@ -119,7 +124,8 @@ struct WayParams {
 static_assert(PeakParams{}.short_step <= PeakParams{}.trust && PeakParams{}.trust < PeakParams{}.away,
               "short steps are within the longest, which stays on the branch");
 static_assert(PeakParams{}.near < PeakParams{}.away, "a point that Newton takes as it is belongs to the branch");
-static_assert(PeakParams{}.part < 1 && ClosingInParams{}.part < 1, "the last step is within the tolerance");
+static_assert(StationarityParams{}.part < StationarityParams{}.probe && StationarityParams{}.probe < 1,
+              "the last step is within the tolerance, and so is the bracket that a longer one makes");
 static_assert(StationarityParams{}.overshoot * StationarityParams{}.one_sided < 0.5,
               "a step that overshoots stays nearer to its end than a bisection");
 static_assert(ClosingInParams{}.cautious < ClosingInParams{}.tries, "more tries where rescues help");

@@ -22,18 +22,25 @@ struct Local {
   bool on_branch = false;
 };
 
-Local linearised(const branches::Equations& branch, const branches::Vector& at, const branches::Vector& along,
-                 const branches::ArcMetric& metric, Eigen::Index output) {
+// The point of the equations there; null where they cannot be set up.
+std::shared_ptr<steady::Point> evaluated(const branches::Equations& branch, const branches::Vector& at) {
+  const std::shared_ptr<const steady::Problem> problem = branch.at(at.parameter);
+  if (!problem) return {};
+  auto point = std::make_shared<steady::Point>();
+  steady::evaluate(problem, at.displacement, *point);
+  return point;
+}
+
+Local linearised(const branches::Equations& branch, const branches::Vector& at, std::shared_ptr<steady::Point> point,
+                 const branches::Vector& along, const branches::ArcMetric& metric, Eigen::Index output) {
   Local local;
   local.at = at;
+  local.point = std::move(point);
+  if (!local.point) return local;
   if (spent(branch.options().budget)) {
     local.status = Status::budget_spent;
     return local;
   }
-  const std::shared_ptr<const steady::Problem> problem = branch.at(at.parameter);
-  if (!problem) return local;
-  local.point = std::make_shared<steady::Point>();
-  steady::evaluate(problem, at.displacement, *local.point);
   const double error = local.point->error();
   local.status = Status::not_finite;
   if (!std::isfinite(error)) return local;
@@ -65,9 +72,8 @@ namespace {
 
 class PeakNewton {
  public:
-  PeakNewton(const branches::Equations& branch, const branches::ArcMetric& metric, const PeakOptions& options,
-             double curvature)
-      : branch_(branch), metric_(metric), options_(options), stationarity_(curvature, kParams.trust) {}
+  PeakNewton(const branches::Equations& branch, const branches::ArcMetric& metric, const PeakOptions& options)
+      : branch_(branch), metric_(metric), options_(options), stationarity_(kParams.linear, kParams.trust) {}
 
   Peak run(const branches::Vector& start) {
     peak_.at = start_ = start;
@@ -94,10 +100,14 @@ class PeakNewton {
   };
 
   // Linearises at a point; false when that fails or the branch is further away than `nearest`.
-  bool look(const branches::Vector& point, const branches::Vector& along, double nearest) {
-    Local found = linearised(branch_, point, along, metric_, options_.output);
-    ++peak_.iterations;
+  bool look(const branches::Vector& at, const branches::Vector& along, double nearest) {
     ++peak_.evaluations;
+    return look(at, evaluated(branch_, at), along, nearest);
+  }
+  bool look(const branches::Vector& at, std::shared_ptr<steady::Point> point, const branches::Vector& along,
+            double nearest) {
+    Local found = linearised(branch_, at, std::move(point), along, metric_, options_.output);
+    ++peak_.iterations;
     peak_.status = found.status;
     if (found.status != Status::converged || !(found.on_branch || found.distance <= nearest)) return false;
     here_ = std::move(found);
@@ -106,7 +116,7 @@ class PeakNewton {
 
   // The point of the branch in the plane through `from` across `row`; false when the corrector fails.
   bool correct(const branches::Vector& from, const branches::Vector& row) {
-    const branches::Equations::Correction found = branch_.correct(from, row, metric_, kParams.corrections);
+    branches::Equations::Correction found = branch_.correct(from, row, metric_, kParams.corrections);
     peak_.iterations += found.iterations;
     peak_.evaluations += found.evaluations;
     peak_.status = found.status;
@@ -114,7 +124,7 @@ class PeakNewton {
     // Another branch is no place to look for this peak.
     peak_.status = Status::stalled;
     if (metric_.length(found.at - from) > kParams.away) return false;
-    return look(found.at, row, kParams.near);
+    return look(found.at, std::make_shared<steady::Point>(std::move(found.point)), row, kParams.near);
   }
 
   [[nodiscard]] double slope() const {
@@ -135,21 +145,19 @@ class PeakNewton {
     referred_ = true;
     stationarity_.add(
         {.place = place(), .omega = here_.at.parameter, .amplitude = here_.amplitude.value, .slope = slope()});
-    step_ = stationarity_.step();
+    const double speed = std::abs(here_.direction.parameter);
+    const double tolerated = options_.frequency_tolerance * here_.at.parameter;
+    // Along a steep branch the frequency hardly moves: the place on the branch must be known as well.
+    const double near = tolerated > kParams.flat * speed ? kParams.flat : tolerated / speed;
+    step_ = stationarity_.step(near);
     peak_.at = here_.at;
     peak_.point = here_.point;
     peak_.amplitude = here_.amplitude.value;
     peak_.slope = slope();
-    peak_.curvature = stationarity_.curvature();
-    peak_.width = here_.amplitude.speed > 0 ? std::abs(here_.direction.parameter) / here_.amplitude.speed
-                                            : 1 / metric_.parameter_weight;
-    const double way = std::abs(step_ * here_.direction.parameter);
-    const double tolerated = options_.frequency_tolerance * here_.at.parameter;
-    peak_.error = std::min(way, stationarity_.bracket()) / here_.at.parameter;
-    // Along a steep branch the frequency hardly moves: the place on the branch must be known as well.
-    const bool stands = way <= kParams.part * tolerated || stationarity_.bracket() <= tolerated;
+    peak_.width = here_.amplitude.speed > 0 ? speed / here_.amplitude.speed : 1 / metric_.parameter_weight;
+    peak_.error = stationarity_.error() * speed / here_.at.parameter;
     peak_.status = Status::converged;
-    return here_.on_branch && std::abs(step_) <= kParams.flat && stands;
+    return here_.on_branch && stationarity_.settled(near);
   }
 
   // To the next place, from the point known best for it.
@@ -197,8 +205,8 @@ class PeakNewton {
 }  // namespace
 
 Peak find_peak(const branches::Equations& branch, const branches::Vector& start, const branches::ArcMetric& metric,
-               const PeakOptions& options, double curvature) {
-  return PeakNewton(branch, metric, options, curvature).run(start);
+               const PeakOptions& options) {
+  return PeakNewton(branch, metric, options).run(start);
 }
 
 steady::State described(const branches::Equations& branch, const Peak& peak, const branches::ArcMetric& metric) {

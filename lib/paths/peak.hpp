@@ -15,12 +15,11 @@ struct Peak {
   Status status = Status::iteration_limit;
   branches::Vector at;
   double amplitude = 0;
-  double slope = 0;      ///< change of the amplitude with the arc length, relative to the amplitude
-  double curvature = 0;  ///< second derivative with the arc length, relative; < 0 at a maximum
-  double width = 0;      ///< the frequency range in which the output changes by its own size there, rad/s
-  double error = 0;      ///< of omega: the correction that was left or the bracket it is in, relative
-  int iterations = 0;    ///< Jacobians
-  int evaluations = 0;   ///< residuals
+  double slope = 0;     ///< change of the amplitude with the arc length, relative to the amplitude
+  double width = 0;     ///< the frequency range in which the output changes by its own size there, rad/s
+  double error = 0;     ///< of omega: the correction that was left or the bracket it is in, relative
+  int iterations = 0;   ///< Jacobians
+  int evaluations = 0;  ///< residuals
   std::shared_ptr<const steady::Point> point = {};
 };
 
@@ -31,11 +30,11 @@ struct Peak {
 /// Newton on (U, omega) for f = 0 and dA/ds = 0, A the amplitude of one output and s the arc length, from `start` near
 /// the maximum of a branch. Each iteration takes one factorisation of J: the bordered system gives the tangent, the
 /// correction towards the branch and dA/ds; the second derivative comes from successive points, because f is piecewise
-/// smooth and a local one says nothing of the way the contact changes (`curvature` < 0 is the first guess of it, 0:
-/// none). It works through turning points. dA/ds jumps where samples change their contact state, and a maximum at such
-/// a jump is accepted when its bracket is as narrow as the tolerance.
+/// smooth and a local one says nothing of the way the contact changes. It works through turning points. dA/ds jumps
+/// where samples change their contact state, and a maximum at such a jump is accepted when its bracket is as narrow as
+/// the tolerance.
 [[nodiscard]] Peak find_peak(const branches::Equations& branch, const branches::Vector& start,
-                             const branches::ArcMetric& metric, const PeakOptions& options, double curvature = -0.5);
+                             const branches::ArcMetric& metric, const PeakOptions& options);
 
 /// The steady state at a converged peak, with its tangent unless that is singular.
 [[nodiscard]] steady::State described(const branches::Equations& branch, const Peak& peak,

@@ -61,9 +61,9 @@ class PeakSearch {
       }
       if (near) {
         near->add(here);
-        step = near->step();
-        if (std::abs(step) <= kClosingIn.part * tolerated || near->bracket() <= tolerated) return Status::converged;
+        if (near->settled(tolerated)) return Status::converged;
         if (near->width() <= tolerated) return Status::no_bracket;  // the curve jumps to another branch there
+        step = near->step(tolerated);
       } else {
         step = std::clamp(step, -kClosingIn.longest * now_.omega, kClosingIn.longest * now_.omega);
       }

@@ -28,7 +28,8 @@ constexpr PeakSweepParams kPeakSweep;
 /// in `work`.
 std::optional<steady::State> maximum_beside(const branches::Branch& branch, std::size_t i, const steady::Joint& joint,
                                             const ResonanceOptions& options, Resonance& work) {
-  // The points of the sweep have no tangents, which the width of the peak needs.
+  // The width of the peak needs a tangent. The points of the sweep keep none, nor what one is made of: few of them are
+  // summits.
   const steady::State summit = refined_state(joint, branch.points[i].state);
   ++work.solves;
   work.jacobians += summit.iterations;
@@ -46,10 +47,8 @@ std::optional<steady::State> maximum_beside(const branches::Branch& branch, std:
   return std::move(found.state);
 }
 
-}  // namespace
-
-Resonance peak_sweep(const steady::Joint& joint, double omega_from, double omega_to,
-                     const ResonanceOptions& resonance_options) {
+Resonance swept(const steady::Joint& joint, double omega_from, double omega_to,
+                const ResonanceOptions& resonance_options) {
   branches::FollowOptions coarse = kPeakSweep.steps;
   coarse.max_jacobians = resonance_options.max_sweep_jacobians;
   steady::Joint without = joint, with = joint;
@@ -79,6 +78,20 @@ Resonance peak_sweep(const steady::Joint& joint, double omega_from, double omega
   }
   if (result.unresolved <= (1 + noise_of_peaks(joint.options)) * result.amplitude) result.unresolved = 0;
   return result;
+}
+
+}  // namespace
+
+Resonance peak_sweep(const steady::Joint& joint, double low, double high, const ResonanceOptions& resonance_options) {
+  Resonance down = swept(joint, high, low, resonance_options);
+  if ((down.status == Status::converged && down.unresolved == 0) || cut_short(down.status)) return down;
+  Resonance up = swept(joint, low, high, resonance_options);
+  const bool better = up.status == Status::converged && (down.status != Status::converged || up.unresolved == 0);
+  Resonance& found = better ? up : down;
+  const Resonance& other = better ? down : up;
+  found.solves += other.solves;
+  found.jacobians += other.jacobians;
+  return std::move(found);
 }
 
 }  // namespace dovetail::paths

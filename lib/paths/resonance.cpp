@@ -74,8 +74,8 @@ Resonance resonance(const steady::Joint& joint, double omega_start, const Resona
   near.jacobians += start.jacobians;
   look_again(joint, resonance_options, near);
   if (near.status == Status::converged || cut_short(near.status) || resonance_options.sweep_range == 0) return near;
-  Resonance far = peak_sweep(joint, omega_start * (1 + resonance_options.search_range),
-                             omega_start * (1 - resonance_options.sweep_range), resonance_options);
+  Resonance far = peak_sweep(joint, omega_start * (1 - resonance_options.sweep_range),
+                             omega_start * (1 + resonance_options.search_range), resonance_options);
   far.swept = true;
   far.solves += near.solves;
   far.jacobians += near.jacobians;

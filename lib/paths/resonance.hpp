@@ -36,11 +36,10 @@ struct Resonance {
 /// omega_start.
 ///
 /// When that ends without a maximum - it lies further away, the curve jumps between branches, a solve fails - the
-/// branch is followed from start (1 + search_range) down to start (1 - sweep_range), through its turning points, and
-/// its highest maximum taken: contact that slips or opens is softer than the glued one, so it is below that the peak
-/// can be far. This costs some hundred solves; max_sweep_jacobians
-/// limits it. With a sweep_range of 0 a peak that cannot be followed is said to be none: for peaks tracked from one
-/// that is known, where another is no answer.
+/// branch is followed between start (1 - sweep_range) and start (1 + search_range), through its turning points, and its
+/// highest maximum taken: contact that slips or opens is softer than the glued one, so it is below that the peak can be
+/// far. This costs some hundred solves; max_sweep_jacobians limits it. With a sweep_range of 0 a peak that cannot be
+/// followed is said to be none: for peaks tracked from one that is known, where another is no answer.
 [[nodiscard]] Resonance resonance(const steady::Joint& joint, double omega_start,
                                   const ResonanceOptions& resonance_options = {}, const Eigen::MatrixXd& guess = {});
 
