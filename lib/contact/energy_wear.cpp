@@ -10,13 +10,13 @@ static constexpr std::array kEnergyWearParameters{
                   .number = &WearNumbers::coefficient,
                   .standard = 2e-13,
                   .range = {.lower = 0, .upper = 1e-6},
-                  .help = "of the law energy: volume per energy dissipated beyond the threshold"},
+                  .help = "under the law energy: worn volume per energy dissipated beyond the threshold"},
     WearParameter{.key = "energy_threshold_j_per_m2",
                   .unit = "J/m^2",
                   .number = &WearNumbers::threshold,
                   .standard = 0,
                   .range = kNonNegative,
-                  .help = "of the law energy: dissipated per cycle and area without wear"}};
+                  .help = "under the law energy: what a cycle may dissipate per area before anything wears"}};
 
 constinit const WearLaw kEnergyWear{
     .name = "energy",

@@ -31,7 +31,8 @@ concept NamedEnum = std::is_enum_v<E> && requires {
   enum_names(E{});
 };
 
-/// Whether every entry of the table has a name, and none a value or name of another.
+/// Whether every entry of the table has a name, and none a value or name of another. A value without an entry it cannot
+/// notice; to_string() calls that one "unknown".
 template <NamedEnum E>
 [[nodiscard]] constexpr bool well_named() {
   constexpr auto names = enum_names(E{});

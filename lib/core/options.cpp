@@ -80,12 +80,16 @@ std::string full_key(const std::string& prefix, std::string_view key) {
 
 }  // namespace
 
+std::string one_of(std::span<const std::string_view> names) {
+  std::string allowed = names.size() == 1 ? "must be" : "must be one of";
+  for (std::size_t i = 0; i < names.size(); ++i) allowed += (i == 0 ? " " : ", ") + std::string(names[i]);
+  return allowed;
+}
+
 void check_choice(const std::string& prefix, std::string_view key, const std::string& value,
                   std::span<const std::string_view> choices, std::vector<Violation>& found) {
   if (choices.empty() || std::ranges::find(choices, value) != choices.end()) return;
-  std::string allowed = "must be one of";
-  for (const std::string_view choice : choices) allowed += " " + std::string(choice);
-  found.push_back({.file = {}, .key = full_key(prefix, key), .value = value, .allowed = allowed});
+  found.push_back({.file = {}, .key = full_key(prefix, key), .value = value, .allowed = one_of(choices)});
 }
 
 void check_range(const std::string& prefix, std::string_view key, double value, const Range& range,

@@ -133,6 +133,9 @@ template <class S>
 /// Shortest decimal text that reads back to the same double.
 [[nodiscard]] std::string shortest(double value);
 
+/// "must be one of soft, hard", "must be hard"
+[[nodiscard]] std::string one_of(std::span<const std::string_view> names);
+
 /// Appends what is wrong with one value; for `violations`.
 void check_choice(const std::string& prefix, std::string_view key, const std::string& value,
                   std::span<const std::string_view> choices, std::vector<Violation>& found);

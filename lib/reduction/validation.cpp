@@ -138,9 +138,9 @@ std::string laws_with_threshold() {
 std::vector<Violation> wear_law_violations(const ContactNodes& contact, const std::string& section) {
   const contact::WearLaw* law = contact::find_wear_law(contact.wear_law);
   if (law == nullptr) {
-    std::string allowed = "must be one of";
-    for (const contact::WearLaw* known : contact::wear_laws()) allowed += " " + std::string(known->name);
-    return {{.file = {}, .key = section + "wear_law", .value = contact.wear_law, .allowed = allowed}};
+    std::vector<std::string_view> names;
+    for (const contact::WearLaw* known : contact::wear_laws()) names.push_back(known->name);
+    return {{.file = {}, .key = section + "wear_law", .value = contact.wear_law, .allowed = one_of(names)}};
   }
   if (contact.wear_threshold.size() == 0 || law->parameter(&contact::WearNumbers::threshold)) return {};
   return {{.file = {},

@@ -39,9 +39,9 @@ template <>
 std::span<const Field<optimizer::ContactProperties>> option_table<optimizer::ContactProperties>() {
   using C = optimizer::ContactProperties;
   static const std::string laws = [] {
-    std::string text;
+    std::string text = "what wears";
     for (const contact::WearLaw* law : contact::wear_laws())
-      text += (text.empty() ? "" : "; ") + std::string(law->name) + ": " + std::string(law->meaning);
+      text += "; " + std::string(law->name) + ": " + std::string(law->meaning);
     return text;
   }();
   static const std::array<Field<C>, 4> table{

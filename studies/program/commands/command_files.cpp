@@ -71,8 +71,11 @@ int export_model(const ExportOptions& options, const std::string& input, const S
 int run_export(const ExportOptions& options, const Streams& streams) {
   const std::optional<ExportFormat> format = named<ExportFormat>(options.format);
   const bool matrices = options.format == kMatrixMarket;
-  if (!matrices && !format)
-    refuse("--format", "must be one of " + export_formats(" ") + " " + std::string(kMatrixMarket), options.format);
+  if (!matrices && !format) {
+    std::vector<std::string_view> formats = names_of<ExportFormat>();
+    formats.push_back(kMatrixMarket);
+    refuse("--format", one_of(formats), options.format);
+  }
   if (format != ExportFormat::inp && options.deck != DeckOptions{})
     refuse("--format", "must be inp with --nodal-diameter, --modes or --contact", options.format);
   check_replaceable(options.file);

@@ -30,6 +30,17 @@ std::string_view follow_words(Drive follow) {
   return "";
 }
 
+/// "; the history ends with 1.2 m^3", or "... with 1.2 to 1.3 m^3" when it did so more than once.
+std::string ends_words(std::string_view name, wear::FoundBy way, const std::vector<wear::OtherState>& states) {
+  std::vector<double> volumes;
+  for (const wear::OtherState& other : states)
+    if (other.found_by == way) volumes.push_back(other.worn_volume);
+  if (volumes.empty()) return {};
+  const auto [least, most] = std::ranges::minmax(volumes);
+  const std::string from = fmt::format("{:.6g}", least), to = fmt::format("{:.6g}", most);
+  return fmt::format("; {} ends with {}{} m^3", name, from, from == to ? "" : " to " + to);
+}
+
 /// The wear that goes on at the worn state, as a share of the unworn rate.
 std::string certificate_words(const wear::Asymptote& asymptote) {
   std::string text = fmt::format("remaining_rate  {:.2g} of the unworn one", asymptote.certificate);
@@ -51,8 +62,7 @@ std::string certificate_words(const wear::Asymptote& asymptote) {
   for (const auto& [way, name] :
        {std::pair{wear::FoundBy::release, "the direct method"}, std::pair{wear::FoundBy::history, "the history"},
         std::pair{wear::FoundBy::finer_history, "one with more harmonics and samples"}})
-    for (const wear::OtherState& other : asymptote.other_states)
-      if (other.found_by == way) text += fmt::format("; {} ends with {:.6g} m^3", name, other.worn_volume);
+    text += ends_words(name, way, asymptote.other_states);
   return text + "\n";
 }
 
@@ -82,16 +92,24 @@ std::string summary(const WearQuestion& question, const WearAnswer& answer) {
   return text;
 }
 
-int verdict(const std::string& input, const WearAnswer& answer, const Streams& streams) {
+/// What the user can do where a computation found no worn state.
+std::string_view advice(const WearQuestion& question, const WearAnswer& answer) {
+  if (answer.history && answer.history->end == wear::HistoryEnd::steps)
+    return answer.choice.options.integrator == wear::IntegratorKind::implicit_steps
+               ? ": allow more --steps"
+               : ": allow more --steps, or a larger --increment of depth";
+  if (question.follow == Drive::resonance && answer.solver == Status::no_bracket)
+    return ": the resonance that was followed is no maximum any more, but a flank of a higher one; `backbone --over "
+           "wear` shows the highest, --frequency HZ holds one";
+  return "";
+}
+
+int verdict(const std::string& input, const WearQuestion& question, const WearAnswer& answer, const Streams& streams) {
   // Who asked for a number of cycles has them.
   const bool has_cycles = answer.history && answer.history->end == wear::HistoryEnd::cycles;
   if (answer.status != wear::Verdict::not_converged || has_cycles) return kDone;
-  const bool out_of_steps = answer.history && answer.history->end == wear::HistoryEnd::steps;
   streams.err << fmt::format("dovetail: {}: the worn state did not converge: {}{}\n", input, to_string(answer.solver),
-                             !out_of_steps ? ""
-                             : answer.choice.options.integrator == wear::IntegratorKind::implicit_steps
-                                 ? ": allow more --steps"
-                                 : ": allow more --steps, or a larger --increment of depth");
+                             advice(question, answer));
   return kNotConverged;
 }
 
@@ -207,7 +225,7 @@ int run_wear(const WearOptions& given, const Streams& streams) {
   if (automatic) result.question.automatic = WearQuestion::Automatic{*automatic, accuracy(options.solver)};
   present(options, result, streams);
   if (interrupt.requested()) return kInterrupted;
-  if (const int end = verdict(options.input, result.answer, streams); end != kDone) return end;
+  if (const int end = verdict(options.input, result.question, result.answer, streams); end != kDone) return end;
   if (automatic && *automatic != Status::converged)
     return failed(truncation_complaint(*automatic, loaded.joint.options, options.solver));
   if (const auto& spread = result.question.spread;

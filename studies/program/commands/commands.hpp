@@ -135,7 +135,7 @@ struct WearOptions {
   std::optional<Drive> follow;         ///< absent: as the study says, or fixed
   std::optional<double> frequency_hz;  ///< absent: the unworn resonance
   std::optional<double> band_from_hz, band_to_hz;
-  int band_points = 11;
+  std::optional<int> band_points;     ///< absent: 11
   std::optional<double> cycles;       ///< history
   std::optional<int> steps;           ///< history
   std::optional<double> increment_m;  ///< history; absent: a hundredth of the depth that release comes to
@@ -143,7 +143,7 @@ struct WearOptions {
   std::optional<wear::IntegratorKind> integrator;  ///< of a history; absent: as the wear law asks for
   std::string resume;                              ///< JSON of the history to go on with, or empty
   std::optional<int> curves;                       ///< response curves along a history
-  int curve_points = 60;
+  std::optional<int> curve_points;                 ///< of each; absent: 60
   std::optional<double> curve_from_hz, curve_to_hz;
   bool error_bars = false;
   bool spread = false;

@@ -93,7 +93,7 @@ std::span<const Option<ExportOptions>> command_options<ExportOptions>() {
   static const std::vector<Option<E>> table = [] {
     return std::vector<Option<E>>{
         {"INPUT", &E::input, {}, "Directory of a run, a study file, or a reduced model", true},
-        {"--format", &E::format, "NAME", "One of " + export_formats(", ") + ", " + std::string(kMatrixMarket), true},
+        {"--format", &E::format, "NAME", "One of " + export_formats() + ", " + std::string(kMatrixMarket), true},
         output_option<E>(&E::file, "FILE", "The file to write"),
         set_option<E>()};
   }();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <stdexcept>
 #include <utility>
 
 #include "optimizer/journal/fingerprint.hpp"
@@ -38,17 +39,13 @@ void append(std::string& bytes, const Eigen::Ref<const Eigen::MatrixXd>& matrix)
     }
 }
 
-wear::HistoryEnd end_of(const std::string& word) {
-  using enum wear::HistoryEnd;
-  for (const wear::HistoryEnd end : {worn_out, steady_rate, cycles, steps, failed})
-    if (word == wear::to_string(end)) return end;
-  return interrupted;
-}
-
 /// The finished state, which is the last entry, becomes the final depth.
 wear::History history_of(const Json& json, Eigen::Index nodes) {
   wear::History history;
-  history.end = end_of(json.at("ended").get<std::string>());
+  const auto ended = json.at("ended").get<std::string>();
+  const std::optional<wear::HistoryEnd> end = named<wear::HistoryEnd>(ended);
+  if (!end) throw std::out_of_range("ended = \"" + ended + "\" " + one_of(names_of<wear::HistoryEnd>()));
+  history.end = *end;
   history.finished = json.at("finished").get<bool>();
   history.solves = json.at("solves").get<int>();
   history.final_depth = value_of<Eigen::VectorXd>(json.at("depth_m"));
@@ -106,9 +103,10 @@ std::string checksum(const reduction::ReducedModel& model) {
   const reduction::ContactNodes& contact = model.contact;
   append(bytes, contact.normal.cast<double>());
   append(bytes, contact.tangential.cast<double>());
-  for (const Eigen::VectorXd* values :
-       {&contact.area, &contact.gap, &contact.friction, &contact.wear_coefficient, &contact.wear_threshold})
+  for (const Eigen::VectorXd* values : {&contact.area, &contact.gap, &contact.friction, &contact.wear_coefficient})
     append(bytes, *values);
+  // No threshold, and one of zero everywhere, are the same.
+  append(bytes, contact.wear_threshold.isZero(0.0) ? Eigen::VectorXd() : contact.wear_threshold);
   if (contact.wear_law != reduction::ContactNodes().wear_law) bytes += contact.wear_law;
   const bool slip = contact.slip_origin.size() > 0 && !contact.slip_origin.isZero(0.0);
   if (slip) append(bytes, contact.slip_origin);
@@ -153,7 +151,7 @@ StoredHistory read_history(const std::string& file, Eigen::Index nodes) {
   } catch (const InputError&) {
     throw;
   } catch (const std::exception& error) {
-    cannot_resume(file, std::string("is incomplete: ") + error.what());
+    cannot_resume(file, std::string("is incomplete or spoilt: ") + error.what());
   }
   if (stored.history.cycles.size() == 0) cannot_resume(file, "is a history of other contact nodes, or of none");
   return stored;

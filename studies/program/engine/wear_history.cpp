@@ -43,8 +43,8 @@ std::vector<double> curve_frequencies(const WearOptions& options, const LoadedMo
     high = std::max(from, to) * (1 + kWidths * width) / kTurn;
   }
   std::vector<double> hz;
-  for (int i = 0; i < options.curve_points; ++i)
-    hz.push_back(low + (high - low) * i / std::max(1, options.curve_points - 1));
+  const int points = options.curve_points.value_or(60);
+  for (int i = 0; i < points; ++i) hz.push_back(low + (high - low) * i / std::max(1, points - 1));
   return hz;
 }
 

@@ -105,8 +105,9 @@ WearBand wear_band(const WearOptions& options, const LoadedModel& loaded, const 
   WearBand band;
   band.answer = unknown_answer(options, loaded.joint.model->nodes(), Status::interrupted);
   double worst = -1;
-  for (int i = 0; i < options.band_points && !watcher.stopped(); ++i) {
-    const double part = options.band_points == 1 ? 0 : static_cast<double>(i) / (options.band_points - 1);
+  const int points = options.band_points.value_or(11);
+  for (int i = 0; i < points && !watcher.stopped(); ++i) {
+    const double part = points == 1 ? 0 : static_cast<double>(i) / (points - 1);
     const double hz = *options.band_from_hz + part * (*options.band_to_hz - *options.band_from_hz);
     WearAnswer answer = wear_answer(options, loaded, wear_start_at(hz), watcher);
     band.solves += answer.solves;

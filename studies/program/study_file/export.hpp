@@ -26,11 +26,10 @@ constexpr EnumNames<ExportFormat, 5> enum_names(ExportFormat) {
   return name_of(format);
 }
 
-/// All of them with `between` from one to the next.
-[[nodiscard]] inline std::string export_formats(std::string_view between) {
+/// "dxf, svg, ..."
+[[nodiscard]] inline std::string export_formats() {
   std::string text;
-  for (const std::string_view format : names_of<ExportFormat>())
-    text.append(text.empty() ? "" : between).append(format);
+  for (const std::string_view format : names_of<ExportFormat>()) text.append(text.empty() ? "" : ", ").append(format);
   return text;
 }
 

@@ -17,13 +17,7 @@ std::string phrase(const std::string& noun, const Range& range) {
 }
 
 std::string choice_phrase(const std::vector<std::string_view>& choices) {
-  if (choices.empty()) return "must be a text in quotes";
-  std::string allowed = choices.size() == 1 ? "must be" : "must be one of";
-  for (const std::string_view choice : choices) {
-    allowed += ' ';
-    allowed += choice;
-  }
-  return allowed;
+  return choices.empty() ? "must be a text in quotes" : one_of(choices);
 }
 
 /// The full key of the same name in another section, or empty.

@@ -87,7 +87,7 @@ class SceneReader {
 
 void read_exports(SectionReader& root, Study& study, Problems& problems) {
   SectionReader section(root.take("export"), "export", problems);
-  const std::string allowed = "must be one of " + export_formats(" ");
+  const std::string allowed = one_of(names_of<ExportFormat>());
   if (const Node* formats = section.take("formats")) {
     if (formats->kind != Node::Kind::list)
       problems.add(*formats, "export.formats", "must be a list of formats, as in [\"dxf\"]; each " + allowed);

@@ -177,7 +177,7 @@ std::string study_template(const std::string& title) {
   text += scene_sections() + problem_sections();
   text += header("optimizer", "How the optimiser searches.");
   text += lines(optimizer::OptimizerOptions{}, option_table<optimizer::OptimizerOptions>());
-  text += header("export", "Files of the best design a run writes besides its results: " + export_formats(", ") + ".");
+  text += header("export", "Files of the best design a run writes besides its results: " + export_formats() + ".");
   text += "formats = [\"dxf\"]\n";
   return text;
 }

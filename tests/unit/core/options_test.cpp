@@ -51,7 +51,7 @@ TEST(Options, EveryViolationIsReportedAtOnceInFileUnits) {
   ASSERT_EQ(found.size(), 3U);
   EXPECT_EQ(found[0].sentence(), "sample.length_mm = -2: must be > 0");
   EXPECT_EQ(found[1].sentence(), "sample.count = 0: must be >= 1 and <= 9");
-  EXPECT_EQ(found[2].sentence(), "sample.law = wrong: must be one of soft hard");
+  EXPECT_EQ(found[2].sentence(), "sample.law = wrong: must be one of soft, hard");
 }
 
 TEST(Options, AnEnumerationIsReadAndWrittenByItsNames) {
@@ -78,7 +78,7 @@ TEST(Options, AnOptionalEnumerationMayBeLeftOpen) {
 TEST(Options, ANumberThatIsNoValueOfTheEnumerationIsRefused) {
   const std::vector<Violation> found = violations(Sample{.shape = static_cast<Shape>(7)}, "sample");
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].sentence(), "sample.shape = unknown: must be one of round flat_ended");
+  EXPECT_EQ(found[0].sentence(), "sample.shape = unknown: must be one of round, flat_ended");
 }
 
 TEST(Options, NotANumberIsNeverInRange) {

@@ -307,7 +307,7 @@ TEST_F(ModelFile, RefusesAWearLawThatThereIsNot) {
     write_with({}, [&](hdf5::File& f) { f.write("/contact/wear_law", names); });
     return refusal();
   };
-  EXPECT_THAT(law({"gravity"}), HasSubstr("model.h5: /contact/wear_law = gravity: must be one of archard energy"));
+  EXPECT_THAT(law({"gravity"}), HasSubstr("model.h5: /contact/wear_law = gravity: must be one of archard, energy"));
   EXPECT_EQ(law({"archard", "energy"}), path_ + ": /contact/wear_law = 2 texts: must be one text");
 }
 

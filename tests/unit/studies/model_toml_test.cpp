@@ -169,7 +169,7 @@ TEST_F(ModelToml, RefusesEachFlawWithItsLine) {
               HasSubstr("contact.friction[0] = true: must be a number"));
   EXPECT_THAT(refusal("friction = 0.5", "frction = 0.5"), HasSubstr("did you mean contact.friction?"));
   EXPECT_THAT(refusal("friction = 0.5", "friction = 0.5\nwear_law = \"gravity\""),
-              HasSubstr("contact.wear_law = \"gravity\": must be one of archard energy"));
+              HasSubstr("contact.wear_law = \"gravity\": must be one of archard, energy"));
   EXPECT_THAT(refusal("friction = 0.5", "friction = 0.5\nwear_threshold = 3"),
               HasSubstr("contact.wear_threshold: has no meaning unless wear_law = \"energy\""));
   EXPECT_THAT(refusal("dof = 1\n", "dof = 3\n"), HasSubstr(":14: force[0].dof = 3: must be a dof from 0 to 2"));

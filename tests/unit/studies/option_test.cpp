@@ -47,10 +47,15 @@ TEST(CommandOptions, TellEverythingThatIsWrongAtOnce) {
 
 TEST(CommandOptions, AMeaningMayBeOfOneValueAlone) {
   WearOptions options;
-  options.integrator = wear::IntegratorKind::explicit_jumps;
   EXPECT_EQ(said(options), "");
+  options.band_points = 3;
+  options.curve_points = 20;
+  options.integrator = wear::IntegratorKind::explicit_jumps;
+  EXPECT_THAT(said(options), AllOf(HasSubstr("--integrator = explicit: only has a meaning with --method history"),
+                                   HasSubstr("--band-points = 3: only has a meaning with --follow band"),
+                                   HasSubstr("--curve-points = 20: only has a meaning with --curves")));
+  options = {};
   options.integrator = wear::IntegratorKind::implicit_steps;
-  EXPECT_THAT(said(options), HasSubstr("--integrator = implicit: only has a meaning with --method history"));
   options.method = WearMethod::history;
   options.history_tolerance = 0;
   options.follow = Drive::resonance;

@@ -184,14 +184,14 @@ TEST(Study, SectionsThatAreNoneAreRefused) {
 
 TEST(Study, AnEmptyFileMissesWhatIsRequired) {
   const std::string told = complaints("");
-  EXPECT_THAT(told, HasSubstr("s.toml: scene.type: is missing; it must be one of section sector"));
+  EXPECT_THAT(told, HasSubstr("s.toml: scene.type: is missing; it must be one of section, sector"));
   EXPECT_THAT(told, HasSubstr("s.toml: geometry.flank_angle_deg: is missing"));
   EXPECT_THAT(told, Not(HasSubstr("objective")));
 }
 
 TEST(Study, OtherSceneTypesAreRefused) {
   EXPECT_THAT(complaints(replaced(sample(), "type = \"section\"", "type = \"solid\"")),
-              HasSubstr("scene.type = \"solid\": must be one of section sector"));
+              HasSubstr("scene.type = \"solid\": must be one of section, sector"));
 }
 
 TEST(Study, ASectorHasKeysOfItsOwnAndASectionMayCarryThem) {

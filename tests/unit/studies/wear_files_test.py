@@ -139,9 +139,18 @@ class WearFiles(unittest.TestCase):
         self.assertIn("must be > ", self.refusal("rod.h5", *five, "--cycles", repr(done)))
         self.assertIn("the cycles done in five.json", self.said)
 
+    def test_a_threshold_of_zero_is_none(self):
+        # Only the law of energy may have one; its data sets are the same but for that.
+        for name, more in {"without.h5": {}, "with.h5": {"/contact/wear_threshold": write_model.np.zeros(4)}}.items():
+            write_model.write_model(os.path.join(self.folder.name, name),
+                                    {**write_model.rod(4), "/contact/wear_law": "energy", **more})
+        self.wear("with.h5", *HISTORY, *AT, "--steps", "2", file="energy.json", status=3)
+        self.wear("without.h5", *HISTORY, "--steps", "1", "--resume", "energy.json", status=3)
+
     def test_files_that_lack_something_are_refused(self):
         answer = self.wear("rod.h5", *HISTORY, *AT, "--steps", "2", file="two.json", status=3)
-        for flaw in ({"depths_m": [[0.0] * 4]}, {"history": {}}, {"cycles": "many"}, {"method": 3}, {"finished": None}):
+        for flaw in ({"depths_m": [[0.0] * 4]}, {"history": {}}, {"cycles": "many"}, {"method": 3}, {"finished": None},
+                     {"ended": "at noon"}):
             with open(os.path.join(self.folder.name, "flawed.json"), "w") as file:
                 json.dump({**answer, **flaw}, file)
             said = self.refusal("rod.h5", "--resume", "flawed.json")
@@ -170,6 +179,10 @@ class WearFiles(unittest.TestCase):
         self.wear("rod.h5", *HISTORY, *AT, *IMPLICIT, "--steps", "1", status=3)
         self.assertIn("allow more --steps", self.said)
         self.assertNotIn("--increment", self.said)
+        # The rod's peak at 0.42 Hz becomes a flank of the one at 0.24 Hz when its pads come free.
+        write_model.write_model(os.path.join(self.folder.name, "ten.h5"), write_model.rod(10))
+        self.wear("ten.h5", "--method", "asymptote", "--follow", "resonance", status=3)
+        self.assertIn("no_bracket: the resonance that was followed is no maximum any more", self.said)
         self.write("still.h5", {"/mass": 0})
         self.assertIn("--follow = resonance: needs a model with mass", self.refusal("still.h5", *AT, "--follow", "resonance"))
 
