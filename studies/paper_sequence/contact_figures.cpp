@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "studies/report/pages/units.hpp"
 #include "studies/report/plots/report_plots.hpp"
+#include "studies/report/words/units.hpp"
 
 namespace dovetail::paper_sequence {
 namespace {

@@ -10,8 +10,8 @@
 
 #include "optimizer/candidate/stopwatch.hpp"
 #include "optimizer/evaluator.hpp"
-#include "studies/report/pages/table.hpp"
-#include "studies/report/pages/units.hpp"
+#include "studies/report/words/table.hpp"
+#include "studies/report/words/units.hpp"
 #include "wear/asymptote/asymptote.hpp"
 
 namespace dovetail::paper_sequence {

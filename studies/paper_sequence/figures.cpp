@@ -7,8 +7,8 @@
 
 #include "studies/paper_sequence/contact_figures.hpp"
 #include "studies/paper_sequence/findings.hpp"
-#include "studies/report/pages/units.hpp"
 #include "studies/report/plots/report_plots.hpp"
+#include "studies/report/words/units.hpp"
 
 namespace dovetail::paper_sequence {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "studies/report/pages/units.hpp"
+#include "studies/report/words/units.hpp"
 
 namespace dovetail::paper_sequence {
 namespace {

@@ -10,9 +10,9 @@
 #include "studies/paper_sequence/scene_words.hpp"
 #include "studies/paper_sequence/texts.hpp"
 #include "studies/report/pages/page.hpp"
-#include "studies/report/pages/table.hpp"
-#include "studies/report/pages/units.hpp"
 #include "studies/report/plots/section_drawing.hpp"
+#include "studies/report/words/table.hpp"
+#include "studies/report/words/units.hpp"
 
 namespace dovetail::paper_sequence {
 namespace {

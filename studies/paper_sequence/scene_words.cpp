@@ -8,7 +8,7 @@
 
 #include "optimizer/scene/scene_kind.hpp"
 #include "studies/paper_sequence/findings.hpp"
-#include "studies/report/pages/units.hpp"
+#include "studies/report/words/units.hpp"
 
 namespace dovetail::paper_sequence {
 

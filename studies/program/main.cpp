@@ -4,7 +4,7 @@
 
 #include "numerics/blas.hpp"
 #include "studies/program/commands/command_line.hpp"
-#include "studies/program/commands/interrupt.hpp"
+#include "studies/program/engine/interrupt.hpp"
 
 int main(int argc, char** argv) {
   dovetail::numerics::prepare_blas(argv);

@@ -8,9 +8,9 @@
 #include "optimizer/journal/record_json.hpp"
 #include "studies/ready_study/program.hpp"
 #include "studies/report/pages/page.hpp"
-#include "studies/report/pages/table.hpp"
-#include "studies/report/pages/units.hpp"
 #include "studies/report/plots/report_plots.hpp"
+#include "studies/report/words/table.hpp"
+#include "studies/report/words/units.hpp"
 #include "studies/skewed_slot/results.hpp"
 #include "studies/skewed_slot/texts.hpp"
 

@@ -5,8 +5,8 @@
 
 #include "studies/ready_study/program.hpp"
 #include "studies/report/pages/page.hpp"
-#include "studies/report/pages/table.hpp"
 #include "studies/report/plots/plot.hpp"
+#include "studies/report/words/table.hpp"
 #include "studies/work_precision/figures.hpp"
 #include "studies/work_precision/results.hpp"
 #include "studies/work_precision/texts.hpp"

@@ -14,9 +14,9 @@
 #include "optimizer/evaluator.hpp"
 #include "studies/program/engine/engine.hpp"
 #include "studies/program/study_file/study.hpp"
-#include "studies/report/pages/html.hpp"
 #include "studies/report/pages/page.hpp"
 #include "studies/report/plots/figure.hpp"
+#include "studies/report/words/html.hpp"
 #include "tests/benchmarks/largest_jump.hpp"
 
 namespace dovetail {

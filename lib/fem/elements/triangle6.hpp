@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "fem/mesh.hpp"
+#include "fem/elements/element_kind.hpp"
 
 namespace dovetail::fem {
 

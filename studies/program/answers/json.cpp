@@ -1,7 +1,7 @@
 #include "studies/program/answers/json.hpp"
 
 #include "optimizer/journal/evaluation_json.hpp"
-#include "studies/program/answers/json_values.hpp"
+#include "studies/program/engine/json_values.hpp"
 
 namespace dovetail::studies {
 

@@ -6,15 +6,10 @@
 
 #include "optimizer/problem/evaluation.hpp"
 #include "steady/options.hpp"
-#include "studies/program/answers/wear_modes.hpp"
-#include "wear/asymptote/asymptote.hpp"
+#include "studies/program/engine/wear_quality.hpp"
 #include "wear/asymptote/spread.hpp"
-#include "wear/history/history.hpp"
 
 namespace dovetail::studies {
-
-struct WearAnswer;
-struct WearBand;
 
 /// JSON texts of the commands, ending with a newline; SI but for `parameters`, which are in the units their keys name.
 /// Doubles are written with the shortest text that reads back to the same value. A number that does not exist is null:
@@ -23,12 +18,6 @@ struct WearBand;
 /// {"status", "feasible", "parameters", "responses", "constraints", "error_estimates", "error_sources", "unbounded",
 /// "undecided_constraints", "model", "timings_s", "messages"[, "derivatives"]}
 [[nodiscard]] std::string evaluation_json(const optimizer::Evaluation& evaluation);
-
-/// How far harmonics, samples and pseudo-penalty may have moved a worn state; infinite: unknown.
-struct WearBars {
-  double worn_volume = 0;    ///< m^3
-  double largest_depth = 0;  ///< m
-};
 
 /// How a wear computation was asked for, and what was computed besides.
 struct WearQuestion {
@@ -57,8 +46,5 @@ struct WearQuestion {
 /// "holds"}, "decided_by", "doubt", "confirmed_by_history" and "other_states"; its `frequencies_hz` are those of the
 /// successive asymptotes when the resonance is followed.
 [[nodiscard]] std::string wear_json(const WearQuestion& question, const WearAnswer& answer);
-
-/// not_converged also of a history that ended at the cycles asked for while it wore.
-[[nodiscard]] wear::Verdict wear_status(const wear::History& history);
 
 }  // namespace dovetail::studies

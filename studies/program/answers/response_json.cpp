@@ -1,4 +1,4 @@
-#include "studies/program/answers/json_values.hpp"
+#include "studies/program/engine/json_values.hpp"
 #include "studies/program/engine/response_curve.hpp"
 
 namespace dovetail::studies {

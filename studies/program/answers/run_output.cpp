@@ -9,7 +9,7 @@
 #include "core/replace_file.hpp"
 #include "studies/program/answers/field_export.hpp"
 #include "studies/program/answers/geometry_export.hpp"
-#include "studies/program/commands/version.hpp"
+#include "studies/program/answers/version.hpp"
 #include "studies/program/study_file/best_file.hpp"
 #include "studies/program/study_file/export.hpp"
 #include "studies/report/pages/report_html.hpp"

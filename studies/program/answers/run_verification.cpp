@@ -9,8 +9,8 @@
 #include <ostream>
 #include <system_error>
 
-#include "studies/program/answers/json_values.hpp"
 #include "studies/program/answers/run_output.hpp"
+#include "studies/program/engine/json_values.hpp"
 #include "studies/report/record/record_tables.hpp"
 
 namespace dovetail::studies {

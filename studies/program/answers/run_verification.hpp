@@ -6,7 +6,7 @@
 
 #include "optimizer/search/run.hpp"
 #include "studies/program/answers/run_output.hpp"
-#include "studies/program/commands/interrupt.hpp"
+#include "studies/program/engine/interrupt.hpp"
 
 namespace dovetail::studies {
 

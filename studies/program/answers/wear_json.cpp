@@ -1,6 +1,6 @@
 // The answer of the command wear as JSON.
 #include "studies/program/answers/json.hpp"
-#include "studies/program/answers/json_values.hpp"
+#include "studies/program/engine/json_values.hpp"
 #include "studies/program/engine/wear_methods.hpp"
 
 namespace dovetail::optimizer {
@@ -130,17 +130,6 @@ void add_verdict(const wear::Asymptote& asymptote, Json& json) {
 }
 
 }  // namespace
-
-wear::Verdict wear_status(const wear::History& history) {
-  switch (history.end) {
-    case wear::HistoryEnd::worn_out:
-      return wear::Verdict::asymptote;
-    case wear::HistoryEnd::steady_rate:
-      return wear::Verdict::no_asymptote;
-    default:
-      return wear::Verdict::not_converged;
-  }
-}
 
 std::string wear_json(const WearQuestion& question, const WearAnswer& answer) {
   Json json;

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <ostream>
 
-#include "studies/program/answers/json_values.hpp"
 #include "studies/program/commands/commands.hpp"
-#include "studies/program/commands/interrupt.hpp"
 #include "studies/program/commands/progress.hpp"
 #include "studies/program/engine/engine.hpp"
+#include "studies/program/engine/interrupt.hpp"
+#include "studies/program/engine/json_values.hpp"
 #include "studies/program/study_file/refusal.hpp"
 
 namespace dovetail::studies {

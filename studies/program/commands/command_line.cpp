@@ -11,9 +11,9 @@
 #include <system_error>
 
 #include "core/options.hpp"
+#include "studies/program/answers/version.hpp"
 #include "studies/program/commands/commands.hpp"
 #include "studies/program/commands/help.hpp"
-#include "studies/program/commands/version.hpp"
 
 namespace dovetail::studies {
 namespace {

@@ -12,10 +12,10 @@
 #include "optimizer/search/run.hpp"
 #include "studies/program/answers/run_output.hpp"
 #include "studies/program/answers/run_verification.hpp"
+#include "studies/program/answers/version.hpp"
 #include "studies/program/commands/commands.hpp"
-#include "studies/program/commands/interrupt.hpp"
 #include "studies/program/commands/progress.hpp"
-#include "studies/program/commands/version.hpp"
+#include "studies/program/engine/interrupt.hpp"
 #include "studies/program/study_file/refusal.hpp"
 
 namespace dovetail::studies {

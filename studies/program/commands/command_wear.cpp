@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "studies/program/commands/commands.hpp"
-#include "studies/program/commands/interrupt.hpp"
 #include "studies/program/commands/progress.hpp"
 #include "studies/program/engine/engine.hpp"
+#include "studies/program/engine/interrupt.hpp"
 #include "studies/program/engine/truncation_choice.hpp"
 #include "studies/program/engine/wear_quality.hpp"
 #include "studies/program/study_file/refusal.hpp"

@@ -9,11 +9,11 @@
 #include "core/enum_names.hpp"
 #include "core/options.hpp"
 #include "studies/program/answers/geometry_export.hpp"
-#include "studies/program/answers/wear_modes.hpp"
 #include "studies/program/commands/option.hpp"
 #include "studies/program/engine/run_engine.hpp"
+#include "studies/program/questions/analysis_choice.hpp"
+#include "studies/program/questions/wear_options.hpp"
 #include "studies/program/study_file/study.hpp"
-#include "wear/history/history.hpp"
 
 namespace dovetail::studies {
 
@@ -43,29 +43,6 @@ struct NewOptions {
 };
 int run_new(const NewOptions& options, const Streams& streams);
 
-/// Typed for a number that is chosen by refinement.
-inline constexpr std::string_view kAutomatic = "auto";
-
-/// Settings of the contact computation as typed; empty ones keep the file's or the default.
-struct SolverChoice {
-  std::string harmonics, samples;  ///< or kAutomatic
-  std::string tolerance, pseudo_penalty, pseudo_penalty_normal, solver;
-  std::optional<double> accuracy;  ///< of what is chosen automatically
-
-  [[nodiscard]] bool automatic() const { return harmonics == kAutomatic || samples == kAutomatic; }
-};
-
-/// A key of [solver] that is an option, too: name and help follow from the table of SolverSettings.
-struct SolverKey {
-  std::string_view key;
-  std::string SolverChoice::*member;
-  std::string_view type;
-  bool automatic = false;  ///< may be kAutomatic
-
-  [[nodiscard]] std::string option() const;  ///< "--pseudo-penalty"
-};
-[[nodiscard]] std::span<const SolverKey> solver_keys();
-
 struct EvaluateOptions {
   std::string study;
   std::vector<std::string> set;  ///< KEY=VALUE, as given with --set
@@ -81,13 +58,6 @@ struct ReduceOptions {
   std::vector<std::string> set;  ///< KEY=VALUE, as given with --set
 };
 int run_reduce(const ReduceOptions& options, const Streams& streams);
-
-/// What is computed of each point of a response besides itself.
-struct AnalysisChoice {
-  bool error_bars = false, penalty_sensitivity = false, stability = false, traction_bounds = false;
-
-  [[nodiscard]] bool any() const { return error_bars || penalty_sensitivity || stability || traction_bounds; }
-};
 
 struct ResponseOptions {
   std::string input;             ///< MODEL.h5 or STUDY.toml
@@ -127,28 +97,6 @@ struct BackboneOptions {
 };
 int run_backbone(const BackboneOptions& options, const Streams& streams);
 
-struct WearOptions {
-  std::string input;             ///< MODEL.h5 or STUDY.toml
-  std::vector<std::string> set;  ///< KEY=VALUE, as given with --set
-  SolverChoice solver;
-  WearMethod method = WearMethod::asymptote;
-  std::optional<Drive> follow;         ///< absent: as the study says, or fixed
-  std::optional<double> frequency_hz;  ///< absent: the unworn resonance
-  std::optional<double> band_from_hz, band_to_hz;
-  std::optional<int> band_points;     ///< absent: 11
-  std::optional<double> cycles;       ///< history
-  std::optional<int> steps;           ///< history
-  std::optional<double> increment_m;  ///< history; absent: a hundredth of the depth that release comes to
-  std::optional<double> history_tolerance;
-  std::optional<wear::IntegratorKind> integrator;  ///< of a history; absent: as the wear law asks for
-  std::string resume;                              ///< JSON of the history to go on with, or empty
-  std::optional<int> curves;                       ///< response curves along a history
-  std::optional<int> curve_points;                 ///< of each; absent: 60
-  std::optional<double> curve_from_hz, curve_to_hz;
-  bool error_bars = false;
-  bool spread = false;
-  std::string json;
-};
 int run_wear(const WearOptions& options, const Streams& streams);
 
 struct RunOptions {

@@ -1,6 +1,5 @@
 // Options of the commands on a reduced model: response, backbone, wear.
 #include <algorithm>
-#include <array>
 #include <cassert>
 
 #include "optimizer/scene/scene.hpp"
@@ -10,23 +9,6 @@
 namespace dovetail::studies {
 
 using enum Meaning::Kind;
-
-std::span<const SolverKey> solver_keys() {
-  using S = SolverChoice;
-  static constexpr std::array<SolverKey, 6> keys{{{"harmonics", &S::harmonics, "H|auto", true},
-                                                  {"samples", &S::samples, "N|auto", true},
-                                                  {"tolerance", &S::tolerance, "T"},
-                                                  {"pseudo_penalty_n_per_m", &S::pseudo_penalty, "E"},
-                                                  {"pseudo_penalty_normal_n_per_m", &S::pseudo_penalty_normal, "E"},
-                                                  {"solver", &S::solver, "NAME"}}};
-  return keys;
-}
-
-std::string SolverKey::option() const {
-  std::string name(key.substr(0, key.find("_n_per_m")));
-  std::replace(name.begin(), name.end(), '_', '-');
-  return "--" + name;
-}
 
 template <>
 std::span<const Option<SolverChoice>> command_options<SolverChoice>() {

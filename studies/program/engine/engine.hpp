@@ -11,7 +11,9 @@
 #include "optimizer/evaluator.hpp"
 #include "reduction/reduced_model.hpp"
 #include "steady/options.hpp"
-#include "studies/program/commands/commands.hpp"
+#include "studies/program/engine/run_engine.hpp"
+#include "studies/program/questions/solver_choice.hpp"
+#include "studies/program/study_file/study.hpp"
 #include "wear/node_line.hpp"
 
 namespace dovetail::studies {

@@ -8,6 +8,7 @@
 #include "quality/penalty_sensitivity.hpp"
 #include "stability/stability.hpp"
 #include "studies/program/engine/engine.hpp"
+#include "studies/program/questions/analysis_choice.hpp"
 #include "tractions/traction_bounds.hpp"
 
 namespace dovetail::studies {

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "optimizer/journal/fingerprint.hpp"
-#include "studies/program/answers/json_values.hpp"
+#include "studies/program/engine/json_values.hpp"
 #include "studies/program/study_file/refusal.hpp"
 
 namespace dovetail::studies {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "optimizer/journal/record_fields.hpp"
-#include "studies/program/commands/commands.hpp"
 #include "studies/program/engine/engine.hpp"
+#include "studies/program/questions/wear_options.hpp"
 #include "wear/history/history.hpp"
 
 namespace dovetail::optimizer {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "studies/program/commands/commands.hpp"
 #include "studies/program/engine/engine.hpp"
 #include "studies/program/engine/stored_history.hpp"
+#include "studies/program/questions/wear_options.hpp"
 #include "wear/history/history.hpp"
 #include "wear/watcher.hpp"
 

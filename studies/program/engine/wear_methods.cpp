@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "studies/program/answers/json.hpp"
 #include "studies/program/study_file/refusal.hpp"
 #include "wear/asymptote/rest.hpp"
 
@@ -73,6 +72,17 @@ WearStart wear_start(const WearOptions& options, const LoadedModel& loaded) {
   at.omega = at.resonance->omega;
   at.hz = at.omega / kTurn;
   return at;
+}
+
+wear::Verdict wear_status(const wear::History& history) {
+  switch (history.end) {
+    case wear::HistoryEnd::worn_out:
+      return wear::Verdict::asymptote;
+    case wear::HistoryEnd::steady_rate:
+      return wear::Verdict::no_asymptote;
+    default:
+      return wear::Verdict::not_converged;
+  }
 }
 
 WearAnswer unknown_answer(const WearOptions& options, Eigen::Index nodes, Status why) {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "paths/resonance.hpp"
-#include "studies/program/commands/commands.hpp"
 #include "studies/program/engine/engine.hpp"
 #include "studies/program/engine/wear_history.hpp"
+#include "studies/program/questions/wear_options.hpp"
 #include "wear/asymptote/asymptote.hpp"
 #include "wear/history/history.hpp"
 #include "wear/watcher.hpp"
@@ -49,6 +49,9 @@ struct WearAnswer {
   [[nodiscard]] bool worn_out() const { return status == wear::Verdict::asymptote; }
   [[nodiscard]] double largest_depth() const { return depth.size() > 0 ? depth.maxCoeff() : 0; }
 };
+
+/// not_converged also of a history that ended at the cycles asked for while it wore.
+[[nodiscard]] wear::Verdict wear_status(const wear::History& history);
 
 /// The answer of a computation that failed before it had any state.
 [[nodiscard]] WearAnswer unknown_answer(const WearOptions& options, Eigen::Index nodes, Status why);

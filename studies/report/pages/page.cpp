@@ -1,7 +1,7 @@
 #include "studies/report/pages/page.hpp"
 
-#include "studies/report/pages/html.hpp"
 #include "studies/report/texts.hpp"
+#include "studies/report/words/html.hpp"
 
 namespace dovetail::report {
 

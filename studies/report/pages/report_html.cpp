@@ -6,13 +6,13 @@
 #include <utility>
 
 #include "core/replace_file.hpp"
-#include "studies/report/pages/html.hpp"
 #include "studies/report/pages/page.hpp"
 #include "studies/report/pages/report_tables.hpp"
-#include "studies/report/pages/report_words.hpp"
 #include "studies/report/plots/report_plots.hpp"
 #include "studies/report/plots/section_drawing.hpp"
 #include "studies/report/texts.hpp"
+#include "studies/report/words/html.hpp"
+#include "studies/report/words/report_words.hpp"
 #include "wear/follow.hpp"
 
 namespace dovetail::report {

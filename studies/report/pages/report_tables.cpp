@@ -8,9 +8,9 @@
 #include <limits>
 
 #include "optimizer/responses/response_table.hpp"
-#include "studies/report/pages/report_words.hpp"
-#include "studies/report/pages/table.hpp"
 #include "studies/report/plots/plot.hpp"
+#include "studies/report/words/report_words.hpp"
+#include "studies/report/words/table.hpp"
 
 namespace dovetail::report {
 

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "studies/report/pages/report_tables.hpp"
-#include "studies/report/pages/table.hpp"
-#include "studies/report/pages/units.hpp"
+#include "studies/report/words/table.hpp"
+#include "studies/report/words/units.hpp"
 
 namespace dovetail::report {
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "studies/report/pages/html.hpp"
-#include "studies/report/pages/table.hpp"
-#include "studies/report/pages/units.hpp"
+#include "studies/report/words/html.hpp"
+#include "studies/report/words/table.hpp"
+#include "studies/report/words/units.hpp"
 
 namespace dovetail::report {
 

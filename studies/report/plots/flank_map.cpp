@@ -7,8 +7,8 @@
 #include <array>
 #include <cmath>
 
-#include "studies/report/pages/html.hpp"
 #include "studies/report/plots/scale.hpp"
+#include "studies/report/words/html.hpp"
 
 namespace dovetail::report {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/report/pages/units.hpp"
+#include "studies/report/words/units.hpp"
 
 namespace dovetail::report {
 

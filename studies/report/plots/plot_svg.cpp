@@ -5,9 +5,9 @@
 #include <cmath>
 #include <utility>
 
-#include "studies/report/pages/html.hpp"
-#include "studies/report/pages/units.hpp"
 #include "studies/report/plots/scale.hpp"
+#include "studies/report/words/html.hpp"
+#include "studies/report/words/units.hpp"
 
 namespace dovetail::report {
 

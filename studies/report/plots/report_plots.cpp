@@ -9,8 +9,8 @@
 #include <tuple>
 #include <utility>
 
-#include "studies/report/pages/report_words.hpp"
-#include "studies/report/pages/units.hpp"
+#include "studies/report/words/report_words.hpp"
+#include "studies/report/words/units.hpp"
 
 namespace dovetail::report {
 

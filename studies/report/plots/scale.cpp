@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "studies/report/pages/units.hpp"
+#include "studies/report/words/units.hpp"
 
 namespace dovetail::report {
 

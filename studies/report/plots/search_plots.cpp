@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "studies/report/pages/report_words.hpp"
 #include "studies/report/plots/report_plots.hpp"
+#include "studies/report/words/report_words.hpp"
 
 namespace dovetail::report {
 

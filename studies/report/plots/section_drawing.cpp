@@ -9,8 +9,8 @@
 #include <numbers>
 
 #include "geometry/profile/measures.hpp"
-#include "studies/report/pages/html.hpp"
-#include "studies/report/pages/units.hpp"
+#include "studies/report/words/html.hpp"
+#include "studies/report/words/units.hpp"
 
 namespace dovetail::report {
 

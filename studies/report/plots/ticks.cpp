@@ -6,7 +6,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "studies/report/pages/units.hpp"
+#include "studies/report/words/units.hpp"
 
 namespace dovetail::report {
 

@@ -7,11 +7,11 @@
 #include <regex>
 #include <stdexcept>
 
-#include "studies/report/pages/html.hpp"
 #include "studies/report/pages/page.hpp"
-#include "studies/report/pages/report_words.hpp"
-#include "studies/report/pages/table.hpp"
 #include "studies/report/plots/report_plots.hpp"
+#include "studies/report/words/html.hpp"
+#include "studies/report/words/report_words.hpp"
+#include "studies/report/words/table.hpp"
 #include "tests/unit/studies/report_markup.hpp"
 #include "tests/unit/studies/report_sample.hpp"
 

@@ -8,8 +8,8 @@
 #include <random>
 #include <set>
 
-#include "studies/report/pages/units.hpp"
 #include "studies/report/plots/ticks.hpp"
+#include "studies/report/words/units.hpp"
 #include "tests/unit/studies/report_markup.hpp"
 
 namespace dovetail::report {

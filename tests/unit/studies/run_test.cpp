@@ -10,7 +10,7 @@
 #include "core/replace_file.hpp"
 #include "optimizer/journal/journal.hpp"
 #include "studies/program/commands/commands.hpp"
-#include "studies/program/commands/interrupt.hpp"
+#include "studies/program/engine/interrupt.hpp"
 #include "studies/report/record/results_file.hpp"
 #include "tests/unit/studies/sample_study.hpp"
 

@@ -1,4 +1,4 @@
-#include "studies/report/pages/units.hpp"
+#include "studies/report/words/units.hpp"
 
 #include <fmt/format.h>
 

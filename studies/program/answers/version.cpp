@@ -1,4 +1,4 @@
-#include "studies/program/commands/version.hpp"
+#include "studies/program/answers/version.hpp"
 
 namespace dovetail::studies {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "studies/report/pages/units.hpp"
 #include "studies/report/record/run_record.hpp"
+#include "studies/report/words/units.hpp"
 
 namespace dovetail::report {
 

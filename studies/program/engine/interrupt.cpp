@@ -1,4 +1,4 @@
-#include "studies/program/commands/interrupt.hpp"
+#include "studies/program/engine/interrupt.hpp"
 
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-#include "studies/report/pages/report_words.hpp"
+#include "studies/report/words/report_words.hpp"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "studies/report/pages/html.hpp"
+#include "studies/report/words/html.hpp"
 
 namespace dovetail::report {
 

@@ -1,4 +1,4 @@
-#include "studies/report/pages/html.hpp"
+#include "studies/report/words/html.hpp"
 
 #include <fmt/format.h>
 

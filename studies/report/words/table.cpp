@@ -1,4 +1,4 @@
-#include "studies/report/pages/table.hpp"
+#include "studies/report/words/table.hpp"
 
 #include <algorithm>
 
