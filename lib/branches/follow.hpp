@@ -36,7 +36,7 @@ struct Interval {
 
 /// A point of a branch.
 struct BranchPoint {
-  steady::State state;    ///< converged; with linearisation when steady::Options::linearise
+  steady::State state;    ///< converged; with its tangent when steady::Options::linearise
   double parameter = 0;   ///< at which it stands
   double arc_length = 0;  ///< along the branch from its start
   double direction = 1;   ///< change of the parameter with the arc length, in units in which the tangent has length 1;

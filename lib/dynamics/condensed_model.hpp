@@ -42,7 +42,7 @@ class CondensedModel {
   [[nodiscard]] Eigen::Index output_count() const { return output_contact_.rows(); }  ///< n_out
   [[nodiscard]] bool modal() const { return modal_; }
   [[nodiscard]] int force_harmonics() const { return static_cast<int>(force_contact_.cols()) - 1; }
-  /// What a node wears per cycle for a slip load, N m.
+  /// What a node wears per cycle by its slip.
   [[nodiscard]] contact::WearRate wear_rate(Eigen::Index node, const contact::Slip& slip) const {
     return wear_law_->rate(wear_node(node), slip);
   }

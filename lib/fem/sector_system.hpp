@@ -55,11 +55,4 @@ struct SectorSystem {
 /// Thickness of the body that a node belongs to, m: of an element with that node; 1 in space.
 [[nodiscard]] double body_thickness(const Mesh& mesh, int node);
 
-/// The block of the internal dofs: contact dofs held at zero, the blade glued to the disk.
-template <class Scalar>
-[[nodiscard]] Eigen::SparseMatrix<Scalar> internal_block(const Eigen::SparseMatrix<Scalar>& matrix,
-                                                         const Constraints<Scalar>& constraints) {
-  return matrix.topLeftCorner(constraints.internal_count, constraints.internal_count);
-}
-
 }  // namespace dovetail::fem

@@ -26,7 +26,7 @@ struct Resonance {
   double unresolved = 0;
   int solves = 0;       ///< steady states computed
   int jacobians = 0;    ///< Jacobians of all of them
-  steady::State state;  ///< at omega, with linearisation
+  steady::State state;  ///< at omega, with its tangent
 };
 
 /// The maximum of the amplitude of one output on the response curve near `omega_start` (rad/s; the glued natural

@@ -59,7 +59,7 @@ class Tangent {
   /// True when J was (nearly) singular and its contact was stiffened by 1e-6 to get a search direction: not usable
   /// for derivatives.
   [[nodiscard]] bool regularised() const { return factors_->regularisation > 0; }
-  /// Whether the factors are those of the previous linearisation.
+  /// Whether the factors are those of the tangent before.
   [[nodiscard]] bool shares_factors() const { return shares_factors_; }
 
  private:

@@ -38,7 +38,7 @@ Eigen::VectorXd largest_von_mises(const Eigen::MatrixXd& coefficients, Eigen::In
   return largest;
 }
 
-/// Fourier coefficients of the reduced coordinates, [n, 2H+1], of a converged steady state with linearisation.
+/// Fourier coefficients of the reduced coordinates, [n, 2H+1], of a converged steady state with its tangent.
 Eigen::MatrixXd reduced_coordinates(const steady::State& state) {
   assert(state.status == Status::converged && state.tangent);
   const steady::Problem& residual = state.tangent->problem();

@@ -14,6 +14,7 @@
 #include "numerics/blas.hpp"
 #include "reduction/massless_boundary.hpp"
 #include "tests/unit/fem/extruded_mesh.hpp"
+#include "tests/unit/fem/internal_block.hpp"
 #include "tests/unit/fem/structured_mesh.hpp"
 #include "tests/verification/fem/sector_model.hpp"
 

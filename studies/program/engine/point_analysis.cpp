@@ -11,7 +11,7 @@
 namespace dovetail::studies {
 namespace {
 
-/// The same state with its linearisation: solved again from itself, which takes no iteration.
+/// The same state with its tangent, which the points of a curve do not keep: solved again from itself, without a step.
 steady::State linearised(const LoadedModel& loaded, const steady::State& state) {
   if (state.tangent) return state;
   steady::Options options = loaded.joint.options;

@@ -8,6 +8,7 @@
 #include "core/errors.hpp"
 #include "fem/sector_system.hpp"
 #include "numerics/dense_general.hpp"
+#include "tests/unit/fem/internal_block.hpp"
 #include "tests/unit/fem/structured_mesh.hpp"
 
 namespace dovetail::fem {

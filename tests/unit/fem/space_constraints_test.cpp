@@ -7,6 +7,7 @@
 #include "core/errors.hpp"
 #include "fem/sector_system.hpp"
 #include "tests/unit/fem/extruded_mesh.hpp"
+#include "tests/unit/fem/internal_block.hpp"
 #include "tests/unit/fem/structured_mesh.hpp"
 
 namespace dovetail::fem {

@@ -8,6 +8,7 @@
 #include "fem/element.hpp"
 #include "fem/stress.hpp"
 #include "numerics/sparse_factor.hpp"
+#include "tests/unit/fem/internal_block.hpp"
 
 namespace dovetail::calculix {
 

@@ -10,6 +10,7 @@
 #include "fem/sector_system.hpp"
 #include "numerics/dense_symmetric.hpp"
 #include "tests/unit/fem/extruded_mesh.hpp"
+#include "tests/unit/fem/internal_block.hpp"
 #include "tests/unit/fem/structured_mesh.hpp"
 
 namespace dovetail::fem {

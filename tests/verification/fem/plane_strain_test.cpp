@@ -9,6 +9,7 @@
 #include "reduction/static_condensation.hpp"
 #include "steady/preload.hpp"
 #include "tests/unit/fem/extruded_mesh.hpp"
+#include "tests/unit/fem/internal_block.hpp"
 #include "tests/unit/fem/structured_mesh.hpp"
 #include "tests/verification/fem/sector_model.hpp"
 

@@ -5,6 +5,7 @@
 #include "fem/glued_modes.hpp"
 #include "reduction/massless_boundary.hpp"
 #include "tests/unit/fem/extruded_mesh.hpp"
+#include "tests/unit/fem/internal_block.hpp"
 #include "tests/unit/fem/structured_mesh.hpp"
 #include "tests/unit/reduction/stiffness_error.hpp"
 #include "tests/verification/fem/sector_model.hpp"
