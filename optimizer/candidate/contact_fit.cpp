@@ -8,6 +8,7 @@
 #include "paths/resonance.hpp"
 #include "paths/steady_state.hpp"
 #include "wear/asymptote/asymptote.hpp"
+#include "wear/measures.hpp"
 
 namespace dovetail::optimizer {
 
@@ -46,13 +47,15 @@ class GridSearch {
         candidate_(candidate),
         cells_(cell_lengths(scene, options_.lengths)),
         joint_(joint_of(scene, candidate, how.penalty_scale)) {
-    release_.arbitration = wear::Arbitration::never;
     release_.certify = release_.certify_finer = false;
   }
 
   ContactFit run() {
     lay(cell_grid(scene_, candidate_.mesh.sector, cells_));
     if (!candidate_.converged()) return fit_;
+    // Where the law lets nodes rest in slip the history says which ones wear.
+    rests_in_slip_ = wear::rests_in_slip(*candidate_.condensed);
+    release_.arbitration = rests_in_slip_ ? wear::Arbitration::unsettled : wear::Arbitration::never;
     for (const fem::CellStrip& strip : candidate_.cells.strips())
       lengths_.emplace_back(fem::trace_lines(candidate_.mesh.sector.flanks[strip.flank]));
     laid_.resize(lengths_.size());
@@ -106,7 +109,9 @@ class GridSearch {
     fit_.displacement = unworn_.displacement;
     const wear::Asymptote worn = wear::asymptote(joint_, peak_.omega, release_, &unworn_);
     if (worn.verdict != wear::Verdict::asymptote) return false;
-    const std::vector<std::vector<Edge>> edges = edge_places(candidate_.cells, worn.trail);
+    const std::vector<std::vector<Edge>> edges = rests_in_slip_
+                                                     ? resting_edges(candidate_.cells, *candidate_.condensed, worn)
+                                                     : edge_places(candidate_.cells, worn.trail);
     found_ = search_.hold(edges, lengths_);
     Misfit misfit;
     for (std::size_t l = 0; l < found_.size(); ++l) {
@@ -174,6 +179,7 @@ class GridSearch {
   CellLengths cells_;
   steady::Joint joint_;
   wear::AsymptoteOptions release_;
+  bool rests_in_slip_ = false;
   std::vector<EdgeLengths> lengths_;      // of every strip
   EdgeSearch::Places laid_, found_;       // edges that the grid was laid for, and those found on it
   std::vector<std::vector<int>> counts_;  // of cells between edges

@@ -5,6 +5,7 @@
 
 #include "optimizer/candidate/node_lines.hpp"
 #include "optimizer/candidate/params.hpp"
+#include "wear/measures.hpp"
 
 namespace dovetail::optimizer {
 
@@ -34,6 +35,32 @@ std::vector<std::vector<Edge>> edge_places(const fem::ContactCells& cells, const
                             .grown = edge.before >= 0});
   }
   for (std::vector<Edge>& of_line : places) std::ranges::sort(of_line, {}, &Edge::place);
+  return places;
+}
+
+std::vector<std::vector<Edge>> resting_edges(const fem::ContactCells& cells, const dynamics::CondensedModel& model,
+                                             const wear::Asymptote& worn) {
+  const std::vector<fem::CellStrip> strips = cells.strips();
+  const std::vector<bool> wears = wear::worn_nodes(worn.depth);
+  // Energy over that at which the node does not wear yet.
+  const auto energy = [&](const steady::State& state, std::size_t node) {
+    const double resting = model.wear_law().resting_energy(model.wear_node(static_cast<Eigen::Index>(node)));
+    return state.nodes[node].dissipated_energy / resting;
+  };
+  std::vector<std::vector<Edge>> places(strips.size());
+  for (std::size_t s = 0; s < strips.size(); ++s)
+    for (std::size_t k = 0; k + 1 < strips[s].count(); ++k) {
+      const fem::CellStrip& strip = strips[s];
+      const std::size_t zone = wears[strip.first + k] ? k : k + 1, beyond = zone == k ? k + 1 : k;
+      if (wears[strip.first + beyond] == wears[strip.first + zone] ||
+          !worn.unworn.nodes[strip.first + beyond].carries_load)
+        continue;
+      const double from = strip.middle(zone), to = strip.middle(beyond), border = strip.ends[k + 1];
+      const double rise = energy(worn.unworn, strip.first + zone) - energy(worn.unworn, strip.first + beyond);
+      const double missing = 1 - energy(worn.steady, strip.first + beyond);
+      const double back = rise > 0 ? std::clamp(missing / rise, 0.0, 1.0) : (border - to) / (from - to);
+      places[s].push_back({.place = to + back * (from - to), .end = border, .outwards = zone < beyond ? 1 : -1});
+    }
   return places;
 }
 

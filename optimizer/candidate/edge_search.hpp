@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "optimizer/candidate/cell_grid.hpp"
+#include "wear/asymptote/asymptote.hpp"
 #include "wear/release/zone_edges.hpp"
 
 namespace dovetail::optimizer {
@@ -18,6 +19,13 @@ struct Edge {
 /// Edges of every strip, rising.
 [[nodiscard]] std::vector<std::vector<Edge>> edge_places(const fem::ContactCells& cells,
                                                          const wear::ReleaseTrail& trail);
+
+/// The same under a wear law that lets nodes rest in slip, where release does not find the worn zones: a zone ends
+/// where the energy of the node beyond it, at rest, would come up to what the law lets it dissipate, if it rose towards
+/// the zone as it does before wear.
+[[nodiscard]] std::vector<std::vector<Edge>> resting_edges(const fem::ContactCells& cells,
+                                                           const dynamics::CondensedModel& model,
+                                                           const wear::Asymptote& worn);
 
 /// Zones narrower than the trace resolves: those at the ends of the flank stay as wide as it resolves, others are none.
 void widen_narrow(const EdgeLengths& edge_lengths, const CellLengths& lengths, std::vector<double>& edges);
