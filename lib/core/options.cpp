@@ -6,8 +6,15 @@
 
 namespace dovetail {
 
+Range Range::interval() const {
+  Range alone = *this;
+  alone.zero = {};
+  return alone;
+}
+
 bool Range::contains(double value) const {
   if (!std::isfinite(value)) return false;
+  if (is_zero_apart(value)) return true;
   if (lower_open ? value <= lower : value < lower) return false;
   return !(upper_open ? value >= upper : value > upper);
 }
@@ -28,6 +35,7 @@ std::string Range::phrase() const {
   const bool above = std::isfinite(upper);
   if (!below && !above) return "must be a finite number";
   std::string text = "must be ";
+  if (!zero.empty()) text += "0 (" + std::string(zero) + ") or ";
   if (below) text += (lower_open ? "> " : ">= ") + shortest(lower);
   if (below && above) text += " and ";
   if (above) text += (upper_open ? "< " : "<= ") + shortest(upper);

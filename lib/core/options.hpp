@@ -22,11 +22,17 @@ struct Range {
   double upper = std::numeric_limits<double>::infinity();
   bool lower_open = false;
   bool upper_open = false;
+  /// What 0 means where it is allowed besides the interval, as a value of its own that nothing leads to step by step.
+  std::string_view zero = {};
 
   [[nodiscard]] bool contains(double value) const;
+  /// Whether the value is that 0.
+  [[nodiscard]] bool is_zero_apart(double value) const { return !zero.empty() && value == 0; }
+  /// The interval alone.
+  [[nodiscard]] Range interval() const;
   /// The same for a number converted to SI and back, which may have left a closed end by a few roundings.
   [[nodiscard]] bool contains_rounded(double value) const;
-  /// "must be > 0 and <= 90", "must be a finite number"
+  /// "must be > 0 and <= 90", "must be a finite number", "must be 0 (rigid) or >= 5"
   [[nodiscard]] std::string phrase() const;
 };
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/errors.hpp"
 #include "optimizer/problem/outcome.hpp"
 
 namespace dovetail::optimizer {
@@ -37,5 +38,18 @@ struct Evaluation {
 
 /// Evaluates one point of the design space (values in the study file's units, design-space order).
 using Evaluator = std::function<Evaluation(std::span<const double>)>;
+
+/// What `evaluate` returns. A design that it refuses as wrong input is a failure of that design, not of what asked for
+/// it.
+template <class Evaluate>
+[[nodiscard]] Evaluation evaluated_or_refused(const Evaluate& evaluate) {
+  try {
+    return evaluate();
+  } catch (const InputError& error) {
+    Evaluation refused;
+    refused.status = failed_at("scene", error.what());
+    return refused;
+  }
+}
 
 }  // namespace dovetail::optimizer

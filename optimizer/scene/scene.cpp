@@ -187,13 +187,6 @@ std::vector<Violation> contradictions(const Scene& scene) {
           name != scene.contact.wear_law && value != p.standard)
         contradiction(joined("contact", p.key), value, "has no meaning unless contact.wear_law = \"" + name + "\"");
   }
-  // Their asperities would give way by a tenth of a metre under 100 MPa.
-  constexpr double kSoftest = 1e9;
-  for (const auto& [key, stiffness] :
-       {std::pair{"contact.normal_stiffness_n_per_m3", scene.contact.normal_stiffness},
-        std::pair{"contact.tangential_stiffness_n_per_m3", scene.contact.tangential_stiffness}})
-    if (stiffness > 0 && stiffness < kSoftest)
-      contradiction(key, stiffness, "must be 0 (rigid) or >= " + shortest(kSoftest));
   for (Violation& own : scene.kind->contradictions(scene)) found.push_back(std::move(own));
   return found;
 }

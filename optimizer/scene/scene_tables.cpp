@@ -32,8 +32,9 @@ std::span<const Field<fem::Material>> option_table<fem::Material>() {
   return table;
 }
 
-// Springs much stiffer than that are rigid, and lose the structure's own stiffness to rounding.
-constexpr Range kInterface{.lower = 0, .upper = 1e20};
+// The softest asperities would give way by a tenth of a metre under 100 MPa. Springs much stiffer than the upper end
+// are rigid, and lose the structure's own stiffness to rounding.
+constexpr Range kInterface{.lower = 1e9, .upper = 1e20, .zero = "rigid"};
 
 template <>
 std::span<const Field<optimizer::ContactProperties>> option_table<optimizer::ContactProperties>() {
@@ -53,7 +54,7 @@ std::span<const Field<optimizer::ContactProperties>> option_table<optimizer::Con
       Field<C>{.key = "normal_stiffness_n_per_m3",
                .member = &C::normal_stiffness,
                .range = kInterface,
-               .help = "of rough flanks, in series with their contact; 0: rigid"},
+               .help = "of rough flanks, in series with their contact"},
       Field<C>{.key = "tangential_stiffness_n_per_m3",
                .member = &C::tangential_stiffness,
                .range = kInterface,

@@ -25,7 +25,8 @@ const FinerCheck& FinerLimits::look(std::size_t candidate, int level) {
   if (hooks_.finer_journal != nullptr)
     for (const JournalRecord& record : hooks_.finer_journal->records())
       if (record.x == key) known = &record;
-  check.evaluation = known != nullptr ? known->evaluation : hooks_.finer(x, level);
+  check.evaluation =
+      known != nullptr ? known->evaluation : evaluated_or_refused([&] { return hooks_.finer(x, level); });
   const double tolerance = session_.options().constraint_tolerance;
   annotate(session_.problem(), tolerance, check.evaluation);
   if (known == nullptr && hooks_.finer_journal != nullptr) hooks_.finer_journal->append(key, check.evaluation);

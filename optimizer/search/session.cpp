@@ -162,7 +162,7 @@ void EvaluationSession::compute_in_parallel(std::vector<Pending>& pending, const
 
 void EvaluationSession::call_evaluator(Pending& candidate) const {
   try {
-    candidate.evaluation = evaluator_(candidate.x);
+    candidate.evaluation = evaluated_or_refused([&] { return evaluator_(candidate.x); });
   } catch (...) {
     candidate.error = std::current_exception();
   }

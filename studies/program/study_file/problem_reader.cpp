@@ -126,6 +126,11 @@ std::vector<DesignVariable> read_variables(SectionReader& root, const optimizer:
     const std::optional<double> start = section.number("start", range);
     section.finish();
     if (!parameter) continue;
+    for (const auto& [name, bound] : {std::pair{"lower", lower}, std::pair{"upper", upper}})
+      if (bound && range.is_zero_apart(*bound))
+        problems.add(
+            *node->find(name), section.path(name),
+            range.interval().phrase() + ": 0 means " + std::string(range.zero) + " and cannot be part of a range");
     if (parameter->left_aside(scene)) problems.add(*node->find("key"), section.path("key"), left_aside_words(scene));
     for (const DesignVariable& other : variables)
       if (overlap(other.key, *key))

@@ -45,6 +45,20 @@ TEST_P(Failures, SurvivesCandidatesThatDoNotConverge) {
   EXPECT_GT(result.statistics.failed, 0);
 }
 
+// As when a rule between two keys holds at the bounds of the variables, but not within.
+TEST_P(Failures, SurvivesDesignsThatTheEvaluatorRefuses) {
+  const Evaluator evaluator = [](std::span<const double> x) {
+    if (x[0] > 1.5 || x[1] > 9)
+      throw InputError(Violation{.file = {}, .key = "x", .value = "2", .allowed = "must be less"});
+    return bowl(x);
+  };
+  const OptimizationResult result = run_optimization(bowl_problem(), evaluator, bowl_options(GetParam()));
+  EXPECT_LT(best_value(result), kNear) << result.message;
+  EXPECT_GT(result.statistics.failed, 0);
+  for (const Candidate& c : result.evaluations)
+    EXPECT_EQ(c.evaluation.status, c.x[0] > 1.5 || c.x[1] > 9 ? "scene: x = 2: must be less" : "converged");
+}
+
 TEST_P(Failures, TakesNotANumberAsAFailure) {
   const Evaluator evaluator = [](std::span<const double> x) {
     Evaluation e = bowl(x);

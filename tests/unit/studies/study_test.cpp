@@ -173,6 +173,15 @@ TEST(Study, AsperitiesAreStiffOrRigid) {
   };
   EXPECT_EQ(told("1e9"), "");
   EXPECT_EQ(told("0"), "");
+  const auto told_of_variable = [](const std::string& lower, const std::string& start) {
+    return complaints(sample() + "\n[[variable]]\nkey = \"contact.normal_stiffness_n_per_m3\"\nlower = " + lower +
+                      "\nupper = 1e14\n" + start);
+  };
+  EXPECT_EQ(told_of_variable("1e12", "start = 1e13\n"), "");
+  EXPECT_THAT(told_of_variable("1e8", "start = 1e13\n"), HasSubstr("lower = 1e+08: must be 0 (rigid) or >= 1e+09"));
+  EXPECT_THAT(told_of_variable("0", "start = 1e13\n"), HasSubstr("0 means rigid and cannot be part of a range"));
+  EXPECT_THAT(told_of_variable("1e12", "start = 0\n"), HasSubstr("start = 0: must be between lower = 1e+12"));
+  EXPECT_THAT(told_of_variable("1e12", ""), HasSubstr("or give the variable a start"));
   EXPECT_THAT(told("1e8"), HasSubstr("contact.normal_stiffness_n_per_m3 = 1e+08: must be 0 (rigid) or >= 1e+09"));
 }
 
