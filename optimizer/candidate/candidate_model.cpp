@@ -144,6 +144,8 @@ void lay_contact(const Scene& scene, const std::vector<fem::FlankCells>& flanks,
   }
   candidate.model.contact.slip_origin = candidate.preload.slip_origin;
   candidate.condensed = std::make_shared<const dynamics::CondensedModel>(candidate.model);
+  candidate.glued_frequencies = interface_of(scene.contact).rigid() ? candidate.reduction.glued_frequencies
+                                                                    : candidate.condensed->glued_frequencies();
 }
 
 ModelBuilder::ModelBuilder(const Scene& reference) {

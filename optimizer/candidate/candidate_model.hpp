@@ -34,6 +34,7 @@ struct CandidateModel {
   reduction::Reduction reduction;
   reduction::ReducedModel model;  ///< of it, with the rough interface and the slip that the preload leaves
   std::shared_ptr<const dynamics::CondensedModel> condensed;
+  Eigen::VectorXd glued_frequencies;  ///< rad/s, ascending: all contact nodes stuck, asperities between them elastic
   steady::Preload preload;
   SharedBudget budget;             ///< of everything computed with contact; counts also where nothing is limited
   double jacobian_operations = 1;  ///< what it counts for a Jacobian in which all contact nodes take part

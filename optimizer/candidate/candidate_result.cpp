@@ -46,8 +46,7 @@ std::string dynamics(const Scene& scene, const Computation& how, const ContactFi
   const steady::Joint joint = joint_of(scene, model, how.penalty_scale);
   Stopwatch watch;
 
-  const double start =
-      fit.displacement.size() > 0 ? fit.omega : model.reduction.glued_frequencies(scene.loading.mode - 1);
+  const double start = fit.displacement.size() > 0 ? fit.omega : model.glued_frequencies(scene.loading.mode - 1);
   result.unworn = paths::resonance(joint, start, {}, fit.displacement);
   evaluation.timings_s["unworn_resonance"] = watch.lap();
   if (result.unworn->status != Status::converged) return failed_at("unworn_resonance", result.unworn->status);

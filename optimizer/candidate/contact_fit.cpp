@@ -61,7 +61,7 @@ class GridSearch {
     laid_.resize(lengths_.size());
     counts_.resize(lengths_.size());
     // At the resonance of the first grid on all of them: it hardly moves, and edges move less.
-    if (!find_resonance(candidate_.reduction.glued_frequencies(scene_.loading.mode - 1))) return fit_;
+    if (!find_resonance(candidate_.glued_frequencies(scene_.loading.mode - 1))) return fit_;
     for (bool at_resonance = false;; ++fit_.grids) {
       if (!find_edges()) return unsettled();
       // A zone that the finer cells beside its edge make vanish is none.

@@ -59,7 +59,7 @@ class Study {
   bool unworn() {
     say("unworn resonance");
     const optimizer::CandidateModel& model = candidate_.model;
-    const double glued = model.reduction.glued_frequencies(results_.scene.loading.mode - 1);
+    const double glued = model.glued_frequencies(results_.scene.loading.mode - 1);
     candidate_.unworn = paths::resonance({model.condensed, {}, steady_}, glued);
     if (candidate_.unworn->status != Status::converged) {
       fail("The unworn resonance was not found: " + std::string(to_string(candidate_.unworn->status)) + ".");
@@ -192,7 +192,7 @@ class Study {
     optimizer::CandidateModel model = optimizer::ModelBuilder(scene).build(scene);
     if (model.converged()) optimizer::fit_contact(scene, {}, model);
     if (!model.converged()) return;
-    const double glued = model.reduction.glued_frequencies(scene.loading.mode - 1);
+    const double glued = model.glued_frequencies(scene.loading.mode - 1);
     const paths::Resonance unworn = paths::resonance({model.condensed, {}, steady_}, glued);
     if (unworn.status != Status::converged) return;
     const wear::Asymptote found = wear::asymptote({model.condensed, {}, steady_}, unworn.omega,

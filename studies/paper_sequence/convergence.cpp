@@ -109,7 +109,7 @@ class Convergence {
     row.pressure_mean_pa = pressure.dot(area) / area.sum();
     row.pressure_max_pa = pressure.maxCoeff();
     const steady::Options steady = optimizer::steady_options(scene.solver);
-    const double glued = model.reduction.glued_frequencies(scene.loading.mode - 1);
+    const double glued = model.glued_frequencies(scene.loading.mode - 1);
     const paths::Resonance unworn = paths::resonance({model.condensed, {}, steady}, glued);
     if (unworn.status != Status::converged) return optimizer::failed_at("resonance", unworn.status);
     row.frequency_hz = unworn.omega / (2 * std::numbers::pi);

@@ -54,7 +54,7 @@ Subject scene_subject(const std::string& study_file, double seconds) {
     Run run;
     run.setting = setting;
     if (built.model.converged()) {
-      const double glued = built.model.reduction.glued_frequencies(scene.loading.mode - 1);
+      const double glued = built.model.glued_frequencies(scene.loading.mode - 1);
       run = timed_resonance(built.model.condensed, glued, setting, kTolerance, seconds);
     } else {
       run.status = built.model.status;

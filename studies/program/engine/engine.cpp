@@ -125,7 +125,7 @@ LoadedModel from_study(const std::string& file, const std::vector<Override>& giv
   loaded.model = candidate.model;
   loaded.joint.model = candidate.condensed;
   loaded.lines = optimizer::node_lines(candidate.cells);
-  loaded.glued_omega = candidate.reduction.glued_frequencies(study.scene.loading.mode - 1);
+  loaded.glued_omega = candidate.glued_frequencies(study.scene.loading.mode - 1);
   return loaded;
 }
 

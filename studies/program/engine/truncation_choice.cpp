@@ -36,7 +36,7 @@ std::optional<Status> choose_truncation(optimizer::Scene& scene, const optimizer
   LoadedModel loaded;
   loaded.joint.model = candidate.condensed;
   loaded.joint.options = optimizer::steady_options(scene.solver);
-  const double glued = candidate.reduction.glued_frequencies(scene.loading.mode - 1);
+  const double glued = candidate.glued_frequencies(scene.loading.mode - 1);
   const paths::Resonance resonance = paths::resonance(loaded.joint, glued);
   if (resonance.status != Status::converged) return std::nullopt;
   const std::optional<Status> status = choose_truncation(loaded, {resonance.omega / (2 * std::numbers::pi)}, solver);

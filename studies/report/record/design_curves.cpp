@@ -92,7 +92,7 @@ void add_curves(const Scene& scene, const CandidateResult& result, const DesignR
     return;
   }
   const CandidateModel& model = result.model;
-  const double glued = model.reduction.glued_frequencies(scene.loading.mode - 1);
+  const double glued = model.glued_frequencies(scene.loading.mode - 1);
   const Band range = band(scene, result, glued, options.curve_widths);
   record.glued = glued_curve(model, frequencies(range, glued, options.curve_points));
   record.unworn = frictional_curve(scene, model, frequencies(range, result.unworn->omega, options.curve_points), {});
