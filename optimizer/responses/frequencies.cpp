@@ -10,22 +10,19 @@ constexpr MeshOrder kFrequency{.in_plane = 1.5, .in_space = 2.5};
 
 }  // namespace
 
-const Response kGluedFrequency{.name = "glued_frequency_hz",
-                               .unit = "Hz",
-                               .help =
-                                   "Natural frequency of the followed mode with the flanks glued, through their "
-                                   "asperities where these give way, at speed.",
-                               .stage = Stage::model,
-                               .value =
-                                   [](const Scene& scene, const CandidateResult& result) {
-                                     // Glued on all of the mesh; what asperities give way is known between contact
-                                     // nodes.
-                                     const int mode = scene.loading.mode - 1;
-                                     const double softer = result.model.glued_frequencies(mode) /
-                                                           result.model.reduction.glued_frequencies(mode);
-                                     return hertz(reduction::glued_frequencies(result.model.trace)(mode) * softer);
-                                   },
-                               .mesh_order = kFrequency};
+const Response kGluedFrequency{
+    .name = "glued_frequency_hz",
+    .unit = "Hz",
+    .help = "Natural frequency of the followed mode with the flanks glued at their asperities, at speed.",
+    .stage = Stage::model,
+    .value =
+        [](const Scene& scene, const CandidateResult& result) {
+          // Glued on all of the mesh; how much softer asperities make that is known between contact nodes.
+          const int mode = scene.loading.mode - 1;
+          const double softer = result.model.glued_frequencies(mode) / result.model.reduction.glued_frequencies(mode);
+          return hertz(reduction::glued_frequencies(result.model.trace)(mode) * softer);
+        },
+    .mesh_order = kFrequency};
 
 const Response kResonance{
     .name = "resonance_hz",
