@@ -143,7 +143,7 @@ class WearFiles(unittest.TestCase):
         # Only the law of energy may have one; its data sets are the same but for that.
         for name, more in {"without.h5": {}, "with.h5": {"/contact/wear_threshold": write_model.np.zeros(4)}}.items():
             write_model.write_model(os.path.join(self.folder.name, name),
-                                    {**write_model.rod(4), "/contact/wear_law": "energy", **more})
+                                    {**write_model.rod(4), "/contact/wear_law": ["energy"], **more})
         self.wear("with.h5", *HISTORY, *AT, "--steps", "2", file="energy.json", status=3)
         self.wear("without.h5", *HISTORY, "--steps", "1", "--resume", "energy.json", status=3)
 
