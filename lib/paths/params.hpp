@@ -21,9 +21,9 @@ struct StationarityParams {
   /// Difference of the amplitudes at the ends of a bracket, relative, above which the curve jumps between them: a
   /// smooth peak differs by the square of the bracket over its width, far less when it is closed in on.
   double continuous = 1e-4;
-  /// Where a bracket is not halved: factor of a step that is meant to pass the maximum, and the part of the bracket
-  /// below which a step counts as clinging to one end. Factor 1: one end stays for ever.
-  double overshoot = 3, one_sided = 0.1;
+  /// How far a step to a jump of the slope goes beyond it, over its length: the bracket shrinks by so much where the
+  /// jump is as foreseen. 0: one end stays for ever.
+  double beyond = 0.05;
   double part = 0.2;  ///< of the tolerance, which the last step may take
   /// Length, over the tolerance, of a step that looks for the other side of a jump of the slope, and how much longer
   /// the next is when it was none: below 1 the bracket that it makes is narrow enough.
@@ -126,8 +126,8 @@ static_assert(PeakParams{}.short_step <= PeakParams{}.trust && PeakParams{}.trus
 static_assert(PeakParams{}.near < PeakParams{}.away, "a point that Newton takes as it is belongs to the branch");
 static_assert(StationarityParams{}.part < StationarityParams{}.probe && StationarityParams{}.probe < 1,
               "the last step is within the tolerance, and so is the bracket that a longer one makes");
-static_assert(StationarityParams{}.overshoot * StationarityParams{}.one_sided < 0.5,
-              "a step that overshoots stays nearer to its end than a bisection");
+static_assert(StationarityParams{}.beyond > 0 && StationarityParams{}.beyond < 0.5,
+              "a step beyond a jump brings more than a bisection");
 static_assert(ClosingInParams{}.cautious < ClosingInParams{}.tries, "more tries where rescues help");
 static_assert(PeakSweepParams{}.hopeless < ClimbParams{}.height, "what is climbed may be lower than its summit");
 static_assert(BackboneParams{}.moved < BackboneParams{}.elsewhere, "moved before it is another peak");

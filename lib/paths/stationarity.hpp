@@ -35,7 +35,7 @@ class Stationarity {
     if (now.slope <= 0 && (!falling_ || now.place < falling_->place)) falling_ = now;
     // Another peak, or a fold, can cross the marks: keep the newest one.
     if (rising_ && falling_ && rising_->place >= falling_->place) (now.slope > 0 ? falling_ : rising_).reset();
-    widths_.push_back(width());
+    brackets_.push_back({.width = width(), .drop = bracketed() ? rising_->slope - falling_->slope : 0});
   }
 
   [[nodiscard]] bool bracketed() const { return rising_ && falling_; }
@@ -74,25 +74,44 @@ class Stationarity {
     }
     if (!bracketed()) return wanted;
     const auto inside = [&](double place) { return place > rising_->place && place < falling_->place; };
-    // Points that do not halve the bracket: the slope jumps there, or one end stays. A step somewhat too long brings
-    // the other end near, a bisection what nothing else does.
-    const std::size_t n = widths_.size();
-    const bool stalling = n > 2 && widths_[n - 1] > 0.5 * widths_[n - 3];
-    const bool one_sided = std::abs(wanted) < kParams.one_sided * widths_.back() && n % 2 == 0;
-    if (stalling && one_sided && inside(now_->place + kParams.overshoot * wanted)) return kParams.overshoot * wanted;
-    if (stalling || !inside(now_->place + wanted)) return (rising_->place + falling_->place) / 2 - now_->place;
-    return wanted;
+    // Where secants do not help the slope jumps, as at the crossing of the tangents at the ends of the bracket: a step
+    // a little beyond that brings the other end near. Where it does not, a bisection does.
+    const std::size_t n = brackets_.size();
+    const bool halved = n > 1 && brackets_[n - 1].width <= 0.5 * brackets_[n - 2].width;
+    if (n > 2) jumps_ = jumps_ || jumps_between(brackets_[n - 3], brackets_[n - 1]);
+    if (!jumps_ && inside(now_->place + wanted)) return wanted;
+    const double shortest = 0.5 * kParams.probe * tolerated, middle = (rising_->place + falling_->place) / 2;
+    crossed_ = jumps_ && (halved || !crossed_) && width() > 2 * shortest;
+    if (!crossed_) return middle - now_->place;
+    const double way = crossing() - now_->place;
+    const double beyond = way + std::copysign(std::max(kParams.beyond * std::abs(way), shortest), way);
+    return std::clamp(now_->place + beyond, rising_->place + shortest, falling_->place - shortest) - now_->place;
   }
 
  private:
+  struct Bracket {
+    double width, drop;  ///< places and slopes, one end against the other
+  };
+  /// Whether two steps have not halved the bracket, or the slope has not fallen with it as it does in a smooth maximum.
+  static bool jumps_between(const Bracket& before, const Bracket& now) {
+    if (!std::isfinite(before.width)) return false;
+    const double shrunk = now.width / before.width;
+    return shrunk > 0.5 || now.drop > 2 * shrunk * before.drop;
+  }
+  /// Of the tangents of ln A at the ends of the bracket.
+  [[nodiscard]] double crossing() const {
+    const double rise = std::log(falling_->amplitude / rising_->amplitude);
+    return rising_->place + (rise - falling_->slope * width()) / (rising_->slope - falling_->slope);
+  }
   [[nodiscard]] double secant_step() const { return std::clamp(-now_->slope / curvature_, -trust_, trust_); }
 
   static constexpr StationarityParams kParams = {};
   double linear_, curvature_;  // < 0
   double trust_;
-  double probe_ = 0;  // the last step that was made longer than the secant's
+  double probe_ = 0;                      // the last step that was made longer than the secant's
+  bool jumps_ = false, crossed_ = false;  // the slope jumps in the bracket; the last step went beyond the crossing
   std::optional<Mark> now_, rising_, falling_;
-  std::vector<double> widths_;
+  std::vector<Bracket> brackets_;
 };
 
 }  // namespace dovetail::paths

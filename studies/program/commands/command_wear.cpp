@@ -6,6 +6,7 @@
 #include <ostream>
 #include <utility>
 
+#include "studies/program/answers/json.hpp"
 #include "studies/program/commands/commands.hpp"
 #include "studies/program/commands/progress.hpp"
 #include "studies/program/engine/engine.hpp"

@@ -99,13 +99,13 @@ TEST(Backbone, OfSpeedGoesThroughAModelOfItsOwn) {
   EXPECT_GT(found.points.back().omega, found.points.front().omega);
 }
 
-// Nothing beside a point is higher: the frequency is known to 1e-7, on the flanks of a maximum the slope of ln A over
-// ln w is a few tenths, and a peak without its own is one on them.
+// Nothing beside a point is higher, but for what a frequency known to 1e-7 leaves open on flanks where ln A changes
+// with ln w by less than 1. A point on a flank, a few tenths steep, would be lower than what is 1e-6 beside it by more.
 void expect_maximum(const steady::Joint& joint, const paths::BackbonePoint& point) {
   for (const double beside : {1 - 1e-6, 1 + 1e-6}) {
     const steady::State near = paths::steady_state(joint, point.omega * beside, point.state.displacement);
     ASSERT_EQ(near.status, Status::converged);
-    EXPECT_LE(near.amplitudes(0), point.amplitude * (1 + 3e-8)) << point.parameter << " beside " << beside;
+    EXPECT_LE(near.amplitudes(0), point.amplitude * (1 + 1e-7)) << point.parameter << " beside " << beside;
   }
 }
 
