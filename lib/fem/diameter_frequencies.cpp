@@ -21,16 +21,14 @@ using Complex = std::complex<double>;
 using Sparse = Eigen::SparseMatrix<double>;
 constexpr DiameterBasisParams kDiameterBasis = {};
 
-/// A(phase) = A0 + e^{i phase} A1 + e^{-i phase} A1^T over the internal dofs.
+/// A(phase) = A0 + e^{i phase} A1 + e^{-i phase} A1^T over the dofs of the glued joint.
 struct PhaseMatrix {
   Sparse constant, turning;
 };
 
-/// T(phase) = Ta + e^{i phase} Tb: the parts from the transformation of one nodal diameter.
-std::pair<Sparse, Sparse> transformation_parts(const SectorMesh& sector, BoreSupport bore) {
-  const Constraints<Complex> one = complex_constraints(sector, bore, 1);
+/// T(phase) = Ta + e^{i phase} Tb: the parts from the glued transformation of one nodal diameter.
+std::pair<Sparse, Sparse> transformation_parts(const SectorMesh& sector, const Eigen::SparseMatrix<Complex>& glued) {
   const double phase = 2 * std::numbers::pi / sector.sectors;
-  const Eigen::SparseMatrix<Complex> glued = one.transformation.leftCols(one.internal_count);
   const Sparse turning = Sparse(glued.imag()) / std::sin(phase);
   const Sparse constant = Sparse(glued.real()) - std::cos(phase) * turning;
   return {constant.pruned(1.0, kDiameterBasis.rounding), turning.pruned(1.0, kDiameterBasis.rounding)};
@@ -46,9 +44,12 @@ PhaseMatrix phase_matrix(const Sparse& full, const Sparse& a, const Sparse& b) {
 /// Rayleigh-Ritz at any phase on a growing real basis.
 class RitzBasis {
  public:
-  RitzBasis(const SectorMesh& sector, const Sparse& stiffness, const Sparse& mass, BoreSupport bore) {
-    const auto [a, b] = transformation_parts(sector, bore);
+  RitzBasis(const SectorMesh& sector, const Sparse& stiffness, const Sparse& mass, BoreSupport bore,
+            const Eigen::VectorXd& flexibility) {
+    const GluedJoint<Complex> one = glued_joint(complex_constraints(sector, bore, 1), flexibility);
+    const auto [a, b] = transformation_parts(sector, one.constraints.transformation);
     stiffness_ = phase_matrix(stiffness, a, b);
+    if (one.springs.nonZeros() > 0) stiffness_.constant += one.springs;
     mass_ = phase_matrix(mass, a, b);
   }
 
@@ -138,7 +139,7 @@ class Diameters {
     const std::size_t count = result_.nodal_diameters.size();
     // Two samples and one between are worth a basis; one or two sectors have no phase to follow.
     const bool ritz = options_.tolerance > 0 && count > kDiameterBasis.few && sector_.sectors > 2;
-    if (ritz) basis_.emplace(sector_, stiffness_, mass_, bore_);
+    if (ritz) basis_.emplace(sector_, stiffness_, mass_, bore_, options_.contact_flexibility);
     if (!ritz) {
       for (std::size_t k = 0; k < count; ++k) solve(k);
       return std::move(result_);
@@ -183,10 +184,12 @@ class Diameters {
       if (basis_ && modes.status == Status::converged) basis_->add(modes.vectors);
       return modes.eigenvalues;
     };
+    const auto modes = [&](const auto& constraints, auto& cholesky) {
+      return glued_modes(stiffness_, mass_, constraints, options_.modes, cholesky, options_.contact_flexibility);
+    };
     if (diameter == 0 || 2 * diameter == sector_.sectors)
-      return keep(glued_modes(stiffness_, mass_, real_constraints(sector_, bore_, diameter), options_.modes, real_));
-    return keep(
-        glued_modes(stiffness_, mass_, complex_constraints(sector_, bore_, diameter), options_.modes, complex_));
+      return keep(modes(real_constraints(sector_, bore_, diameter), real_));
+    return keep(modes(complex_constraints(sector_, bore_, diameter), complex_));
   }
 
   void store(std::size_t k, const Eigen::VectorXd& eigenvalues, Status status) {

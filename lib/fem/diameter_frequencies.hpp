@@ -15,6 +15,8 @@ struct DiameterOptions {
   numerics::ModesOptions modes = {};
   /// >= 0. Relative error of a frequency; 0: the sparse eigenproblem is solved at every diameter.
   double tolerance = 0;
+  /// Of springs between the flanks, through which the joint is glued: [contact dofs] m/N, 0: rigid; empty: all are.
+  Eigen::VectorXd contact_flexibility = {};
 };
 
 /// Natural frequencies of the glued bladed disk over its nodal diameters.

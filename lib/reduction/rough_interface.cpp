@@ -5,6 +5,16 @@
 
 namespace dovetail::reduction {
 
+Eigen::VectorXd spring_flexibility(const InterfaceStiffness& stiffness, const Eigen::VectorXd& area,
+                                   Eigen::Index directions) {
+  Eigen::VectorXd flexibility = Eigen::VectorXd::Zero(area.size() * directions);
+  for (Eigen::Index i = 0; i < area.size(); ++i)
+    for (Eigen::Index d = 0; d < directions; ++d)
+      if (const double per_area = d == 0 ? stiffness.normal : stiffness.tangential; per_area > 0)
+        flexibility(directions * i + d) = 1 / (per_area * area(i));
+  return flexibility;
+}
+
 void add_interface(const InterfaceStiffness& stiffness, ReducedModel& model, Recovery* recovery) {
   if (stiffness.rigid()) return;
   const Eigen::Index old = model.size();

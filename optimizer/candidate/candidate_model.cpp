@@ -42,10 +42,6 @@ reduction::ContactNodes contact_nodes(const Surface& surface, Eigen::Index first
   return nodes;
 }
 
-reduction::InterfaceStiffness interface_of(const ContactProperties& contact) {
-  return {.normal = contact.normal_stiffness, .tangential = contact.tangential_stiffness};
-}
-
 reduction::FullModel full_model(const Scene& scene, const fem::SectorSystem& system,
                                 const Eigen::SparseMatrix<double>& stiffness) {
   const double speed = scene.loading.speed;
@@ -113,6 +109,10 @@ std::map<std::string, double> sizes_of(const Scene& scene, const CandidateModel&
 }
 
 }  // namespace
+
+reduction::InterfaceStiffness interface_of(const ContactProperties& contact) {
+  return {.normal = contact.normal_stiffness, .tangential = contact.tangential_stiffness};
+}
 
 SharedBudget new_budget(const SolverSettings& solver, const CandidateModel& candidate, double times) {
   return std::make_shared<Budget>(

@@ -14,6 +14,7 @@
 #include "optimizer/scene/scene.hpp"
 #include "optimizer/scene/scene_kind.hpp"
 #include "reduction/massless_boundary.hpp"
+#include "reduction/rough_interface.hpp"
 #include "steady/preload.hpp"
 
 namespace dovetail::optimizer {
@@ -45,6 +46,9 @@ struct CandidateModel {
   [[nodiscard]] bool converged() const { return outcome_of(status) == Outcome::converged; }
   [[nodiscard]] bool infeasible() const { return outcome_of(status) == Outcome::infeasible; }
 };
+
+/// Of rough flanks.
+[[nodiscard]] reduction::InterfaceStiffness interface_of(const ContactProperties& contact);
 
 /// Lays contact nodes on the trace of a candidate whose `trace` is there, in place of those it has: reduced model and
 /// preload. A stage that fails is named in its status. Cost: dense algebra of their number and a preload.

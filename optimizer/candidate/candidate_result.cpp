@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "optimizer/candidate/params.hpp"
 #include "optimizer/candidate/stopwatch.hpp"
 #include "optimizer/candidate/worn_state.hpp"
 #include "optimizer/problem/problem.hpp"
@@ -37,6 +38,29 @@ void note_penalties(CandidateResult& result) {
   if (result.unworn) note("unworn resonance", result.unworn->state);
   if (result.asymptote) note("worn state", result.asymptote->steady);
   if (result.worn) note("worn resonance", result.worn->state);
+}
+
+/// Flanks so rough that the pull of the blade moves it further than matched nodes admit. In the end so far that what is
+/// left of the forces is their rounding, and nothing seems to hold it.
+void note_soft_asperities(const Scene& scene, CandidateResult& result) {
+  const ContactProperties& contact = scene.contact;
+  if (interface_of(contact).rigid()) return;
+  Evaluation& evaluation = result.evaluation;
+  if (evaluation.status.ends_with(to_string(Status::singular)))
+    evaluation.messages.push_back(
+        "Asperities so soft (contact.normal_stiffness_n_per_m3, contact.tangential_stiffness_n_per_m3) may let the "
+        "blade move so far that the balance of its forces drowns in rounding: give stiffer ones.");
+  const steady::Preload& preload = result.model.preload;
+  if (preload.status != Status::converged) return;
+  const double pressed = contact.normal_stiffness > 0 ? preload.pressure.maxCoeff() / contact.normal_stiffness : 0;
+  const double way = std::max(pressed, preload.slip_origin.cwiseAbs().maxCoeff());
+  double flank = kInfinity;
+  for (const geometry::FlankParameters& f : scene.geometry.flanks) flank = std::min(flank, f.length);
+  if (way > AsperityParams{}.large * flank)
+    evaluation.messages.push_back(
+        fmt::format("The asperities of the flanks let the blade move by {:.2g} mm under its pull, where flanks are "
+                    "{:.2g} mm long: nodes stay matched all the same, which holds for small ways only.",
+                    1e3 * way, 1e3 * flank));
 }
 
 /// The physics after the model; returns the status of the evaluation.
@@ -125,9 +149,10 @@ double hertz(double omega) {
   return omega / (2 * std::numbers::pi);
 }
 
-CandidateResult through_stages(const Scene& scene, CandidateModel model, const Computation& how) {
-  CandidateResult result;
-  result.model = std::move(model);
+namespace {
+
+/// Fills the result, in which the model is.
+void go_through_stages(const Scene& scene, const Computation& how, CandidateResult& result) {
   Evaluation& evaluation = result.evaluation;
   evaluation.parameters = parameters(scene);
   evaluation.model = result.model.sizes;
@@ -137,7 +162,7 @@ CandidateResult through_stages(const Scene& scene, CandidateModel model, const C
   for (const geometry::Rule& rule : result.model.feasibility.rules)
     evaluation.constraints[kRulePrefix + rule.name] = -rule.margin;
   evaluation.feasible = result.model.feasibility.feasible;
-  if (!result.model.converged()) return result;
+  if (!result.model.converged()) return;
   Stopwatch watch;
   const ContactFit fit = fit_contact(scene, how, result.model);
   evaluation.timings_s["contact_fit"] = watch.lap();
@@ -147,7 +172,7 @@ CandidateResult through_stages(const Scene& scene, CandidateModel model, const C
   evaluation.model["contact_edges_moved_share"] = fit.settled ? 0 : fit.share;
   evaluation.model["contact_nodes"] = static_cast<double>(result.model.cells.count());
   evaluation.status = result.model.status;
-  if (!result.model.converged()) return result;
+  if (!result.model.converged()) return;
   result.stage = Stage::model;
   evaluation.status = dynamics(scene, how, fit, result);
   if (!fit.settled && result.unworn->status == Status::converged)
@@ -159,6 +184,15 @@ CandidateResult through_stages(const Scene& scene, CandidateModel model, const C
               "state to take their edges from.");
   note_penalties(result);
   evaluation.model["jacobians_spent"] = result.model.budget->used() / result.model.jacobian_operations;
+}
+
+}  // namespace
+
+CandidateResult through_stages(const Scene& scene, CandidateModel model, const Computation& how) {
+  CandidateResult result;
+  result.model = std::move(model);
+  go_through_stages(scene, how, result);
+  note_soft_asperities(scene, result);
   return result;
 }
 

@@ -21,6 +21,11 @@ struct EdgeSearchParams {
   double flattest = -0.5, steepest = -4;
 };
 
+/// When rough flanks are too soft for nodes that stay matched.
+struct AsperityParams {
+  double large = 0.1;  ///< way that asperities give or flanks slide under the pull of the blade, of a flank's length
+};
+
 /// At which instants a stress is looked at.
 struct StressParams {
   int phases = 48;  ///< of a period: the error of a peak is under (pi / 48)^2 / 2 = 0.2 % of the vibratory part
@@ -30,6 +35,7 @@ static_assert(CellGridParams{}.bit < 1, "a whole cell is not left over");
 static_assert(EdgeSearchParams{}.steepest < -1 && -1 < EdgeSearchParams{}.flattest,
               "the slope of edges that stay is followed");
 static_assert(EdgeSearchParams{}.rounding < 1e-3 * EdgeSearchParams{}.narrowest, "what counts as one place is no zone");
+static_assert(AsperityParams{}.large < 1, "nodes leave the flank");
 static_assert(EdgeSearchParams{}.beyond < EdgeSearchParams{}.narrowest, "an edge goes on by less than a zone");
 
 }  // namespace dovetail::optimizer

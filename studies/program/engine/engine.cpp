@@ -32,6 +32,23 @@ std::shared_ptr<const SceneEvaluator> scene_evaluator(const Study& study) {
   return std::make_shared<const SceneEvaluator>(reference_scene(study));
 }
 
+namespace {
+
+/// A design that the evaluator refuses is one that failed: a run ends with a report all the same.
+optimizer::CandidateResult evaluated(const SceneEvaluator& evaluator, const Scene& scene) {
+  optimizer::CandidateResult result;
+  result.evaluation = optimizer::evaluated_or_refused([&] {
+    result = evaluator.evaluate(scene);
+    return result.evaluation;
+  });
+  if (!result.evaluation.parameters.empty()) return result;
+  result.evaluation.parameters = optimizer::parameters(scene);
+  result.model.status = result.evaluation.status;  // there is none
+  return result;
+}
+
+}  // namespace
+
 RunEngine study_engine(const Study& study) {
   const std::shared_ptr<const SceneEvaluator> evaluator = scene_evaluator(study);
   RunEngine engine;
@@ -47,7 +64,7 @@ RunEngine study_engine(const Study& study) {
     return optimizer::evaluated_finer(*evaluator, scene_at(x), level).evaluation;
   };
   engine.describe = [evaluator](const Scene& scene) {
-    const optimizer::CandidateResult result = evaluator->evaluate(scene);
+    const optimizer::CandidateResult result = evaluated(*evaluator, scene);
     return DescribedDesign{.evaluation = result.evaluation, .record = report::make_design_record(scene, result)};
   };
   engine.verify = [evaluator](const Scene& scene, const wear::Watcher& watcher) {

@@ -51,11 +51,16 @@ ContactRecord contact_places(const CandidateModel& model) {
   return record;
 }
 
-void add_nodal_diameters(const CandidateModel& model, const DesignRecordOptions& options, DesignRecord& record) {
+void add_nodal_diameters(const Scene& scene, const CandidateModel& model, const DesignRecordOptions& options,
+                         DesignRecord& record) {
   if (options.nodal_diameter_modes < 1) return;
+  const reduction::InterfaceStiffness interface = optimizer::interface_of(scene.contact);
+  fem::DiameterOptions diameters{.modes = {.count = options.nodal_diameter_modes}, .tolerance = 1e-5};
+  if (!interface.rigid())
+    diameters.contact_flexibility =
+        reduction::spring_flexibility(interface, model.system.contact.area, model.system.full.dimensions);
   const fem::NodalDiameterFrequencies found = fem::nodal_diameter_frequencies(
-      model.mesh.sector, model.stiffness, model.system.full.mass, fem::BoreSupport::tangential,
-      {.modes = {.count = options.nodal_diameter_modes}, .tolerance = 1e-5});
+      model.mesh.sector, model.stiffness, model.system.full.mass, fem::BoreSupport::tangential, diameters);
   NodalDiameterRecord& out = record.nodal_diameters;
   out.nodal_diameter.assign(found.nodal_diameters.begin(), found.nodal_diameters.end());
   out.modes = found.frequency.cols();
@@ -181,7 +186,7 @@ DesignRecord make_design_record(const Scene& scene, const CandidateResult& resul
   add_fillet("disk", sector.mesh, sector.disk_fillet_nodes, result.disk_fillet, record);
   if (options.fields) record.fields = preload_fields(scene, model);
   add_curves(scene, result, options, record);
-  add_nodal_diameters(model, options, record);
+  add_nodal_diameters(scene, model, options, record);
   add_history(scene, result, options, record);
   return record;
 }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "optimizer/candidate/candidate_model.hpp"
+#include "studies/program/engine/engine.hpp"
 
 namespace dovetail::optimizer {
 namespace {
@@ -33,6 +34,20 @@ TEST(ModelBuilder, RefusesMeshSizesOutOfRange) {
   Scene scene;
   scene.mesh.flank_elements = 0;
   EXPECT_THROW(ModelBuilder{scene}, InputError);
+}
+
+// Whatever bounds were held against: a run comes to its report.
+TEST(StudyEngine, DescribesADesignThatIsRefusedAsFailed) {
+  studies::Study study;
+  study.scene.mesh = {.flank_elements = 8, .fillet_fraction = 0.4, .bulk_size = 6e-3, .aerofoil_elements = 8};
+  study.problem.space =
+      DesignSpace({{.key = "contact.normal_stiffness_n_per_m3", .lower = 1e7, .upper = 1e13, .start = 1e7}});
+  const studies::RunEngine engine = studies::study_engine(study);
+  study.scene.contact.normal_stiffness = 1e7;
+  const studies::DescribedDesign described = engine.describe(study.scene);
+  EXPECT_THAT(described.evaluation.status,
+              HasSubstr("scene: contact.normal_stiffness_n_per_m3 = 1e+07: must be 0 (rigid) or >= 1e+09"));
+  EXPECT_EQ(described.record.status, described.evaluation.status);
 }
 
 }  // namespace

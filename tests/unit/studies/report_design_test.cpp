@@ -28,6 +28,19 @@ const Evaluated& evaluated() {
   return once;
 }
 
+// Through springs on the trace there, between contact nodes here: a thousandth apart where the springs carry all.
+TEST(DesignRecord, NodalDiametersHaveTheAsperitiesInThem) {
+  optimizer::Scene scene = coarse_scene();
+  scene.contact.normal_stiffness = scene.contact.tangential_stiffness = 1e10;
+  optimizer::CandidateResult result = optimizer::SceneEvaluator(scene).evaluate(scene, {.bars = false, .wear = false});
+  ASSERT_EQ(result.evaluation.status, "converged");
+  const DesignRecord record = make_design_record(
+      scene, result, {.curve_points = 0, .nodal_diameter_modes = 2, .history_steps = 0, .fields = false});
+  const double glued = record.responses.at("glued_frequency_hz");
+  EXPECT_LT(glued, 0.8 * evaluated().result.evaluation.responses.at("glued_frequency_hz"));
+  EXPECT_NEAR(record.nodal_diameters.frequency_hz[0] / glued, 1, 1e-3);
+}
+
 TEST(DesignRecord, AgreesWithTheEvaluation) {
   const Evaluated& design = evaluated();
   ASSERT_EQ(design.result.evaluation.status, "converged");

@@ -48,6 +48,23 @@ TEST(SceneKind, EveryOneHasANameAndChangesKeysThatThereAre) {
   }
 }
 
+// Bounds of a variable are held against the range of its key when a study is read; rules between keys are not. So no
+// rule may ask for more of a real number than its range.
+TEST(Scene, TheRangeOfARealNumberIsAllThatIsAskedOfIt) {
+  for (const SceneKind* kind : scene_kinds())
+    for (const Parameter& p : scene_parameters()) {
+      if (p.kind != Parameter::Kind::real) continue;
+      Scene scene;
+      scene.kind = kind;
+      if (p.wear_law != nullptr) scene.contact.wear_law = p.wear_law->name;
+      for (const double value : {p.range.lower, p.range.upper, 0.0, 1e-3, 0.3, 7.0, 1e5, 1e10}) {
+        if (!p.range.contains(value)) continue;
+        set_parameter(scene, p.key, value);
+        EXPECT_TRUE(contradictions(scene).empty()) << p.key << " = " << value;
+      }
+    }
+}
+
 TEST(Scene, FrictionIsThatOfTheSelfLockingRuleToo) {
   Scene scene;
   set_parameter(scene, "contact.friction", 0.3);

@@ -167,6 +167,45 @@ TEST(GluedModes, GluedFlanksAreTheMergedMesh) {
   }
 }
 
+/// Some contact dofs held rigidly, others by springs: dense eigenvalues of the assembled matrices with the springs in
+/// them, at every diameter, also of those that are interpolated.
+TEST(GluedModes, AreHeldThroughSprings) {
+  const SectorMesh sector = testing::toothed_sector(4, 3, 3, 9, false);
+  const std::vector<Material> materials(2);
+  const FullMatrices full = Assembler(sector.mesh).stiffness_and_mass(sector.mesh, materials);
+  const Constraints<double> real = real_constraints(sector);
+  Eigen::VectorXd flexibility = Eigen::VectorXd::Zero(real.contact_count);
+  for (Eigen::Index c = 0; c < flexibility.size(); ++c)
+    if (c % 3 != 1) flexibility(c) = 1e-8 * static_cast<double>(1 + c);
+  const numerics::ModesOptions modes{.count = 4, .tolerance = 1e-11};
+  const auto found = [&](const Eigen::VectorXd& springs, double tolerance) {
+    return nodal_diameter_frequencies(sector, full.stiffness, full.mass, BoreSupport::tangential,
+                                      {.modes = modes, .tolerance = tolerance, .contact_flexibility = springs});
+  };
+  const NodalDiameterFrequencies held = found(flexibility, 0), between = found(flexibility, 1e-6);
+  for (std::size_t k = 0; k < held.nodal_diameters.size(); ++k) {
+    const Constraints<std::complex<double>> all =
+        complex_constraints(sector, BoreSupport::tangential, held.nodal_diameters[k]);
+    Eigen::MatrixXcd stiffness = constrain(full.stiffness, all), mass = constrain(full.mass, all);
+    std::vector<Eigen::Index> free;
+    for (Eigen::Index i = 0; i < all.size(); ++i) {
+      const Eigen::Index c = i - all.internal_count;
+      if (c >= 0 && flexibility(c) > 0) stiffness(i, i) += 1 / flexibility(c);
+      if (c < 0 || flexibility(c) > 0) free.push_back(i);
+    }
+    const Eigen::VectorXd values = numerics::all_values<std::complex<double>>(Eigen::MatrixXcd(stiffness(free, free)),
+                                                                              Eigen::MatrixXcd(mass(free, free)))
+                                       .values.head(4);
+    const Eigen::RowVectorXd expected = values.cwiseSqrt().transpose() / (2 * std::numbers::pi);
+    const auto row = static_cast<Eigen::Index>(k);
+    EXPECT_LT((held.frequency.row(row) - expected).cwiseQuotient(expected).cwiseAbs().maxCoeff(), 1e-9) << k;
+    EXPECT_LT((between.frequency.row(row) - expected).cwiseQuotient(expected).cwiseAbs().maxCoeff(), 1e-6) << k;
+  }
+  const NodalDiameterFrequencies rigid = found({}, 0), stiff = found(1e-12 * flexibility, 0);
+  EXPECT_LT((stiff.frequency - rigid.frequency).norm(), 1e-9 * rigid.frequency.norm());
+  EXPECT_GT((held.frequency - rigid.frequency).norm(), 1e-2 * rigid.frequency.norm());
+}
+
 /// A sector of a thick disk, a little lopsided.
 SectorMesh disk_sector(int sectors, int columns, int rows) {
   testing::Grid grid = testing::make_grid(columns, rows, testing::annular_sector(0.12, 0.25, sectors));

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -322,35 +321,6 @@ TEST(SectionEvaluation, RoughFlanksAreSofterAndRigidInTheLimit) {
   // What is left falls with the compliance.
   EXPECT_NEAR((rigid.first - stiff.first) / (rigid.first - stiffer.first), 10, 1);
   EXPECT_NEAR(stiffer.second, rigid.second, 1e-2 * rigid.second);
-}
-
-// Flanks so rough that their asperities carry the blade: the glued mode has the springs in it, and the search for the
-// resonance starts there. Frequencies by Eigen, of all coordinates but the stuck ones; those without mass are at
-// infinity.
-TEST(SectionEvaluation, VeryRoughFlanksVibrateInTheSameMode) {
-  Scene scene = coarse_scene();
-  scene.loading.tip_force *= 1e-3;
-  double before = 1e300;
-  for (const double stiffness : {1e13, 1e12, 1e11, 1e10, 1e9}) {
-    scene.contact.normal_stiffness = scene.contact.tangential_stiffness = stiffness;
-    const CandidateResult candidate = through_stages(scene, ModelBuilder(scene).build(scene), {});
-    ASSERT_TRUE(candidate.evaluation.converged()) << candidate.evaluation.status;
-    const reduction::ReducedModel& model = candidate.model.model;
-    std::vector<bool> stuck(static_cast<std::size_t>(model.size()), false);
-    for (const int dof : model.contact.normal) stuck[static_cast<std::size_t>(dof)] = true;
-    for (const int dof : model.contact.tangential.reshaped()) stuck[static_cast<std::size_t>(dof)] = true;
-    std::vector<Eigen::Index> free;
-    for (Eigen::Index i = 0; i < model.size(); ++i)
-      if (!stuck[static_cast<std::size_t>(i)]) free.push_back(i);
-    const Eigen::MatrixXd mass = model.mass(free, free), rigidity = model.stiffness(free, free);
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> inverse(mass, rigidity, Eigen::EigenvaluesOnly);
-    const double glued = 1 / std::sqrt(inverse.eigenvalues().maxCoeff());
-    EXPECT_NEAR(candidate.model.glued_frequencies(0) / glued, 1, 1e-7) << stiffness;
-    // Stuck by the pull of the blade, damped by a thousandth.
-    EXPECT_NEAR(candidate.unworn->omega / glued, 1, 2e-3) << stiffness;
-    EXPECT_LT(glued, before);
-    before = glued;
-  }
 }
 
 TEST(SectionEvaluation, RunsTwiceToTheSameBits) {
