@@ -22,7 +22,7 @@ enum class NotFinite { null, text };
 template <class Json, class T>
 [[nodiscard]] Json json_value(const T& value, NotFinite otherwise = NotFinite::null) {
   const auto nested = [&](const auto& part) { return json_value<Json>(part, otherwise); };
-  if constexpr (std::is_same_v<T, Json>) {
+  if constexpr (std::is_same_v<T, Json> || (std::is_arithmetic_v<T> && !std::is_same_v<T, double>)) {
     return value;
   } else if constexpr (std::is_same_v<T, double>) {
     if (std::isfinite(value)) return value;
@@ -52,12 +52,10 @@ template <class Json, class T>
     return Json::array({nested(value.real()), nested(value.imag())});
   } else if constexpr (std::is_convertible_v<T, std::string_view>) {
     return std::string(value);
-  } else if constexpr (requires { value.begin(); }) {
+  } else {
     Json list = Json::array();
     for (const auto& part : value) list.push_back(nested(part));
     return list;
-  } else {
-    return value;
   }
 }
 

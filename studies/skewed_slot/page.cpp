@@ -16,7 +16,7 @@
 
 namespace dovetail::optimizer {
 
-using skewed_slot::Joint, skewed_slot::Wear;
+using skewed_slot::Joint;
 
 /// Besides its contact.
 template <>
@@ -31,13 +31,14 @@ inline constexpr auto kFields<Joint> =
                RecordField{"seconds", &Joint::seconds}};
 
 template <>
-inline constexpr auto kFields<Wear> = std::tuple{RecordField{"skew_deg", &Wear::skew_deg},
-                                                 RecordField{"status", &Wear::status},
-                                                 RecordField{"resonance_hz", &Wear::resonance_hz},
-                                                 RecordField{"peak_amplitude_m", &Wear::peak_amplitude_m},
-                                                 RecordField{"asymptotic_wear_volume_m3", &Wear::volume_m3},
-                                                 RecordField{"asymptotic_wear_depth_max_m", &Wear::depth_m},
-                                                 RecordField{"seconds", &Wear::seconds}};
+inline constexpr auto kFields<skewed_slot::Wear> =
+    std::tuple{RecordField{"skew_deg", &skewed_slot::Wear::skew_deg},
+               RecordField{"status", &skewed_slot::Wear::status},
+               RecordField{"resonance_hz", &skewed_slot::Wear::resonance_hz},
+               RecordField{"peak_amplitude_m", &skewed_slot::Wear::peak_amplitude_m},
+               RecordField{"asymptotic_wear_volume_m3", &skewed_slot::Wear::volume_m3},
+               RecordField{"asymptotic_wear_depth_max_m", &skewed_slot::Wear::depth_m},
+               RecordField{"seconds", &skewed_slot::Wear::seconds}};
 
 }  // namespace dovetail::optimizer
 
