@@ -23,17 +23,16 @@ class Tracker {
   Tracker(const BackboneFamily& family, const BackboneOptions& backbone) : family_(family), backbone_(backbone) {}
 
   BackbonePoint first(double parameter, double omega_start) {
-    omega_start_ = omega_start;
+    omega_start_ = checked_ = omega_start;
     BackbonePoint found = searched(parameter, omega_start, {}, backbone_.resonance);
-    check(found, omega_start);
+    check(found);
     return found;
   }
 
   // Followed from the point before, then held against the others.
   BackbonePoint next(double parameter) {
-    const double before = supports_.back().point.parameter;
     BackbonePoint found = followed(parameter);
-    check(found, before);
+    check(found);
     if (found.status == Status::converged || !backbone_.search || backbone_.check_range == 0) return found;
     BackbonePoint anew = searched(parameter, omega_start_, {}, backbone_.resonance);
     anew.jacobians += found.jacobians;
@@ -69,12 +68,14 @@ class Tracker {
     return found;
   }
 
-  // Takes the highest peak of the branch around `point` instead of it, when that is higher or the point failed.
-  void check(BackbonePoint& point, double near, int rounds = kParams.rounds) {
+  // Takes the highest peak of the branch around `point`, and from there to the last one that is known to be the
+  // highest, instead of it, when that is higher or the point failed.
+  void check(BackbonePoint& point, int rounds = kParams.rounds) {
     if (backbone_.check_range == 0) return;
     const bool known = point.status == Status::converged;
-    const double middle = known ? point.omega : near;
-    const double low = middle * (1 - backbone_.check_range), high = middle * (1 + backbone_.check_range);
+    const double middle = known ? point.omega : supports_.empty() ? omega_start_ : supports_.back().point.parameter;
+    const double low = std::min(middle, checked_) * (1 - backbone_.check_range);
+    const double high = std::max(middle, checked_) * (1 + backbone_.check_range);
     const steady::Joint joint = family_(point.parameter);
     Resonance swept = peak_sweep(joint, low, high, backbone_.resonance);
     point.checking += swept.jacobians;
@@ -84,16 +85,23 @@ class Tracker {
       point.checking += swept.jacobians;
     }
     if (swept.status != Status::converged) return;
-    // What stands as high as the highest point of the branch has been held against all of it.
+    // What stands as high as the highest point of the branch has been held against all of it. A branch that is higher
+    // at an end of the range rises to another peak beyond it.
     const double noise = 1 + noise_of_peaks(joint.options);
-    point.checked = swept.unresolved <= noise * std::max(swept.amplitude, known ? point.amplitude : 0.0);
-    if (known && swept.amplitude <= (1 + kParams.same) * point.amplitude) return;
+    const double highest = std::max(swept.amplitude, known ? point.amplitude : 0.0);
+    point.checked = std::max(swept.unresolved, swept.ends) <= noise * highest;
+    if (known && swept.amplitude <= (1 + kParams.same) * point.amplitude) return keep_checked(point);
     point.jumped = !known || swept.amplitude > noise * point.amplitude;
     point.status = Status::converged;
     point.searched = true;
     adopt(std::move(swept), point);
     // Elsewhere the range contains others.
-    if (rounds > 1 && std::abs(point.omega / middle - 1) > kParams.moved) check(point, point.omega, rounds - 1);
+    if (rounds > 1 && std::abs(point.omega / middle - 1) > kParams.moved) return check(point, rounds - 1);
+    keep_checked(point);
+  }
+
+  void keep_checked(const BackbonePoint& point) {
+    if (point.checked) checked_ = point.omega;
   }
 
   BackbonePoint searched(double parameter, double omega_start, const Eigen::MatrixXd& guess,
@@ -185,6 +193,7 @@ class Tracker {
   steady::State last_state_;
   bool keeps_tangents_ = true;
   double penalty_ratio_ = 1, width_ = 0, omega_start_ = 0;
+  double checked_ = 0;  // rad/s, of the last point that was the highest, in the beginning omega_start
 };
 
 }  // namespace

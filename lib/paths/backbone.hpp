@@ -24,7 +24,8 @@ struct BackboneOptions {
   int max_iterations = 60;          ///< Jacobians of one Newton on (U, omega), >= 2
   int halvings = 3;                 ///< times the way to the next parameter is halved when it fails, >= 0
   bool search = true;               ///< fall back on resonance() when the halvings do not help
-  /// Each point is held against the highest peak of the branch within this fraction of its frequency, [0, 1); 0: no.
+  /// Each point is held against the highest peak of the branch within this fraction of its frequency, and from there to
+  /// that of the last point that was the highest (in the beginning omega_start), [0, 1); 0: no.
   double check_range = 0.4;
 };
 
@@ -37,8 +38,8 @@ struct BackbonePoint {
   bool searched = false;  ///< found by resonance() or by the check instead of Newton on (U, omega)
   /// Not the peak followed from the point before (or next to omega_start), which was lost or lower than this one.
   bool jumped = false;
-  /// Held against the branch in check_range, of which no hump is higher by more than 1 / samples. False: a maximum,
-  /// perhaps not the largest.
+  /// Held against the branch in check_range, of which no hump and no end is higher by more than 1 / samples. False: a
+  /// maximum, perhaps not the largest.
   bool checked = false;
   int intermediate = 0;  ///< points between the one before and this that were needed and not reported
   int jacobians = 0;     ///< of this point and its intermediate ones

@@ -110,7 +110,8 @@ struct WayParams {
   double harmonics = 0.08, damping = 0.4, softer_damping = 1;
   double softer = 0.1;                    ///< eps of softer_damping
   double strongest = 10, weakest = 1e-5;  ///< dashpots, in units of eps: below the weakest there are none
-  int weaker = 2;                         ///< tries below the strongest, each a tenth
+  int weaker = 2;                         ///< tries below the strongest,
+  double weaker_by = 0.1;                 ///< each by this factor
   /// Steps in which they fade, relative: one that fails is cut, one that succeeds lets the next grow, and when it has
   /// become too short the curve is followed.
   double longest = 0.6, shortest = 1e-2, growth = 1.3, cut = 2.5;

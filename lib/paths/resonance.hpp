@@ -24,6 +24,7 @@ struct Resonance {
   /// Of the highest point that the branch was followed through, when it is higher than the maximum, of which none was
   /// found beside it; else 0.
   double unresolved = 0;
+  double ends = 0;      ///< the higher amplitude at the ends of the range through which the branch was followed
   int solves = 0;       ///< steady states computed
   int jacobians = 0;    ///< Jacobians of all of them
   steady::State state;  ///< at omega, with its tangent

@@ -143,7 +143,7 @@ class Ways {
     };
     for (int tries = 0; !go(alpha, {}); ++tries) {
       if (tries == params_.weaker || exhausted()) return false;
-      alpha /= 10;
+      alpha *= params_.weaker_by;
     }
     Eigen::MatrixXd start = last_.point.displacement;
     // Each from the one before as it is: a predictor across the kinks of a contact state misleads more than it helps.

@@ -47,10 +47,13 @@ steady::Options starting_options(const dynamics::CondensedModel& model, steady::
                                  const AutomaticOptions& automatic) {
   std::vector<Violation> found = violations(automatic);
   if (!found.empty()) throw InputError(std::move(found));
-  if (automatic.harmonics) options.harmonics = std::min(std::max(3, model.force_harmonics()), automatic.max_harmonics);
+  constexpr AutomaticParams kStart;
+  if (automatic.harmonics)
+    options.harmonics = std::min(std::max(kStart.harmonics, model.force_harmonics()), automatic.max_harmonics);
   if (automatic.samples) {
-    options.samples = std::min(128, automatic.max_samples);
-    while (options.samples < 8 * options.harmonics && 2 * options.samples <= automatic.max_samples)
+    options.samples = std::min(kStart.samples, automatic.max_samples);
+    while (options.samples < kStart.samples_per_harmonic * options.harmonics &&
+           2 * options.samples <= automatic.max_samples)
       options.samples *= 2;
     if (!automatic.harmonics) options.samples = std::max(options.samples, 2 * options.harmonics + 1);
   }
@@ -140,7 +143,8 @@ std::vector<std::size_t> demanding_points(const std::vector<steady::State>& curv
   add_largest([](const steady::State& state) { return state.friction_energy; });
   add_largest([](const steady::State& state) { return state.error_force; });
   add_largest([](const steady::State& state) {
-    return state.friction_energy > 1e-3 * std::abs(state.input_energy) ? state.error_energy : 0.0;
+    return state.friction_energy > AutomaticParams{}.energy_floor * std::abs(state.input_energy) ? state.error_energy
+                                                                                                 : 0.0;
   });
   return points;
 }

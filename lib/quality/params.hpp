@@ -17,6 +17,9 @@ struct AutomaticParams {
   double floor = 1e-6;         ///< of the largest amplitude: smaller ones are known to this
   double energy_floor = 1e-3;  ///< of the energy put in: friction that takes less is known to this
   double share = 0.5;          ///< of a bar, from which on its source is refined
+  /// Where it begins: a harmonic of friction beside the excitation's, and so many instants that the bar of samples
+  /// rarely asks for more; fewer than eight per harmonic alias into the highest.
+  int harmonics = 3, samples = 128, samples_per_harmonic = 8;
 };
 
 }  // namespace dovetail::quality

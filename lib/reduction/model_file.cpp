@@ -56,8 +56,9 @@ class Reader {
   void strings(const std::string& name, std::vector<std::string>& target) {
     attempt(name, 1, [&] { target = file_.read_strings(name).values; });
   }
+  // A scalar, or a list of one.
   void one_string(const std::string& name, std::string& target) {
-    attempt(name, 1, [&] {
+    const auto read = [&] {
       std::vector<std::string> values = file_.read_strings(name).values;
       if (values.size() == 1)
         target = std::move(values.front());
@@ -67,15 +68,16 @@ class Reader {
                           .key = name,
                           .value = std::to_string(values.size()) + " texts",
                           .allowed = "must be one text"});
-    });
+    };
+    attempt(name, 1, read, true);
   }
 
  private:
   template <class Read>
-  void attempt(const std::string& name, std::size_t rank, const Read& read) {
+  void attempt(const std::string& name, std::size_t rank, const Read& read, bool or_scalar = false) {
     try {
       const std::vector<std::size_t> shape = file_.shape(name);
-      if (shape.size() != rank) {
+      if (shape.size() != rank && !(or_scalar && shape.empty())) {
         found_.push_back(
             {.file = file_.path(),
              .line = 0,

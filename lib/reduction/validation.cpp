@@ -67,7 +67,7 @@ class Checks {
   void each_inside(const std::string& key, const Eigen::VectorXd& values, const Range& range) {
     for (Eigen::Index row = 0; row < values.size(); ++row)
       if (!range.contains(values(row))) {
-        add(key + at(row), shortest(values(row)), range.phrase());
+        add(key + at(row), shortest(values(row)), std::isfinite(values(row)) ? range.phrase() : kAnyNumber.phrase());
         return;
       }
   }

@@ -56,7 +56,8 @@ struct LevelParams {
   /// Rates may rise by more, as where a joint that slips all over moves outwards and its centrifugal load grows with
   /// the radius: what rises does not come to rest.
   double rise = 0.05;
-  double first = 0.05;  ///< of the depth: states before that are of the run-in
+  double first = 0.05;   ///< of the depth: states before that are of the run-in
+  double earlier = 0.5;  ///< of the depth, at which the rates were that they are compared with
 };
 
 /// How a history is finished by the direct method.

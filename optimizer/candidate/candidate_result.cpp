@@ -177,7 +177,9 @@ void go_through_stages(const Scene& scene, const Computation& how, CandidateResu
   evaluation.status = dynamics(scene, how, fit, result);
   if (!fit.settled && result.unworn->status == Status::converged)
     evaluation.messages.push_back(
-        fit.known
+        fit.spent ? "Contact nodes need not end where worn zones do: the share of the budget (solver.max_jacobians, "
+                    "solver.time_limit_s) for finding out where that is was spent."
+        : fit.known
             ? "The edges of the worn zones did not settle: their contact nodes end beside them, by up to " +
                   fmt::format("{:.2g}", fit.moved) + " of an edge of the mesh."
             : "Contact nodes do not end where worn zones do: on the nodes of the mesh the direct method found no worn "

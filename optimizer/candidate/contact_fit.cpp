@@ -48,9 +48,18 @@ class GridSearch {
         cells_(cell_lengths(scene, options_.lengths)),
         joint_(joint_of(scene, candidate, how.penalty_scale)) {
     release_.certify = release_.certify_finer = false;
+    // What is asked of the design itself is left the rest.
+    joint_.options.budget = new_budget(scene.solver, candidate, options_.share_of_budget);
   }
 
   ContactFit run() {
+    ContactFit fit = laid();
+    candidate_.budget->spend(joint_.options.budget->used());
+    return fit;
+  }
+
+ private:
+  ContactFit laid() {
     lay(cell_grid(scene_, candidate_.mesh.sector, cells_));
     if (!candidate_.converged()) return fit_;
     // Where the law lets nodes rest in slip the history says which ones wear.
@@ -76,14 +85,13 @@ class GridSearch {
         at_resonance = true;
         --fit_.grids;
       } else if (fit_.grids == options_.grids) {
-        return best_grid();
+        return best_grid(best_.grid < fit_.grids);
       } else if (!lay_next()) {
         return unsettled();
       }
     }
   }
 
- private:
   void lay(const std::vector<fem::FlankCells>& flanks) {
     lay_contact(scene_, flanks, candidate_);
     joint_.model = candidate_.condensed;
@@ -97,6 +105,8 @@ class GridSearch {
 
   /// What the last grid says of the edges is not known: they may be anywhere near.
   [[nodiscard]] ContactFit unsettled() {
+    fit_.spent = spent(joint_.options.budget);
+    if (fit_.spent && !best_.flanks.empty()) return best_grid(true);
     fit_.settled = fit_.known = false;
     fit_.moved = fit_.share = 1;
     return fit_;
@@ -132,8 +142,8 @@ class GridSearch {
   }
 
   /// Where edges go to and fro: the grid that they would have left least, of those whose zones end at them.
-  [[nodiscard]] ContactFit best_grid() {
-    if (best_.grid < fit_.grids) {
+  [[nodiscard]] ContactFit best_grid(bool another_is_laid) {
+    if (another_is_laid) {
       lay(best_.flanks);
       fit_.displacement = best_.displacement;
     }

@@ -6,9 +6,10 @@
 namespace dovetail::optimizer {
 
 struct ContactFitOptions {
-  int grids = 6;            ///< >= 0. Further grids of contact nodes tried at most
-  double aim = 0.005;       ///< > 0. No further grid where edges move by less, in lengths of the mesh's edge there
-  double tolerance = 0.02;  ///< >= aim. Those that move by less on the last grid have settled
+  int grids = 6;                 ///< >= 0. Further grids of contact nodes tried at most
+  double aim = 0.005;            ///< > 0. No further grid where edges move by less, in lengths of the mesh's edge there
+  double tolerance = 0.02;       ///< >= aim. Those that move by less on the last grid have settled
+  double share_of_budget = 0.5;  ///< (0, 1). Of the evaluation's, that may be spent on finding the edges
   CellLengths lengths;
 };
 
@@ -27,6 +28,7 @@ struct ContactFit {
   double share = 1;  ///< the same, of the narrower of the two pieces of the flank that meet at the edge
   bool settled = false;  ///< `moved` is within the tolerance
   bool known = false;    ///< `moved` could be computed
+  bool spent = false;    ///< its share of the budget is spent: the grid of those laid that edges would have left least
   int edges = 0;         ///< of worn zones
   /// The unworn steady state near its resonance on the nodes laid, for the search of the resonance to start from:
   /// rad/s and m. No displacement where there is none.

@@ -13,8 +13,9 @@ bool unchanged_while_doubling(const std::vector<WornRecord>& records) {
   const WornRecord& last = records.back();
   if (last.depth.size() == 0) return false;
   const double deep = last.depth.maxCoeff();
-  const auto earlier = std::find_if(records.rbegin(), records.rend(),
-                                    [deep](const WornRecord& record) { return record.depth.maxCoeff() <= 0.5 * deep; });
+  const auto earlier = std::find_if(records.rbegin(), records.rend(), [deep](const WornRecord& record) {
+    return record.depth.maxCoeff() <= kLevel.earlier * deep;
+  });
   if (earlier == records.rend() || earlier->depth.maxCoeff() < kLevel.first * deep) return false;
   const Eigen::VectorXd rise = (last.rate - earlier->rate) / last.rate.maxCoeff();
   return rise.minCoeff() >= -kLevel.change && rise.maxCoeff() <= kLevel.rise;

@@ -67,7 +67,7 @@ CommandHelp backbone() {
           "\"frequency_error\", \"dissipated_energy_j\", \"searched\", \"jumped\", \"checked\", \"jacobians\", "
           "\"settings\"};\n"
           "one entry per parameter in each list. \"jumped\": not the peak of the level before; \"checked\": no point\n"
-          "within 40 % of its frequency is higher."};
+          "within 40 % of its frequency is higher by more than 1 / samples."};
 }
 
 CommandHelp wear() {

@@ -8,12 +8,12 @@
 namespace dovetail::studies {
 namespace {
 
-/// "must be a number > 0 and <= 5", with `noun` "number" or "whole number".
+/// "must be a number > 0 and <= 5", "must be a number: 0 (rigid) or >= 5"; `noun` is "number" or "whole number".
 std::string phrase(const std::string& noun, const Range& range) {
   const std::string bounds = range.phrase();
   const std::string start = "must be ";
   if (!std::isfinite(range.lower) && !std::isfinite(range.upper)) return start + "a finite " + noun;
-  return start + "a " + noun + " " + bounds.substr(start.size());
+  return start + "a " + noun + (range.zero.empty() ? " " : ": ") + bounds.substr(start.size());
 }
 
 std::string choice_phrase(const std::vector<std::string_view>& choices) {

@@ -141,9 +141,11 @@ class WearFiles(unittest.TestCase):
 
     def test_a_threshold_of_zero_is_none(self):
         # Only the law of energy may have one; its data sets are the same but for that.
-        for name, more in {"without.h5": {}, "with.h5": {"/contact/wear_threshold": write_model.np.zeros(4)}}.items():
-            write_model.write_model(os.path.join(self.folder.name, name),
-                                    {**write_model.rod(4), "/contact/wear_law": ["energy"], **more})
+        # The law is one text: a list of one or a scalar.
+        for name, more in {"without.h5": {"/contact/wear_law": ["energy"]},
+                           "with.h5": {"/contact/wear_law": "energy",
+                                       "/contact/wear_threshold": write_model.np.zeros(4)}}.items():
+            write_model.write_model(os.path.join(self.folder.name, name), {**write_model.rod(4), **more})
         self.wear("with.h5", *HISTORY, *AT, "--steps", "2", file="energy.json", status=3)
         self.wear("without.h5", *HISTORY, "--steps", "1", "--resume", "energy.json", status=3)
 

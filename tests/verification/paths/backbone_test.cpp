@@ -189,6 +189,18 @@ TEST(Backbone, SaysWhereItLeftThePeakItFollowed) {
   EXPECT_LT(side.points.front().amplitude, 0.7 * largest.points.front().amplitude);
 }
 
+// Without damping and with more force than friction takes up, the peak at 0.238 Hz has no end; what is found are side
+// maxima further away than the range of the check, towards whose end the amplitude rises.
+TEST(Backbone, SaysWhereTheAmplitudeRisesBeyondTheRange) {
+  reduction::ReducedModel undamped = rod(10);
+  undamped.damping *= 0;
+  const paths::BackboneFamily family = paths::excitation_levels({condensed(undamped)});
+  for (const auto& forces : {std::vector{3.0}, levels(2, 3, 9)})
+    for (const paths::BackbonePoint& point : paths::backbone(family, forces, 2.8).points)
+      EXPECT_EQ(point.status == Status::converged && point.checked, point.parameter < 2.8)
+          << point.parameter << ": " << point.omega << " " << point.amplitude;
+}
+
 TEST(Backbone, StopsWhenAsked) {
   const paths::BackboneFamily family = paths::excitation_levels({condensed(sliding_orbit()), {}, kOnPeaks});
   const paths::Backbone found = paths::backbone(
