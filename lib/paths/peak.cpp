@@ -143,8 +143,11 @@ class PeakNewton {
   bool observe() {
     if (!referred_) reference_ = here_.direction;
     referred_ = true;
-    stationarity_.add(
-        {.place = place(), .omega = here_.at.parameter, .amplitude = here_.amplitude.value, .slope = slope()});
+    stationarity_.add({.place = place(),
+                       .omega = here_.at.parameter,
+                       .amplitude = here_.amplitude.value,
+                       .slope = slope(),
+                       .off = here_.on_branch ? 0 : here_.distance});
     const double speed = std::abs(here_.direction.parameter);
     const double tolerated = options_.frequency_tolerance * here_.at.parameter;
     // Along a steep branch the frequency hardly moves: the place on the branch must be known as well.

@@ -18,6 +18,7 @@ class Stationarity {
  public:
   struct Mark {
     double place = 0, omega = 0, amplitude = 0, slope = 0;
+    double off = 0;  ///< how far from the branch it was found, in units of place
   };
 
   /// `curvature` < 0: the slope's derivative at the maximum of a linear system, the first guess; `trust`: the longest
@@ -35,6 +36,10 @@ class Stationarity {
     if (now.slope <= 0 && (!falling_ || now.place < falling_->place)) falling_ = now;
     // Another peak, or a fold, can cross the marks: keep the newest one.
     if (rising_ && falling_ && rising_->place >= falling_->place) (now.slope > 0 ? falling_ : rising_).reset();
+    // A slope found further from the branch than the bracket is wide may be that beyond a jump.
+    const double within = width();
+    for (std::optional<Mark>* end : {&rising_, &falling_})
+      if (*end && (*end)->off > within) end->reset();
     brackets_.push_back({.width = width(), .drop = bracketed() ? rising_->slope - falling_->slope : 0});
   }
 

@@ -16,8 +16,7 @@ struct Curve {
 };
 
 // Steps from `place` until the search has settled; returns the points that took, 200 when it does not.
-int points_to(double& place, const Curve& curve) {
-  Stationarity search(-1, 0.5);
+int points_to(double& place, const Curve& curve, Stationarity search = {-1, 0.5}) {
   for (int points = 1; points < 200; ++points) {
     search.add(
         {.place = place, .omega = place, .amplitude = std::exp(curve.height(place)), .slope = curve.slope(place)});
@@ -46,6 +45,17 @@ TEST(Stationarity, FindsAMaximumWhereTheSlopeJumps) {
                    [](double x) { return x < 1 ? 0.4 : -0.7 + 2 * (1 - x); }};
   double place = 0.6;
   EXPECT_LE(points_to(place, roof), 15);
+  EXPECT_NEAR(place, 1, kTolerated);
+}
+
+// Beyond the maximum a point beside the branch, where samples are in the contact state they have before it.
+TEST(Stationarity, TakesNoEndThatIsFurtherFromTheBranchThanTheBracketIsWide) {
+  const Curve roof{[](double x) { return x < 1 ? 0.4 * (x - 1) : 0.7 * (1 - x); },
+                   [](double x) { return x < 1 ? 0.4 : -0.7; }};
+  Stationarity search(-1, 0.5);
+  search.add({.place = 1.002, .omega = 1.002, .amplitude = 1, .slope = 0.4, .off = 1e-3});
+  double place = 1.01;
+  EXPECT_LE(points_to(place, roof, search), 60);
   EXPECT_NEAR(place, 1, kTolerated);
 }
 
