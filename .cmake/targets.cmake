@@ -72,6 +72,14 @@ function(dovetail_library name)
   set_property(GLOBAL APPEND PROPERTY DOVETAIL_TARGETS ${target})
 endfunction()
 
+# A program that tests of a label run; all of them: cmake --build --preset ... --target tests_unit
+function(dovetail_tests_need label program)
+  if(NOT TARGET tests_${label})
+    add_custom_target(tests_${label})
+  endif()
+  add_dependencies(tests_${label} ${program})
+endfunction()
+
 # One test program per folder of tests: dovetail_test(NAME LABEL label SOURCES ... LINK ...).
 function(dovetail_test name)
   cmake_parse_arguments(ARG "" "LABEL" "SOURCES;LINK" ${ARGN})
@@ -94,11 +102,7 @@ function(dovetail_test name)
     target_precompile_headers(${name} REUSE_FROM dovetail_precompiled_tests)
     set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 5)
   endif()
-  # All of a label: cmake --build --preset ... --target tests_unit
-  if(NOT TARGET tests_${ARG_LABEL})
-    add_custom_target(tests_${ARG_LABEL})
-  endif()
-  add_dependencies(tests_${ARG_LABEL} ${name})
+  dovetail_tests_need(${ARG_LABEL} ${name})
   include(GoogleTest)
   # Tests run side by side: threads of OpenBLAS within each would only slow the others down.
   set(environment ENVIRONMENT OPENBLAS_NUM_THREADS=1)
