@@ -84,7 +84,7 @@ class Sweep {
   Eigen::Matrix2Xd blade_corners_;
 };
 
-MeshedSector swept(const SolidReference& reference, MeshedSector plane, const Profile& profile,
+MeshedSector swept(const SolidReference& reference, const MeshedSector& plane, const Profile& profile,
                    const ProfileParameters& parameters, const SolidParameters& solid, const SolidSizes& sizes) {
   MeshedSector result;
   result.remeshed = plane.remeshed;
@@ -119,11 +119,11 @@ MeshedSector SolidFamily::mesh_of(const ProfileParameters& parameters, const Sol
 
 MeshedSector SolidFamily::mesh_of(const Profile& profile, const ProfileParameters& parameters,
                                   const SolidParameters& solid) const {
-  SectionMesh section = mesh_section(reference_->section, profile, parameters, sizes_, limits_);
+  const SectionMesh section = mesh_section(reference_->section, profile, parameters, sizes_, limits_);
   if (section.reference == reference_->section)
-    return swept(*reference_, std::move(section.plane), profile, parameters, checked(solid), along_);
+    return swept(*reference_, section.plane, profile, parameters, checked(solid), along_);
   const SolidReference own(section.reference, section.plane.sector.mesh);
-  return swept(own, std::move(section.plane), profile, parameters, checked(solid), along_);
+  return swept(own, section.plane, profile, parameters, checked(solid), along_);
 }
 
 MeshedSector mesh_solid(const ProfileParameters& parameters, const SolidParameters& solid, const MeshSizes& sizes,
