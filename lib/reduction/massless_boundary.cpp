@@ -130,8 +130,8 @@ TraceModel trace_model(const FullModel& full, const ReductionOptions& options) {
 
   result.structure = std::make_shared<ResidualFlexibility>(stiffness, mass, std::move(basis), modes.soft());
   result.seconds_contact_solves += lap(start);
-  if (result.structure->status() != Status::converged)
-    return failed(std::move(result), result.structure->status(),
+  if (const Status status = result.structure->status(); status != Status::converged)
+    return failed(std::move(result), status,
                   "the stiffness is not positive definite on the complement of the kept modes");
   const Eigen::MatrixXd& phi = result.structure->basis().vectors;
   result.static_force = phi.transpose() * full.static_force;
