@@ -48,13 +48,11 @@ class GridSearch {
         cells_(cell_lengths(scene, options_.lengths)),
         joint_(joint_of(scene, candidate, how.penalty_scale)) {
     release_.certify = release_.certify_finer = false;
-    // What is asked of the design itself is left the rest.
-    joint_.options.budget = new_budget(scene.solver, candidate, options_.share_of_budget);
   }
 
   ContactFit run() {
     ContactFit fit = laid();
-    candidate_.budget->spend(joint_.options.budget->used());
+    if (has_own_budget()) candidate_.budget->spend(joint_.options.budget->used());
     return fit;
   }
 
@@ -64,6 +62,8 @@ class GridSearch {
     if (!candidate_.converged()) return fit_;
     // Where the law lets nodes rest in slip the history says which ones wear.
     rests_in_slip_ = wear::rests_in_slip(*candidate_.condensed);
+    // A history on each grid is dear: what is asked of the design itself is left the rest.
+    if (rests_in_slip_) joint_.options.budget = new_budget(scene_.solver, candidate_, options_.share_of_budget);
     release_.arbitration = rests_in_slip_ ? wear::Arbitration::unsettled : wear::Arbitration::never;
     for (const fem::CellStrip& strip : candidate_.cells.strips())
       lengths_.emplace_back(fem::trace_lines(candidate_.mesh.sector.flanks[strip.flank]));
@@ -92,6 +92,8 @@ class GridSearch {
     }
   }
 
+  [[nodiscard]] bool has_own_budget() const { return joint_.options.budget != candidate_.budget; }
+
   void lay(const std::vector<fem::FlankCells>& flanks) {
     lay_contact(scene_, flanks, candidate_);
     joint_.model = candidate_.condensed;
@@ -105,7 +107,7 @@ class GridSearch {
 
   /// What the last grid says of the edges is not known: they may be anywhere near.
   [[nodiscard]] ContactFit unsettled() {
-    fit_.spent = spent(joint_.options.budget);
+    fit_.spent = has_own_budget() && spent(joint_.options.budget);
     if (fit_.spent && !best_.flanks.empty()) return best_grid(true);
     fit_.settled = fit_.known = false;
     fit_.moved = fit_.share = 1;

@@ -6,10 +6,11 @@
 namespace dovetail::optimizer {
 
 struct ContactFitOptions {
-  int grids = 6;                 ///< >= 0. Further grids of contact nodes tried at most
-  double aim = 0.005;            ///< > 0. No further grid where edges move by less, in lengths of the mesh's edge there
-  double tolerance = 0.02;       ///< >= aim. Those that move by less on the last grid have settled
-  double share_of_budget = 0.5;  ///< (0, 1). Of the evaluation's, that may be spent on finding the edges
+  int grids = 6;            ///< >= 0. Further grids of contact nodes tried at most
+  double aim = 0.005;       ///< > 0. No further grid where edges move by less, in lengths of the mesh's edge there
+  double tolerance = 0.02;  ///< >= aim. Those that move by less on the last grid have settled
+  /// (0, 1). Of the evaluation's budget, that may be spent on finding the edges where it takes histories.
+  double share_of_budget = 0.5;
   CellLengths lengths;
 };
 

@@ -160,6 +160,19 @@ TEST(HardDesigns, TheDirectStateIsNoBarUnderAnEnergyThreshold) {
   EXPECT_LT(bar, volume);
 }
 
+// Every grid on the way to the ends of worn zones asks a history, and without damping these are long: what is left of
+// the budget is enough for the answer itself.
+TEST(HardDesigns, LookingForEdgesLeavesEnoughOfTheBudget) {
+  optimizer::Scene scene = load_study(QUICKSTART, {}).scene;
+  scene.contact.wear_law = "energy";
+  scene.contact.wear.at("energy").threshold = 0.1;
+  scene.loading.damping_ratio = 1e-5;
+  const optimizer::Evaluation evaluation = optimizer::SceneEvaluator(scene).evaluate(scene, {.bars = false}).evaluation;
+  EXPECT_TRUE(evaluation.converged()) << evaluation.status;
+  EXPECT_LE(evaluation.model.at("jacobians_spent"), scene.solver.max_jacobians);
+  EXPECT_THAT(evaluation.messages, ::testing::Contains(::testing::HasSubstr("the share of the budget")));
+}
+
 // Without friction nothing dissipates, and a joint that does not wear keeps its resonance.
 TEST(HardDesigns, AJointThatDoesNotWearStaysAsItIs) {
   optimizer::Scene scene = load_study(QUICKSTART, {}).scene;
