@@ -27,12 +27,13 @@ Scene resized_section(Scene scene, double ratio) {
 }
 
 Scene resized(Scene scene, double ratio) {
-  for (const std::string_view key : scene.kind->counts) {
+  const SceneKind& kind = *scene.kind;
+  for (const std::string_view key : kind.counts) {
     const double count = parameter(scene, key);
     if (count > 0)
       set_within_range(scene, key, std::max(2.0, std::round(count / ratio)));  // 0: as many as the mesh has
   }
-  return lengthened(std::move(scene), scene.kind->lengths, ratio);
+  return lengthened(std::move(scene), kind.lengths, ratio);
 }
 
 OtherMeshes::OtherMeshes(const Scene& reference) {

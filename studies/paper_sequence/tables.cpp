@@ -8,7 +8,8 @@
 
 namespace dovetail::optimizer {
 
-using paper_sequence::ConvergenceRow, paper_sequence::History;
+using ConvergenceRow = paper_sequence::ConvergenceRow;
+using paper_sequence::History;
 
 template <>
 inline constexpr auto kFields<ConvergenceRow> =
