@@ -151,6 +151,7 @@ void Archive::column(const std::string& group, const std::string& name, std::vec
   const std::size_t columns = table(in(group, name), all, values.empty() ? 0 : values.front().size());
   if (out_) return;
   values.assign(columns == 0 ? values.size() : all.size() / columns, {});
+  if (columns == 0) return;
   for (std::size_t i = 0; i < all.size(); ++i) values[i / columns].push_back(all[i]);
 }
 
