@@ -60,11 +60,10 @@ Resonance swept(const steady::Joint& joint, double omega_from, double omega_to,
   result.jacobians = branch.jacobians;
   const std::vector<std::size_t> candidates = summits(branch, resonance_options.output);
   if (branch.status == Status::converged) result.status = Status::no_bracket;
-  for (const bool last : {false, true})
-    if (!branch.points.empty())
-      result.ends =
-          std::max(result.ends,
-                   (last ? branch.points.back() : branch.points.front()).state.amplitudes(resonance_options.output));
+  if (!branch.points.empty()) {
+    const auto height = [&](const branches::BranchPoint& at) { return at.state.amplitudes(resonance_options.output); };
+    result.ends = std::max(height(branch.points.front()), height(branch.points.back()));
+  }
   for (std::size_t c = 0; c < std::min(candidates.size(), kPeakSweep.tried); ++c) {
     const double height = branch.points[candidates[c]].state.amplitudes(resonance_options.output);
     if (height < kPeakSweep.hopeless * result.amplitude) break;

@@ -143,7 +143,8 @@ class GridSearch {
     return true;
   }
 
-  /// Where edges go to and fro: the grid that they would have left least, of those whose zones end at them.
+  /// Where edges go to and fro, or their budget is spent: the grid that they would have left least, of those whose
+  /// zones end at them. It is laid again where another one may be.
   [[nodiscard]] ContactFit best_grid(bool another_is_laid) {
     if (another_is_laid) {
       lay(best_.flanks);
