@@ -6,8 +6,12 @@
 
 namespace dovetail::optimizer {
 
-SceneEvaluator::SceneEvaluator(const Scene& reference)
-    : reference_(reference), builder_(reference), others_(reference) {}
+SceneEvaluator::SceneEvaluator(const Scene& reference) : reference_(reference), builder_(reference) {}
+
+const OtherMeshes& SceneEvaluator::others() const {
+  std::call_once(once_, [this] { others_.emplace(reference_); });
+  return *others_;
+}
 
 CandidateResult SceneEvaluator::evaluate(const Scene& scene, const Purpose& purpose) const {
   Stopwatch total;
@@ -15,7 +19,7 @@ CandidateResult SceneEvaluator::evaluate(const Scene& scene, const Purpose& purp
       computed(scene, builder_.build(scene), {.contact = {}, .history = purpose.history, .wear = purpose.wear});
   if (purpose.bars && purpose.wear && result.evaluation.converged()) {
     Stopwatch watch;
-    add_error_bars(scene, builder_, others_, result);
+    add_error_bars(scene, builder_, others(), result);
     result.evaluation.timings_s["error_estimates"] = watch.lap();
   }
   result.evaluation.timings_s["total"] = total.lap();

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <mutex>
+#include <optional>
+
 #include "optimizer/bars/other_meshes.hpp"
 #include "optimizer/candidate/candidate_result.hpp"
 
@@ -32,9 +35,13 @@ class SceneEvaluator {
   [[nodiscard]] const Scene& reference() const { return reference_; }
 
  private:
+  /// Made when a design first asks for bars: they take longer than a design without.
+  [[nodiscard]] const OtherMeshes& others() const;
+
   Scene reference_;
   ModelBuilder builder_;
-  OtherMeshes others_;
+  mutable std::once_flag once_;
+  mutable std::optional<OtherMeshes> others_;
 };
 
 }  // namespace dovetail::optimizer
