@@ -30,7 +30,7 @@ TEST(Verification, ThreeAnswersAgreeWithinTheirBars) {
 
 TEST(Verification, NeitherHistoryGoesOnWithoutABudget) {
   const Scene scene = coarse_scene();
-  const Verification v = verify(SceneEvaluator(scene), scene, {.budgets = 0.02});
+  const Verification v = verify(SceneEvaluator(scene), scene, {.budgets = 0.005});
   EXPECT_EQ(v.status, "history: budget_spent");
   EXPECT_GT(v.direct_volume, 0);
 }

@@ -93,7 +93,7 @@ TEST(HardDesigns, AHistoryThatHangsOnTheHarmonicsDoesNotDecideUnseen) {
                                                              : "more harmonics and samples, nearer to the first")));
 
   std::vector<std::pair<std::string, double>> hurried = design;
-  hurried.emplace_back("solver.max_jacobians", 20);  // hardly more than the evaluation itself takes
+  hurried.emplace_back("solver.max_jacobians", 10);  // hardly more than the evaluation itself takes
   const optimizer::CandidateResult undecided = evaluated_in_study(hurried);
   ASSERT_TRUE(undecided.evaluation.converged()) << undecided.evaluation.status;
   EXPECT_EQ(undecided.evaluation.model.at("wear_history_may_differ"), 1);
@@ -371,7 +371,7 @@ TEST(HardDesigns, BarsOfAMeshNextToTheFinestThereIs) {
 // Enough for the answer itself, not for every companion of its error bars.
 TEST(HardDesigns, WithoutItsErrorBarsAnAnswerIsNotConverged) {
   const optimizer::Evaluation evaluation =
-      evaluated({{"loading.tip_force_n", 0.5}, {"solver.max_jacobians", 8}}, true).evaluation;
+      evaluated({{"loading.tip_force_n", 0.5}, {"solver.max_jacobians", 5}}, true).evaluation;
   EXPECT_EQ(evaluation.status, "error_estimates: budget_spent");
   EXPECT_TRUE(evaluation.responses.contains("worn_peak_amplitude_m"));
   EXPECT_FALSE(evaluation.error_estimates.contains("worn_peak_amplitude_m"));
