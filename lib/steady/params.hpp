@@ -18,7 +18,7 @@ struct SingularityParams {
   double held = 1e-11;  ///< shift of the static stiffness: rounding turns no stiffness into a slightly negative one
   double safe_pivots = 1e-7;  ///< ratio of pivots above which a condition number need not be computed
   double regularised = 1e-6;  ///< shift of a singular Jacobian that gives Newton's method a direction
-  double same = 1e-13;        ///< entries of two Jacobians that differ by less are one
+  double same = 1e-13;        ///< entries of two Jacobians, or of D and the identity, that differ by less are one
 };
 
 /// The floor that rounding sets under residuals, see rounding_floor.

@@ -1,6 +1,7 @@
 #include "steady/tangent.hpp"
 
 #include <cassert>
+#include <cmath>
 
 #include "steady/params.hpp"
 #include "steady/work.hpp"

@@ -14,9 +14,10 @@ namespace dovetail::steady {
 /// The factorised Jacobian J = Z + D (eps I - Z) of a point and what follows from it. All vectors over the unknowns
 /// are vec(U): index k nc + a is Fourier coefficient k of contact dof a, nc (2H+1) entries.
 ///
-/// The dense factorisation sees only what is nonlinear at this point. Rows where D is a row of the identity (normal
-/// directions that never separate, nodes that never slid) read eps dU = -f and are eliminated; nodes without force at
-/// any time are linear and condensed harmonic by harmonic. Both are exact.
+/// The dense factorisation sees only what is nonlinear at this point. Rows where D is a row of the identity, to
+/// rounding (normal directions that never separate, nodes that never slid, all but the mean of those that slid in
+/// earlier periods only), read eps dU = -f and are eliminated; nodes without force at any time are linear and condensed
+/// harmonic by harmonic. Both are exact.
 class Tangent {
  public:
   /// Keeps a copy of the state and of the (shared, constant) problem. O(size of the rest ^3), unless `previous` is of
