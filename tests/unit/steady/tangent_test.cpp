@@ -45,6 +45,40 @@ INSTANTIATE_TEST_SUITE_P(Nodes, Condensation,
                          testing::Values(std::vector<char>{0, 0, 0, 0, 0}, std::vector<char>{1, 0, 0, 1, 0},
                                          std::vector<char>{1, 1, 1, 1, 1}));
 
+TEST(Tangent, FactorisesTheMeanOnlyOfANodeThatSlidInEarlierPeriods) {
+  for (const Eigen::Index tangential : {1, 2}) {
+    reduction::ReducedModel quiet = random_model(5, tangential, false);
+    quiet.cosine_force.setZero();
+    quiet.sine_force.setZero();
+    const auto model = std::make_shared<const dynamics::CondensedModel>(quiet);
+    const Eigen::Index nc = model->contact_size(), d = model->directions();
+    // Nodes 1 and 3 stand far from where they last stuck: they slide to the limit of friction once and stick there.
+    steady::Condition condition{.slip_origin = Eigen::MatrixXd::Zero(5, tangential)};
+    const Eigen::MatrixXd where = problem(model, 1.3, condition)->closed_start();
+    condition.slip_origin.row(1).setConstant(5);
+    condition.slip_origin.row(3).setConstant(-5);
+    const std::shared_ptr<const steady::Point> at =
+        point(problem(model, 1.3, condition), where + 1e-3 * random_matrix(nc, 7, 11));
+    for (const Eigen::Index i : {1, 3}) {
+      const contact::MarchResult& node = at->nodes[static_cast<std::size_t>(i)];
+      ASSERT_FALSE(node.always_stuck);
+      ASSERT_EQ(node.slip_distance, 0);
+      // Their harmonics drive nothing but themselves, up to what the Fourier sums leave of a constant.
+      const Eigen::Index harmonic = d * 6;
+      EXPECT_LT(
+          (node.force_derivative.bottomRows(harmonic) - Eigen::MatrixXd::Identity(d * 7, d * 7).bottomRows(harmonic))
+              .cwiseAbs()
+              .maxCoeff(),
+          1e-14);
+    }
+    const steady::Tangent linear(at);
+    ASSERT_EQ(linear.status(), Status::converged);
+    EXPECT_EQ(linear.factorised_size(), 2 * tangential);
+    const Eigen::MatrixXd x = random_matrix(7 * nc, 3, 12);
+    EXPECT_LT((linear.solve(steady::jacobian(*at) * x) - x).norm(), 1e-11 * x.norm());
+  }
+}
+
 TEST(Tangent, SharesTheFactorsOfAnEqualJacobianOnly) {
   const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(4, 1, false));
   const std::shared_ptr<const steady::Problem> of = problem(model, 1.3, {});
