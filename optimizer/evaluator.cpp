@@ -15,11 +15,11 @@ const OtherMeshes& SceneEvaluator::others() const {
 
 CandidateResult SceneEvaluator::evaluate(const Scene& scene, const Purpose& purpose) const {
   Stopwatch total;
-  CandidateResult result =
-      computed(scene, builder_.build(scene), {.contact = {}, .history = purpose.history, .wear = purpose.wear});
-  if (purpose.bars && purpose.wear && result.evaluation.converged()) {
+  const Computation how = until(purpose.until, purpose.history);
+  CandidateResult result = computed(scene, builder_.build(scene), how);
+  if (purpose.bars && result.evaluation.converged()) {
     Stopwatch watch;
-    add_error_bars(scene, builder_, others(), result);
+    add_error_bars(scene, builder_, others(), how, result);
     result.evaluation.timings_s["error_estimates"] = watch.lap();
   }
   result.evaluation.timings_s["total"] = total.lap();

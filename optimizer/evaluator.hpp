@@ -8,11 +8,11 @@
 
 namespace dovetail::optimizer {
 
-/// How much an evaluation has to answer for. A search compares many designs and leaves both out.
+/// How much an evaluation has to answer for. A search compares many designs and leaves bars and histories out.
 struct Purpose {
-  bool bars = true;     ///< error bars of all responses
-  bool history = true;  ///< where the direct worn state is in doubt, the wear history decides
-  bool wear = true;     ///< else the responses of the unworn joint alone, and no bars
+  bool bars = true;                     ///< error bars of all responses there are
+  bool history = true;                  ///< where the direct worn state is in doubt, the wear history decides
+  Stage until = Stage::worn_resonance;  ///< the last one that is computed; responses of later ones have no value
 };
 inline constexpr Purpose kSearch{.bars = false, .history = false};
 

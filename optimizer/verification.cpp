@@ -118,9 +118,11 @@ Scene finer(Scene scene, int level) {
   return scene;
 }
 
-CandidateResult evaluated_finer(const SceneEvaluator& evaluator, const Scene& scene, int level) {
+CandidateResult evaluated_finer(const SceneEvaluator& evaluator, const Scene& scene, const Purpose& purpose,
+                                int level) {
   const Scene fine = finer(scene, level);
-  return computed(fine, ModelBuilder(finer(evaluator.reference(), level)).build(fine));
+  return computed(fine, ModelBuilder(finer(evaluator.reference(), level)).build(fine),
+                  until(purpose.until, purpose.history));
 }
 
 Verification verify(const SceneEvaluator& evaluator, const Scene& scene, const VerificationOptions& options,
@@ -140,7 +142,7 @@ Verification verify(const SceneEvaluator& evaluator, const Scene& scene, const V
     verification.search_depth = result.asymptote->largest_depth;
     const auto bar = result.evaluation.error_estimates.find(std::string(kWornVolume.name));
     verification.search_bar = bar == result.evaluation.error_estimates.end() ? std::nan("") : bar->second;
-    CandidateResult fine = evaluated_finer(evaluator, scene, 1);
+    CandidateResult fine = evaluated_finer(evaluator, scene, kSearch, 1);
     verification.status = compare(scene_there, fine, options, watcher, verification);
     verification.search_profile = on_grid(result.asymptote->depth, result.model.cells, fine.model.cells);
     verification.model = std::move(fine.model);

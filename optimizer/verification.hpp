@@ -52,8 +52,9 @@ struct Verification {
 /// each than its key allows.
 [[nodiscard]] Scene finer(Scene scene, int level);
 
-/// All responses of a design on such a mesh, without bars.
-[[nodiscard]] CandidateResult evaluated_finer(const SceneEvaluator& evaluator, const Scene& scene, int level);
+/// A design on such a mesh; never with bars.
+[[nodiscard]] CandidateResult evaluated_finer(const SceneEvaluator& evaluator, const Scene& scene,
+                                              const Purpose& purpose, int level);
 
 /// Never throws for what a design is like; what could not be computed is in the status. Cost: two evaluations and some
 /// 100 to 300 steady states of four times the size.

@@ -19,6 +19,7 @@ void Bars::add(const char* source, const std::vector<Companion>& companions, con
       result_.evaluation.messages.push_back(std::string("A design computed for the error by ") + source +
                                             " ended with \"" + companion.evaluation->status + "\".");
   for (const Response& response : responses()) {
+    if (!asked(response)) continue;
     const std::string name(response.name);
     bool known = false;
     double bar = 0;
@@ -40,24 +41,25 @@ void Bars::add(const char* source, const std::vector<Companion>& companions, con
 void Bars::add(const char* source, const LeftOpen& open) {
   for (const Response& response : responses())
     if (response.off != nullptr)
-      if (const std::optional<double> bar = response.off(result_, open)) add(source, response, *bar);
+      if (asked(response))
+        if (const std::optional<double> bar = response.off(result_, open)) add(source, response, *bar);
 }
 
 void Bars::add_own_errors() {
   for (const Response& response : responses())
-    if (const OwnError& own = response.own_error; own.of != nullptr && response.has_limit(scene_))
+    if (const OwnError& own = response.own_error; own.of != nullptr && asked(response) && response.has_limit(scene_))
       add(own.source, response, own.of(scene_, result_));
 }
 
 void Bars::leave_open(Stage stage) {
   for (const Response& response : responses())
-    if (response.stage == stage) open_.emplace(response.name);
+    if (response.stage == stage && asked(response)) open_.emplace(response.name);
 }
 
 void Bars::match_unworn() {
   if (result_.asymptote->worn_volume != 0) return;
   for (const Response& response : responses()) {
-    if (response.unworn == nullptr) continue;
+    if (response.unworn == nullptr || !asked(response)) continue;
     for (const auto& [source, bar] : sources(*response.unworn)) {
       double& of_worn = sources(response)[source];
       of_worn = std::max(of_worn, bar);
@@ -76,6 +78,7 @@ double Bars::sum(const Response& response) const {
 void Bars::leave_unresolved_open() {
   Evaluation& evaluation = result_.evaluation;
   for (const Response& response : responses()) {
+    if (!asked(response)) continue;
     const std::string name(response.name);
     if (!response.has_limit(scene_)) {
       open_.insert(name);

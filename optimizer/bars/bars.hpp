@@ -25,7 +25,7 @@ struct Companion {
   Factor factor;
 };
 
-/// Gathers the parts of the error bars of a candidate that came through all stages.
+/// Gathers the parts of the error bars of a candidate that came through its stages.
 class Bars {
  public:
   Bars(const Scene& scene, CandidateResult& result) : scene_(scene), result_(result) {}
@@ -46,6 +46,10 @@ class Bars {
   /// Makes them error_estimates, unbounded and status of the evaluation.
   void total();
 
+  /// Whether the candidate answers with it.
+  [[nodiscard]] bool asked(const Response& response) const {
+    return result_.evaluation.responses.contains(std::string(response.name));
+  }
   /// Parts of the bar of a response by their sources.
   [[nodiscard]] std::map<std::string, double>& sources(const Response& response) {
     return result_.evaluation.error_sources[std::string(response.name)];

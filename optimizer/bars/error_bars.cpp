@@ -42,10 +42,11 @@ Evaluation companion(const Scene& scene, CandidateModel model, const Computation
 /// Asks companions of one design and gathers what they say.
 class ErrorBarSources {
  public:
-  ErrorBarSources(const Scene& scene, const ModelBuilder& builder, const OtherMeshes& others, CandidateResult& result)
-      : scene_(scene), builder_(builder), others_(others), result_(result), bars_(scene, result) {
+  ErrorBarSources(const Scene& scene, const ModelBuilder& builder, const OtherMeshes& others, const Computation& how,
+                  CandidateResult& result)
+      : scene_(scene), builder_(builder), others_(others), result_(result), bars_(scene, result), as_here_(how) {
     // Where the history decided, it does so for the companions.
-    as_here_.history = result.asymptote->decided_by == wear::FoundBy::history;
+    as_here_.history = result.asymptote && result.asymptote->decided_by == wear::FoundBy::history;
   }
 
   void run() {
@@ -53,20 +54,26 @@ class ErrorBarSources {
     const Evaluation longer = on_nodes(kCompanion.longer_nodes);
     const std::string slides = failed_at("asymptote", Status::gross_sliding);
     const auto does = [&slides](const Evaluation& answer) { return answer.status == slides; };
-    if (result_.asymptote->bearing.doubtful() && (does(longer) || std::ranges::any_of(answers_, does)))
+    if (worn() && result_.asymptote->bearing.doubtful() && (does(longer) || std::ranges::any_of(answers_, does)))
       return refuse_worn_state(slides, result_.evaluation);
     add_contact_grid(longer);
-    add_slip();
+    if (as_here_.until >= Stage::unworn) {
+      add_slip();
+      bars_.add("search", LeftOpen{.frequency = paths::ResonanceOptions{}.frequency_tolerance});
+    }
     ask_settings();
     bars_.add_own_errors();
-    bars_.add("search", LeftOpen{.frequency = paths::ResonanceOptions{}.frequency_tolerance});
-    add_worn_bars(scene_, result_, bars_);
-    bars_.match_unworn();
+    if (worn()) {
+      add_worn_bars(scene_, result_, bars_);
+      bars_.match_unworn();
+    }
     bars_.total();
   }
 
  private:
   using Change = std::function<void(Scene&, Computation&)>;
+
+  [[nodiscard]] bool worn() const { return as_here_.until >= Stage::worn_state; }
 
   /// A mesh on which other settings may be asked for.
   struct Base {
@@ -91,8 +98,8 @@ class ErrorBarSources {
     bars_.add("mesh", meshes, result_.evaluation);
     if (const ModelBuilder* on_it = others_.finer_section()) {
       constexpr double kRatio = kCompanion.section_ratio;
-      Computation how;
-      how.wear = false;
+      Computation how = as_here_;
+      how.until = std::min(how.until, Stage::unworn);
       const Evaluation finer = companion(scene_, on_it->build(resized_section(scene_, kRatio)), how);
       bars_.add("mesh", {{&finer, by_mesh(kRatio)}}, result_.evaluation);
     }
@@ -122,7 +129,7 @@ class ErrorBarSources {
     bars_.add("contact_grid", {{&longer, factor}}, result_.evaluation);
     if (!finer_) return;
     for (const Response& response : responses()) {
-      if (!response.by_zone_ends) continue;
+      if (!response.by_zone_ends || !bars_.asked(response)) continue;
       std::map<std::string, double>& of = bars_.sources(response);
       bars_.add("contact_grid", response, (1 - kAgain) * std::max(0.0, of["contact_grid"] / kAgain - of["mesh"]));
     }
@@ -131,7 +138,7 @@ class ErrorBarSources {
   /// What the ends of slipping zones leave open, and worn zones narrower than the contact nodes.
   void add_slip() {
     double left_open = slip_at_zone_ends(result_);  // J per cycle
-    if (result_.asymptote->worn_volume == 0 && worn_per_energy(result_, left_open) > 0) {
+    if (worn() && result_.asymptote->worn_volume == 0 && worn_per_energy(result_, left_open) > 0) {
       const Evaluation shorter = on_nodes(kCompanion.shorter_nodes);
       bars_.add("contact_grid", {{&shorter, same_for_all(kCompanion.shorter_factor)}}, result_.evaluation);
       left_open += add_unseen_zones(scene_, result_, bars_);
@@ -150,6 +157,10 @@ class ErrorBarSources {
     bases.push_back({&builder_, scene_, &result_.evaluation, result_.model});
     // Contact nodes of a study have no mass.
     const quality::TruncationFactors factors = quality::truncation_factors(true);
+    ask(bases, "modes", kCompanion.modes_factor, {[](Scene& changed, Computation&) {
+          changed.solver.modes = std::max(2 * changed.solver.modes, changed.solver.modes + kCompanion.more_modes);
+        }});
+    if (as_here_.until < Stage::unworn) return;  // nothing moves
     ask(bases, "harmonics", factors.harmonics, {[](Scene& changed, Computation&) {
           changed.solver.harmonics = 2 * changed.solver.harmonics + 1;
           changed.solver.samples = quality::samples_for(changed.solver.harmonics, changed.solver.samples);
@@ -158,9 +169,6 @@ class ErrorBarSources {
     ask(bases, "pseudo_penalty", factors.penalty,
         {[](Scene&, Computation& how) { how.penalty_scale = kCompanion.softer; },
          [](Scene&, Computation& how) { how.penalty_scale = kCompanion.harder; }});
-    ask(bases, "modes", kCompanion.modes_factor, {[](Scene& changed, Computation&) {
-          changed.solver.modes = std::max(2 * changed.solver.modes, changed.solver.modes + kCompanion.more_modes);
-        }});
   }
 
   /// Of the first base and the first of `changes` to it that has an answer.
@@ -191,9 +199,9 @@ class ErrorBarSources {
 
 }  // namespace
 
-void add_error_bars(const Scene& scene, const ModelBuilder& builder, const OtherMeshes& others,
+void add_error_bars(const Scene& scene, const ModelBuilder& builder, const OtherMeshes& others, const Computation& how,
                     CandidateResult& result) {
-  ErrorBarSources(scene, builder, others, result).run();
+  ErrorBarSources(scene, builder, others, how, result).run();
 }
 
 }  // namespace dovetail::optimizer

@@ -5,6 +5,7 @@
 namespace dovetail::optimizer {
 
 struct CandidateResult;
+struct Computation;
 
 /// Fills error_sources, error_estimates and unbounded of a converged evaluation. How far a response may be from that of
 /// infinitely fine settings is asked of companions of the same design, each coarser or finer in one respect. With d the
@@ -32,9 +33,10 @@ struct CandidateResult;
 /// Responses add what their own computation knows of its error. One without a limit is `unbounded`, and whatever
 /// companions none of which converged leave open (with a message).
 /// @param builder  of the design's own mesh
+/// @param how  the design was computed: what it leaves out has no bars, and companions leave it out, too
 /// Cost: an evaluation on a finer mesh, five on coarser ones and one or two on other grids of contact nodes; in space
 /// two on coarser meshes and six or seven as large as the design's own. Each has a budget of its own.
-void add_error_bars(const Scene& scene, const ModelBuilder& builder, const OtherMeshes& others,
+void add_error_bars(const Scene& scene, const ModelBuilder& builder, const OtherMeshes& others, const Computation& how,
                     CandidateResult& result);
 
 }  // namespace dovetail::optimizer

@@ -52,7 +52,9 @@ wear::WornChange left_in_doubt(const fem::ContactCells& cells, const wear::Asymp
 LeftOpen worn_otherwise(const CandidateResult& result, const wear::WornChange& doubt, bool ends_alone) {
   const double volume = result.asymptote->worn_volume;
   const double share = volume > 0 ? doubt.volume / volume : 0;
-  LeftOpen open{.worn_volume = doubt.volume, .worn_depth = doubt.depth, .drift = share * std::abs(drift(result))};
+  LeftOpen open{.worn_volume = doubt.volume, .worn_depth = doubt.depth};
+  if (!result.worn) return open;
+  open.drift = share * std::abs(drift(result));
   if (!ends_alone) open.worn_amplitude = share * std::abs(result.worn->amplitude - result.unworn->amplitude);
   return open;
 }
@@ -68,7 +70,7 @@ void add_worn_bars(const Scene& scene, const CandidateResult& result, Bars& bars
                                     moved < 1));
   if (const wear::WornChange doubt = left_in_doubt(result.model.cells, asymptote); doubt.volume > 0)
     bars.add("history", worn_otherwise(result, doubt, asymptote.confirmed_by_history));
-  if (const wear::OtherState* other = rival(asymptote)) {
+  if (const wear::OtherState* other = rival(asymptote); other != nullptr && result.worn) {
     // On what the ends of worn zones bear the amplitude hardly depends; on a whole other state it may.
     steady::Joint joint = joint_of(scene, result.model);
     joint.options.budget = new_budget(scene.solver, result.model);

@@ -63,6 +63,10 @@ void note_soft_asperities(const Scene& scene, CandidateResult& result) {
                     1e3 * way, 1e3 * flank));
 }
 
+std::string ended(const char* stage, const CandidateModel& model) {
+  return spent(model.budget) ? failed_at(stage, Status::budget_spent) : status_of(Outcome::converged);
+}
+
 /// The physics after the model; returns the status of the evaluation.
 std::string dynamics(const Scene& scene, const Computation& how, const ContactFit& fit, CandidateResult& result) {
   Evaluation& evaluation = result.evaluation;
@@ -77,7 +81,7 @@ std::string dynamics(const Scene& scene, const Computation& how, const ContactFi
   add_fillet_stresses(scene, result);
   result.stage = Stage::unworn;
   evaluation.timings_s["stress"] = watch.lap();
-  if (!how.wear) return status_of(Outcome::converged);
+  if (how.until <= Stage::unworn) return status_of(Outcome::converged);
 
   wear::Rest state = worn_state(scene, model, joint, result.unworn->state, how.history);
   result.asymptote = std::move(state.asymptote);
@@ -98,6 +102,7 @@ std::string dynamics(const Scene& scene, const Computation& how, const ContactFi
         "wear_certificate is above " + shortest(limit) +
         ": the unworn joint hardly wears itself, and the rate that is left counts as no wear.");
   result.stage = Stage::worn_state;
+  if (how.until <= Stage::worn_state) return ended("asymptote", model);
 
   // A joint that does not wear stays as it is.
   result.worn = asymptote.largest_depth == 0
@@ -107,7 +112,7 @@ std::string dynamics(const Scene& scene, const Computation& how, const ContactFi
   if (result.worn->status != Status::converged) return failed_at("worn_resonance", result.worn->status);
   result.stage = Stage::worn_resonance;
 
-  return spent(model.budget) ? failed_at("worn_resonance", Status::budget_spent) : status_of(Outcome::converged);
+  return ended("worn_resonance", model);
 }
 
 }  // namespace
@@ -174,7 +179,7 @@ void go_through_stages(const Scene& scene, const Computation& how, CandidateResu
   evaluation.status = result.model.status;
   if (!result.model.converged()) return;
   result.stage = Stage::model;
-  evaluation.status = dynamics(scene, how, fit, result);
+  evaluation.status = how.until == Stage::model ? status_of(Outcome::converged) : dynamics(scene, how, fit, result);
   if (!fit.settled && result.unworn->status == Status::converged)
     evaluation.messages.push_back(
         fit.spent ? "Contact nodes need not end where worn zones do: the share of the budget (solver.max_jacobians, "

@@ -206,6 +206,7 @@ class GridSearch {
 }  // namespace
 
 ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateModel& candidate) {
+  if (!how.contact.to_worn_zones) return {.moved = 0, .share = 0, .settled = true, .known = true};
   return GridSearch(scene, how, candidate).run();
 }
 

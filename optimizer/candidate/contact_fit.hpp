@@ -2,10 +2,13 @@
 
 #include "optimizer/candidate/candidate_model.hpp"
 #include "optimizer/candidate/cell_grid.hpp"
+#include "optimizer/candidate/stage.hpp"
 
 namespace dovetail::optimizer {
 
 struct ContactFitOptions {
+  /// False: contact nodes stay where the first grid has them, for responses that know nothing of wear.
+  bool to_worn_zones = true;
   int grids = 6;            ///< >= 0. Further grids of contact nodes tried at most
   double aim = 0.005;       ///< > 0. No further grid where edges move by less, in lengths of the mesh's edge there
   double tolerance = 0.02;  ///< >= aim. Those that move by less on the last grid have settled
@@ -17,10 +20,17 @@ struct ContactFitOptions {
 /// How a design is computed on a model of it.
 struct Computation {
   ContactFitOptions contact = {};
-  double penalty_scale = 1;  ///< of the pseudo-penalty
-  bool history = false;      ///< where the direct worn state is in doubt the wear history decides
-  bool wear = true;          ///< else the unworn joint alone
+  double penalty_scale = 1;             ///< of the pseudo-penalty
+  bool history = false;                 ///< where the direct worn state is in doubt the wear history decides
+  Stage until = Stage::worn_resonance;  ///< the last one that is gone through
 };
+
+/// Through this stage and no further. Contact nodes follow worn zones where a response may hang on these.
+[[nodiscard]] inline Computation until(Stage stage, bool history) {
+  Computation how{.history = history, .until = stage};
+  how.contact.to_worn_zones = stage >= Stage::worn_state;
+  return how;
+}
 
 struct ContactFit {
   int grids = 0;     ///< laid, the first not counted

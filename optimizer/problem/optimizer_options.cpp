@@ -5,14 +5,25 @@
 
 namespace dovetail::optimizer {
 
+namespace {
+
+/// Where nobody knows it.
+constexpr double kNoise = 1e-6;
+
+double noise_of(const OptimizerOptions& options) {
+  return options.noise > 0 ? options.noise : kNoise;
+}
+
+}  // namespace
+
 double difference_step(const OptimizerOptions& options) {
-  const double step =
-      options.difference == Difference::central ? std::cbrt(3 * options.noise) : 2 * std::sqrt(options.noise);
+  const double noise = noise_of(options);
+  const double step = options.difference == Difference::central ? std::cbrt(3 * noise) : 2 * std::sqrt(noise);
   return std::clamp(step, 1e-7, 0.1);
 }
 
 double stopping_step(const OptimizerOptions& options) {
-  return std::min(std::max(options.step_tolerance, 0.1 * std::sqrt(options.noise)), options.initial_step / 2);
+  return std::min(std::max(options.step_tolerance, 0.1 * std::sqrt(noise_of(options))), options.initial_step / 2);
 }
 
 }  // namespace dovetail::optimizer
@@ -44,7 +55,8 @@ dovetail::option_table<dovetail::optimizer::OptimizerOptions>() {
       {.key = "noise",
        .member = &O::noise,
        .range = {.lower = 0, .upper = 0.5},
-       .help = "Relative noise of the responses; sets finite-difference steps and the smallest useful step."},
+       .help = "Relative noise of the responses; sets finite-difference steps and the smallest useful step. 0: the "
+               "error bar of the objective at the start."},
       {.key = "initial_step",
        .member = &O::initial_step,
        .range = share,
@@ -66,6 +78,10 @@ dovetail::option_table<dovetail::optimizer::OptimizerOptions>() {
        .range = kNonNegative,
        .help = "Algorithms aim at normalised constraints at or below minus this."},
       {.key = "difference", .member = &O::difference, .help = "Finite differences of gradient methods."},
+      {.key = "responses",
+       .member = &O::responses,
+       .help = "What a candidate answers with: needed stops after the stage that the last response of objective and "
+               "constraints takes, all goes through wear to the worn resonance."},
       {.key = "threads",
        .member = &O::threads,
        .range = {.lower = 1},

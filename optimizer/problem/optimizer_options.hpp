@@ -47,6 +47,16 @@ constexpr EnumNames<Difference, 2> enum_names(Difference) {
   return name_of(difference);
 }
 
+/// Which responses a candidate of the search answers with. What objective and constraints do not name may need stages
+/// of the computation that they do not.
+enum class Answers { needed, all };
+constexpr EnumNames<Answers, 2> enum_names(Answers) {
+  return {{{Answers::needed, "needed"}, {Answers::all, "all"}}};
+}
+[[nodiscard]] constexpr std::string_view to_string(Answers answers) {
+  return name_of(answers);
+}
+
 /// Section [optimizer] of a study file. Lengths are in unit coordinates (fractions of a variable's range).
 struct OptimizerOptions {
   Algorithm algorithm = Algorithm::cobyla;
@@ -55,20 +65,22 @@ struct OptimizerOptions {
   int seed = 1;                  ///< >= 0
   double tolerance = 1e-6;       ///< > 0; relative change of the objective at which gradient methods stop
   double step_tolerance = 1e-4;  ///< > 0, <= 0.1; step at which a local algorithm stops
-  double noise = 1e-6;           ///< >= 0, <= 0.5; relative noise of the responses: sets difference steps and stopping
-  double initial_step = 0.2;     ///< > 0, <= 0.5; first step (trust radius) of a local algorithm
-  int restarts = 2;              ///< >= 0; local runs again from the best, with budget left
-  double restart_factor = 0.5;   ///< > 0, <= 1; first step of a restart by that of the run before
+  double noise =
+      0;  ///< >= 0, <= 0.5; relative noise of the responses, sets difference steps and stopping; 0: not known
+  double initial_step = 0.2;        ///< > 0, <= 0.5; first step (trust radius) of a local algorithm
+  int restarts = 2;                 ///< >= 0; local runs again from the best, with budget left
+  double restart_factor = 0.5;      ///< > 0, <= 1; first step of a restart by that of the run before
   double constraint_tolerance = 0;  ///< >= 0; the best design keeps c <= this
   double constraint_margin = 1e-4;  ///< >= 0; algorithms aim at c <= -margin, so that they end on the right side
   Difference difference = Difference::forward;
+  Answers responses = Answers::needed;
   int threads = 1;  ///< >= 1; candidates evaluated at once where several are known
   int finer_meshes =
       2;           ///< >= 0; meshes, each twice as fine as the last, on which the best design must keep its limits
   int verify = 3;  ///< >= 0; best designs verified by the full wear history after the search
 };
 
-/// Step of finite differences in unit coordinates that balances noise and truncation:
+/// Step of finite differences in unit coordinates that balances noise (1e-6 where it is not known) and truncation:
 /// forward 2 sqrt(noise), central cbrt(3 noise), within [1e-7, 0.1].
 [[nodiscard]] double difference_step(const OptimizerOptions& options);
 /// max(step_tolerance, 0.1 sqrt(noise)), at most initial_step / 2: smaller steps cannot see above the noise.

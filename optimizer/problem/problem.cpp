@@ -43,13 +43,6 @@ double response(const Evaluation& evaluation, const std::string& name, bool abso
   return absolute ? std::abs(found->second) : found->second;
 }
 
-std::vector<std::string> responses_of(const Problem& problem) {
-  std::vector<std::string> names;
-  for (const ObjectiveTerm& term : problem.objective) names.push_back(term.response);
-  for (const ResponseConstraint& c : problem.constraints) names.push_back(c.response);
-  return names;
-}
-
 std::vector<Violation> violations_of_terms(const Problem& problem) {
   std::vector<Violation> found;
   const auto wrong = [&](std::string key, std::string value, std::string allowed) {
@@ -99,6 +92,13 @@ void check(const Problem& problem) {
   if (problem.objective.empty()) none("objective", "must name at least one response");
   for (Violation& wrong : violations_of_terms(problem)) found.push_back(std::move(wrong));
   if (!found.empty()) throw InputError(std::move(found));
+}
+
+std::vector<std::string> responses_of(const Problem& problem) {
+  std::vector<std::string> names;
+  for (const ObjectiveTerm& term : problem.objective) names.push_back(term.response);
+  for (const ResponseConstraint& c : problem.constraints) names.push_back(c.response);
+  return names;
 }
 
 std::vector<std::string> constraint_names(const Problem& problem) {

@@ -19,6 +19,7 @@ struct ObjectiveTerm {
   double weight = 1;      ///< negative: the response is maximised
   double scale = 0;       ///< > 0, in the response's SI unit; 0: not given, allowed (and then 1) for a single term only
   bool absolute = false;  ///< of the magnitude, e.g. of resonance_drift; has a kink at r = 0
+  double accuracy = 0;    ///< asked of the response, relative; 0: as of the others
 };
 
 /// Limits on one response. Each gives a smooth normalised c <= 0:
@@ -28,6 +29,7 @@ struct ResponseConstraint {
   std::optional<double> lower, upper;  ///< at least one; SI
   double scale = 0;                    ///< > 0, needed when a limit is 0; 0: |limit|
   bool absolute = false;               ///< limits |r|
+  double accuracy = 0;                 ///< asked of the response, relative; 0: as of the others
   /// What the distance from one of its limits is divided by.
   [[nodiscard]] double scale_at(double limit) const { return scale > 0 ? scale : std::abs(limit); }
 };
@@ -44,6 +46,9 @@ struct Problem {
 void check_terms(const Problem& problem);
 /// The same, and what a search needs besides: a variable and a term.
 void check(const Problem& problem);
+
+/// Responses that the objective and the constraints name, in this order.
+[[nodiscard]] std::vector<std::string> responses_of(const Problem& problem);
 
 /// Names of the response constraints in the order algorithms see them: "peak_amplitude_m:upper", ...
 [[nodiscard]] std::vector<std::string> constraint_names(const Problem& problem);

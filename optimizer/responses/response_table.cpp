@@ -4,6 +4,13 @@
 
 namespace dovetail::optimizer {
 
+Stage last_stage(const std::vector<std::string>& names) {
+  Stage last = Stage::model;
+  for (const std::string& name : names)
+    if (const Response* response = find_response(name)) last = std::max(last, response->stage);
+  return last;
+}
+
 const Response* find_response(std::string_view name) {
   const auto found = std::ranges::find(kResponses, name, &Response::name);
   return found == kResponses.end() ? nullptr : *found;

@@ -2,7 +2,9 @@
 
 #include <array>
 #include <boost/range/adaptor/indirected.hpp>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "optimizer/responses/response.hpp"
 
@@ -25,6 +27,9 @@ inline constexpr std::array kResponses{&kWornVolume,    &kWornDepth,          &k
 [[nodiscard]] inline auto responses() {
   return boost::adaptors::indirect(kResponses);
 }
+
+/// The last stage that one of these needs; unknown names need none.
+[[nodiscard]] Stage last_stage(const std::vector<std::string>& names);
 
 /// The entry of that name, or nullptr.
 [[nodiscard]] const Response* find_response(std::string_view name);

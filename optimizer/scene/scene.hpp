@@ -42,6 +42,9 @@ struct Loading {
   wear::Follow follow = wear::Follow::fixed;
 };
 
+/// Of an accuracy that is asked for.
+inline constexpr Range kAccuracyRange{.lower = 1e-6, .upper = 0.5};
+
 /// Sizes and tolerances of the contact computation.
 struct SolverSettings {
   int harmonics = 5;
@@ -51,6 +54,8 @@ struct SolverSettings {
   steady::Solver solver = steady::Solver::automatic;
   double pseudo_penalty = 0;         ///< eps of all contact nodes, N/m; 0: from the model
   double pseudo_penalty_normal = 0;  ///< eps in the normal direction, N/m; 0: pseudo_penalty
+  /// Bar over value of the responses asked for, for which mesh, harmonics, samples and modes are chosen; 0: they stay.
+  double accuracy = 0;
   int max_jacobians = 500;  ///< work of one evaluation, in Jacobians in which all contact nodes take part; 0: no limit
   double time_limit = 0;    ///< of one evaluation from the preload on, s; 0: none
 };

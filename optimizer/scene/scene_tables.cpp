@@ -98,7 +98,7 @@ std::span<const Field<optimizer::Loading>> option_table<optimizer::Loading>() {
 template <>
 std::span<const Field<optimizer::SolverSettings>> option_table<optimizer::SolverSettings>() {
   using S = optimizer::SolverSettings;
-  static const std::array<Field<S>, 9> table{
+  static const std::array<Field<S>, 10> table{
       Field<S>{.key = "harmonics",
                .member = &S::harmonics,
                .range = {.lower = 1, .upper = 200},
@@ -128,6 +128,13 @@ std::span<const Field<optimizer::SolverSettings>> option_table<optimizer::Solver
                .member = &S::pseudo_penalty_normal,
                .range = kNonNegative,
                .help = "pseudo-penalty in the normal direction alone; 0: that of all contact nodes"},
+      Field<S>{.key = "accuracy",
+               .member = &S::accuracy,
+               .range = {.lower = optimizer::kAccuracyRange.lower,
+                         .upper = optimizer::kAccuracyRange.upper,
+                         .zero = "as given"},
+               .help = "bar over value of every response that objective and limits name, for which those of mesh, "
+                       "harmonics, samples and modes are chosen that the file does not give; 0: all stay as given"},
       Field<S>{.key = "max_jacobians",
                .member = &S::max_jacobians,
                .range = kNonNegative,

@@ -5,9 +5,10 @@
 
 namespace dovetail::studies {
 
-std::string evaluation_json(const optimizer::Evaluation& evaluation) {
+std::string evaluation_json(const optimizer::Evaluation& evaluation, const nlohmann::ordered_json* accuracy) {
   Json json = json_of(evaluation);
   if (evaluation.derivatives.empty()) json.erase("derivatives");
+  if (accuracy) json["accuracy"] = *accuracy;
   return text(json);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,8 +17,10 @@ namespace dovetail::studies {
 /// of an evaluation, a response that is not finite; of a wear computation, the number of cycles of an asymptote.
 
 /// {"status", "feasible", "parameters", "responses", "constraints", "error_estimates", "error_sources", "unbounded",
-/// "undecided_constraints", "model", "timings_s", "messages"[, "derivatives"]}
-[[nodiscard]] std::string evaluation_json(const optimizer::Evaluation& evaluation);
+/// "undecided_constraints", "model", "timings_s", "messages"[, "derivatives"][, "accuracy"]}; the last one, see
+/// accuracy_json, where settings were chosen.
+[[nodiscard]] std::string evaluation_json(const optimizer::Evaluation& evaluation,
+                                          const nlohmann::ordered_json* accuracy = nullptr);
 
 /// How a wear computation was asked for, and what was computed besides.
 struct WearQuestion {

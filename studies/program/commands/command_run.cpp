@@ -15,6 +15,7 @@
 #include "studies/program/answers/version.hpp"
 #include "studies/program/commands/commands.hpp"
 #include "studies/program/commands/progress.hpp"
+#include "studies/program/commands/settled_run.hpp"
 #include "studies/program/engine/interrupt.hpp"
 #include "studies/program/study_file/refusal.hpp"
 
@@ -149,16 +150,15 @@ OptimizationResult searched(const RunSite& site, bool resume, const std::string&
 
 int run_study(const RunOptions& options, const Streams& streams, const RunEngineFactory& make_engine) {
   const auto begin = std::chrono::steady_clock::now();
-  const Study study = load_study(options.study);
-  require_runnable(study);
-  for (const std::string& warning : warnings(study)) streams.err << options.study << ": warning: " << warning << "\n";
+  const Study asked = load_study(options.study);
+  require_runnable(asked);
+  for (const std::string& warning : warnings(asked)) streams.err << options.study << ": warning: " << warning << "\n";
+  const fs::path directory = prepare_directory(options, asked, streams.err);
+  const Study study = settled_run(asked, directory, options.resume, make_engine, streams.err);
   const RunEngine engine = make_engine(study);
   const std::string fingerprint = optimizer::fingerprint(
       study.problem, study.optimizer, std::string("dovetail ") + version() + "\n" + physics_text(study.scene));
-  const RunSite site{.study = study,
-                     .engine = engine,
-                     .directory = prepare_directory(options, study, streams.err),
-                     .err = streams.err};
+  const RunSite site{.study = study, .engine = engine, .directory = directory, .err = streams.err};
   const OrderlyInterrupt interrupt;
   const OptimizationResult result = searched(site, options.resume, fingerprint, interrupt);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <ostream>
 #include <set>
 #include <string>
@@ -14,9 +15,11 @@
 #include "optimizer/problem/problem.hpp"
 #include "optimizer/responses/response_table.hpp"
 #include "reduction/model_file.hpp"
+#include "studies/program/answers/accuracy_json.hpp"
 #include "studies/program/answers/json.hpp"
 #include "studies/program/commands/commands.hpp"
 #include "studies/program/engine/engine.hpp"
+#include "studies/program/engine/settled_study.hpp"
 #include "studies/program/engine/truncation_choice.hpp"
 #include "studies/program/study_file/refusal.hpp"
 #include "studies/program/study_file/study_template.hpp"
@@ -119,20 +122,30 @@ std::vector<std::string> keep_unworn(optimizer::Problem& problem, optimizer::Eva
 int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
   Study study = load_study(options.study, overrides(options.set, options.solver));
   for (const std::string& warning : warnings(study)) streams.err << options.study << ": warning: " << warning << "\n";
+  const Study asked = study;
+  const std::optional<optimizer::SettingsChoice> choice = settle(study, [&](const optimizer::SettingsTried& tried) {
+    streams.err << "dovetail: " << round_words(asked, tried) << "\n";
+  });
   const std::shared_ptr<const optimizer::SceneEvaluator> evaluator = scene_evaluator(study);
   const std::optional<Status> automatic = choose_truncation(study.scene, *evaluator, options.solver);
   optimizer::Evaluation evaluation =
       evaluator
-          ->evaluate(study.scene, {.bars = !options.no_bars, .history = !options.no_history, .wear = !options.unworn})
+          ->evaluate(study.scene,
+                     {.bars = !options.no_bars && !options.unworn,
+                      .history = !options.no_history,
+                      .until = options.unworn ? optimizer::Stage::unworn : optimizer::Stage::worn_resonance})
           .evaluation;
   if (automatic && *automatic != Status::converged)
     evaluation.messages.push_back(
         truncation_complaint(*automatic, optimizer::steady_options(study.scene.solver), options.solver));
+  const std::string inaccurate = choice ? accuracy_complaint(*choice) : std::string();
+  if (!inaccurate.empty()) evaluation.messages.push_back(inaccurate);
   std::vector<std::string> unjudged;
   if (options.unworn && evaluation.converged()) unjudged = keep_unworn(study.problem, evaluation);
   optimizer::annotate(study.problem, study.optimizer.constraint_tolerance, evaluation);
   std::ranges::move(unjudged, std::back_inserter(evaluation.undecided_constraints));
-  deliver_json(options.json, evaluation_json(evaluation), streams);
+  const nlohmann::ordered_json accuracy = choice ? accuracy_json(asked.scene, *choice) : nlohmann::ordered_json();
+  deliver_json(options.json, evaluation_json(evaluation, choice ? &accuracy : nullptr), streams);
   if (options.json != "-") streams.out << evaluation_table(evaluation);
   if (evaluation.infeasible()) throw infeasible(options.study, evaluation.messages);
   for (const std::string& message : evaluation.messages) streams.err << "dovetail: " << message << "\n";

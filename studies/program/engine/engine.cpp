@@ -9,6 +9,7 @@
 
 #include "dynamics/condensed_model.hpp"
 #include "optimizer/candidate/node_lines.hpp"
+#include "optimizer/responses/response_table.hpp"
 #include "quality/truncation.hpp"
 #include "reduction/model_file.hpp"
 #include "studies/program/engine/model_toml.hpp"
@@ -57,11 +58,19 @@ RunEngine study_engine(const Study& study) {
     for (std::size_t i = 0; i < keys.size(); ++i) optimizer::set_parameter(scene, keys[i], x[i]);
     return scene;
   };
-  engine.evaluate = [evaluator, scene_at](std::span<const double> x) {
-    return evaluator->evaluate(scene_at(x), optimizer::kSearch).evaluation;
+  optimizer::Purpose purpose = optimizer::kSearch;
+  if (study.optimizer.responses == optimizer::Answers::needed)
+    purpose.until = optimizer::last_stage(optimizer::responses_of(study.problem));
+  engine.evaluate = [evaluator, scene_at, purpose](std::span<const double> x) {
+    return evaluator->evaluate(scene_at(x), purpose).evaluation;
   };
-  engine.finer = [evaluator, scene_at](std::span<const double> x, int level) {
-    return optimizer::evaluated_finer(*evaluator, scene_at(x), level).evaluation;
+  engine.start = [evaluator, scene = study.scene, purpose] {
+    optimizer::Purpose with_bars = purpose;
+    with_bars.bars = true;
+    return evaluator->evaluate(scene, with_bars).evaluation;
+  };
+  engine.finer = [evaluator, scene_at, purpose](std::span<const double> x, int level) {
+    return optimizer::evaluated_finer(*evaluator, scene_at(x), purpose, level).evaluation;
   };
   engine.describe = [evaluator](const Scene& scene) {
     const optimizer::CandidateResult result = evaluated(*evaluator, scene);

@@ -19,6 +19,8 @@ struct DescribedDesign {
 /// What a run computes with.
 struct RunEngine {
   optimizer::Evaluator evaluate;  ///< design variables in, evaluation out
+  /// The study's own design with bars, as far as a candidate is computed; empty: there are none.
+  std::function<optimizer::Evaluation()> start = {};
   /// The same on finer meshes; empty: limits are kept on one mesh.
   optimizer::FinerEvaluator finer = {};
   /// The design with bars and what the wear history decides, and with the curves and fields that results and report

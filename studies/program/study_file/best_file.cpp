@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <cstdint>
 #include <optional>
 #include <sstream>
 
@@ -36,6 +38,15 @@ std::size_t end_of_header(const std::string& text, const std::string& section) {
   return std::string::npos;
 }
 
+bool is_whole(const std::string& key) {
+  const optimizer::Parameter* parameter = optimizer::find_parameter(key);
+  return parameter && parameter->kind == optimizer::Parameter::Kind::whole;
+}
+
+std::string value_text(const std::string& key, double value) {
+  return is_whole(key) ? std::to_string(std::llround(value)) : real_text(value);
+}
+
 std::string edited(const Document& document, const std::map<std::string, double>& values) {
   struct Edit {
     std::size_t begin, end;
@@ -46,9 +57,9 @@ std::string edited(const Document& document, const std::map<std::string, double>
   std::string appended;
   for (const auto& [key, value] : values) {
     const std::size_t dot = key.rfind('.');
-    const std::string line = key.substr(dot + 1) + " = " + real_text(value);
+    const std::string line = key.substr(dot + 1) + " = " + value_text(key, value);
     if (const Node* node = document.root.at(key)) {
-      edits.push_back({offset(text, node->begin), offset(text, node->end), real_text(value)});
+      edits.push_back({offset(text, node->begin), offset(text, node->end), value_text(key, value)});
     } else if (const std::size_t header = end_of_header(text, key.substr(0, dot)); header != std::string::npos) {
       edits.push_back({header, header, "\n" + line});
     } else {
@@ -71,7 +82,10 @@ std::string rewritten(const Document& document, const std::map<std::string, doub
       assert(table);
       rest.erase(0, dot + 1);
     }
-    table->insert_or_assign(rest, value);
+    if (is_whole(key))
+      table->insert_or_assign(rest, std::int64_t{std::llround(value)});
+    else
+      table->insert_or_assign(rest, value);
   }
   std::ostringstream stream;
   stream << toml::toml_formatter{root, toml::toml_formatter::default_flags} << "\n";

@@ -171,7 +171,16 @@ std::string read_response(SectionReader& section, Problems& problems) {
   return {};
 }
 
-std::vector<ObjectiveTerm> read_objective(SectionReader& root, Problems& problems) {
+/// Accuracy asked of one response where that of the others is given; 0 where it is not.
+double read_accuracy(SectionReader& section, const optimizer::Scene& scene, Problems& problems) {
+  const std::optional<double> accuracy = section.number("accuracy", optimizer::kAccuracyRange);
+  if (accuracy && scene.solver.accuracy == 0)
+    problems.add(*section.node()->find("accuracy"), section.path("accuracy"),
+                 "counts only where solver.accuracy is given, for all other responses");
+  return accuracy.value_or(0);
+}
+
+std::vector<ObjectiveTerm> read_objective(SectionReader& root, const optimizer::Scene& scene, Problems& problems) {
   std::vector<ObjectiveTerm> terms;
   const auto tables = entries(root, "objective", problems);
   for (const auto& [node, path] : tables) {
@@ -182,6 +191,7 @@ std::vector<ObjectiveTerm> read_objective(SectionReader& root, Problems& problem
     const std::optional<double> scale = section.number("scale", kPositive);
     term.scale = scale.value_or(0);
     term.absolute = section.truth("absolute").value_or(false);
+    term.accuracy = read_accuracy(section, scene, problems);
     section.finish();
     if (term.weight == 0)
       problems.add(*node->find("weight"), section.path("weight"), "must not be 0: the term would have no effect");
@@ -193,7 +203,8 @@ std::vector<ObjectiveTerm> read_objective(SectionReader& root, Problems& problem
   return terms;
 }
 
-std::vector<ResponseConstraint> read_constraints(SectionReader& root, Problems& problems) {
+std::vector<ResponseConstraint> read_constraints(SectionReader& root, const optimizer::Scene& scene,
+                                                 Problems& problems) {
   std::vector<ResponseConstraint> limits;
   std::map<std::pair<std::string, bool>, std::pair<double, double>> band;
   for (const auto& [node, path] : entries(root, "constraint", problems)) {
@@ -204,6 +215,7 @@ std::vector<ResponseConstraint> read_constraints(SectionReader& root, Problems& 
     limit.upper = section.number("upper", kAnyNumber);
     limit.scale = section.number("scale", kPositive).value_or(0);
     limit.absolute = section.truth("absolute").value_or(false);
+    limit.accuracy = read_accuracy(section, scene, problems);
     section.finish();
     const Node* lower = node->find("lower");
     const Node* upper = node->find("upper");
@@ -231,8 +243,8 @@ std::vector<ResponseConstraint> read_constraints(SectionReader& root, Problems& 
 optimizer::Problem read_problem(SectionReader& root, const optimizer::Scene& scene, Problems& problems) {
   optimizer::Problem problem;
   std::vector<DesignVariable> variables = read_variables(root, scene, problems);
-  problem.objective = read_objective(root, problems);
-  problem.constraints = read_constraints(root, problems);
+  problem.objective = read_objective(root, scene, problems);
+  problem.constraints = read_constraints(root, scene, problems);
   const bool varies = root.node() && root.node()->find("variable");
   if (problem.objective.empty() && (varies || (root.node() && root.node()->find("objective"))))
     problems.missing(nullptr, "objective",

@@ -140,6 +140,8 @@ Study read_study(const Document& document) {
     problems.add(*name, "name", "must be letters, digits, '-', '_' and '.', not starting with '.': it names a folder");
   SceneReader(root, study.scene, problems).read();
   report_contradictions(document, study.scene, problems);
+  for (const optimizer::Parameter& p : optimizer::scene_parameters())
+    if (document.root.at(p.key)) study.given.insert(p.key);
 
   SectionReader optimizer(root.take("optimizer"), "optimizer", problems);
   study.optimizer.finer_meshes = std::min(study.optimizer.finer_meshes, study.scene.kind->finer_meshes);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,7 +20,8 @@ struct Study {
   std::string name;   ///< folder of the results; the file's name (or its folder's for study.toml) unless given
   std::string title;  ///< for people
   optimizer::Scene scene;
-  optimizer::Problem problem;  ///< variables in the file's units; may be without variables and objective
+  std::set<std::string> given;  ///< keys of the scene that the file or the command line gives
+  optimizer::Problem problem;   ///< variables in the file's units; may be without variables and objective
   optimizer::OptimizerOptions optimizer;
   std::vector<ExportFormat> exports;  ///< formats of the geometry a run writes
 };

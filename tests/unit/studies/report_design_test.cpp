@@ -32,7 +32,8 @@ const Evaluated& evaluated() {
 TEST(DesignRecord, NodalDiametersHaveTheAsperitiesInThem) {
   optimizer::Scene scene = coarse_scene();
   scene.contact.normal_stiffness = scene.contact.tangential_stiffness = 1e10;
-  optimizer::CandidateResult result = optimizer::SceneEvaluator(scene).evaluate(scene, {.bars = false, .wear = false});
+  optimizer::CandidateResult result =
+      optimizer::SceneEvaluator(scene).evaluate(scene, {.bars = false, .until = optimizer::Stage::unworn});
   ASSERT_EQ(result.evaluation.status, "converged");
   const DesignRecord record = make_design_record(
       scene, result, {.curve_points = 0, .nodal_diameter_modes = 2, .history_steps = 0, .fields = false});

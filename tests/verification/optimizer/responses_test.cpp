@@ -64,7 +64,7 @@ TEST(Responses, AreFiniteAndHaveABarOrAreUnbounded) {
 TEST(Responses, OfAJointThatIsNotToWearAreThoseOfTheStagesBefore) {
   const Scene scene = coarse_scene();
   Computation unworn;
-  unworn.wear = false;
+  unworn.until = Stage::unworn;
   const CandidateResult result = computed(scene, ModelBuilder(scene).build(scene), unworn);
   ASSERT_EQ(result.stage, Stage::unworn);
   for (const Response& response : responses())

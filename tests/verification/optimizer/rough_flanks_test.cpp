@@ -64,7 +64,7 @@ TEST(RoughFlanks, AsperitiesThatAreTooSoftAreSaid) {
     scene.contact.normal_stiffness = stiffness;
     std::string all;
     for (const std::string& message :
-         through_stages(scene, ModelBuilder(scene).build(scene), {.wear = false}).evaluation.messages)
+         through_stages(scene, ModelBuilder(scene).build(scene), {.until = Stage::unworn}).evaluation.messages)
       all += message + "\n";
     return all;
   };

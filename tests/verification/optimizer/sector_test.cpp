@@ -154,7 +154,7 @@ TEST(SectorEvaluation, ConvergesWithEveryResponseAndItsErrorBar) {
   finer.mesh.blend_fraction = 0.3;
   finer.mesh.bulk_size = 5e-3;
   const Evaluation section =
-      SceneEvaluator(finer).evaluate(finer, {.bars = false, .history = false, .wear = false}).evaluation;
+      SceneEvaluator(finer).evaluate(finer, {.bars = false, .history = false, .until = Stage::unworn}).evaluation;
   ASSERT_TRUE(section.converged()) << section.status;
   for (const char* name :
        {"contact_pressure_mean_pa", "neck_tension_pa", "blade_fillet_stress_pa", "disk_fillet_stress_pa"})

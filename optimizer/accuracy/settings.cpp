@@ -1,0 +1,78 @@
+#include "optimizer/accuracy/settings.hpp"
+
+#include <algorithm>
+#include <span>
+
+#include "optimizer/accuracy/params.hpp"
+#include "optimizer/bars/other_meshes.hpp"
+#include "optimizer/scene/scene_kind.hpp"
+#include "quality/truncation.hpp"
+
+namespace dovetail::optimizer {
+
+namespace {
+
+constexpr SettingLadders kLadders;
+
+std::vector<std::string_view> mesh_keys(const Scene& scene) {
+  std::vector<std::string_view> keys(scene.kind->counts.begin(), scene.kind->counts.end());
+  keys.insert(keys.end(), scene.kind->lengths.begin(), scene.kind->lengths.end());
+  return keys;
+}
+
+/// The rungs of a ladder and the value there is, rising; that value alone where it is fixed.
+template <class T>
+std::vector<T> rungs(std::span<const T> ladder, T own, bool fixed) {
+  if (fixed) return {own};
+  std::vector<T> result(ladder.begin(), ladder.end());
+  if (std::ranges::find(result, own) == result.end()) result.push_back(own);
+  std::ranges::sort(result);
+  return result;
+}
+
+}  // namespace
+
+Settings settings_of(const Scene& scene) {
+  return {.mesh = 1, .harmonics = scene.solver.harmonics, .samples = scene.solver.samples, .modes = scene.solver.modes};
+}
+
+Scene with_settings(Scene scene, const Settings& settings) {
+  if (settings.mesh != 1) scene = resized(std::move(scene), 1 / settings.mesh);
+  scene.solver.harmonics = settings.harmonics;
+  scene.solver.samples = settings.samples;
+  scene.solver.modes = settings.modes;
+  return scene;
+}
+
+std::map<std::string, double> settings_by_key(const Scene& scene, const Settings& settings) {
+  const Scene there = with_settings(scene, settings);
+  std::vector<std::string_view> keys = mesh_keys(scene);
+  for (const char* key : {"solver.harmonics", "solver.samples", "solver.modes"}) keys.emplace_back(key);
+  std::map<std::string, double> values;
+  for (const std::string_view key : keys) values[std::string(key)] = parameter(there, key);
+  return values;
+}
+
+std::vector<Settings> all_settings(const Scene& scene, const std::set<std::string>& fixed) {
+  const auto given = [&](std::string_view key) { return fixed.contains(std::string(key)); };
+  const bool mesh_given = std::ranges::any_of(mesh_keys(scene), given);
+  std::vector<Settings> result;
+  for (const double mesh : rungs<double>(kLadders.mesh, 1, mesh_given))
+    for (const int harmonics : rungs<int>(kLadders.harmonics, scene.solver.harmonics, given("solver.harmonics")))
+      for (const int samples : rungs<int>(kLadders.samples, scene.solver.samples, given("solver.samples"))) {
+        // Aliases are kept out, but where both numbers are the user's.
+        const bool both_given = given("solver.harmonics") && given("solver.samples");
+        if (!both_given && quality::samples_for(harmonics, samples) != samples) continue;
+        for (const int modes : rungs<int>(kLadders.modes, scene.solver.modes, given("solver.modes")))
+          if (modes >= scene.loading.mode || given("solver.modes"))
+            result.push_back({.mesh = mesh, .harmonics = harmonics, .samples = samples, .modes = modes});
+      }
+  return result;
+}
+
+bool buys_accuracy(const Scene& scene, const std::string& key) {
+  return std::ranges::count(mesh_keys(scene), key) > 0 || key == "solver.harmonics" || key == "solver.samples" ||
+         key == "solver.modes";
+}
+
+}  // namespace dovetail::optimizer

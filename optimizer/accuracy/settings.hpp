@@ -1,0 +1,34 @@
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "optimizer/scene/scene.hpp"
+
+namespace dovetail::optimizer {
+
+/// What accuracy is bought with.
+struct Settings {
+  double mesh = 1;  ///< edges of the mesh over those of the scene
+  int harmonics = 0, samples = 0, modes = 0;
+  bool operator==(const Settings&) const = default;
+};
+
+/// Those of a scene.
+[[nodiscard]] Settings settings_of(const Scene& scene);
+
+/// The scene with them.
+[[nodiscard]] Scene with_settings(Scene scene, const Settings& settings);
+
+/// Keys of a study file that they set, with their values in the file's unit.
+[[nodiscard]] std::map<std::string, double> settings_by_key(const Scene& scene, const Settings& settings);
+
+/// All combinations that are allowed, where keys in `fixed` stay as they are: any key of the mesh keeps all of it.
+[[nodiscard]] std::vector<Settings> all_settings(const Scene& scene, const std::set<std::string>& fixed);
+
+/// Whether a key is one of those settings.
+[[nodiscard]] bool buys_accuracy(const Scene& scene, const std::string& key);
+
+}  // namespace dovetail::optimizer

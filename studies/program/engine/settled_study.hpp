@@ -1,0 +1,26 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "optimizer/accuracy/choice.hpp"
+#include "studies/program/study_file/study.hpp"
+
+namespace dovetail::studies {
+
+/// What solver.accuracy asks of a study: of the responses that its objective and limits name, at settings that the file
+/// does not give. Nothing where it asks for no accuracy.
+[[nodiscard]] std::optional<optimizer::AccuracyGoal> accuracy_goal(const Study& study);
+
+/// Settings for that, of the study's own design: computed once, and then as if they stood in its file. The study's
+/// scene has them from then on.
+/// @return nothing where the study asks for no accuracy
+std::optional<optimizer::SettingsChoice> settle(Study& study, const optimizer::AccuracyListener& told = {});
+
+/// A round in a line for people.
+[[nodiscard]] std::string round_words(const Study& study, const optimizer::SettingsTried& tried);
+/// What was not reached and why; empty where everything was.
+[[nodiscard]] std::string accuracy_complaint(const optimizer::SettingsChoice& choice);
+
+}  // namespace dovetail::studies
