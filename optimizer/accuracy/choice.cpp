@@ -1,12 +1,14 @@
 #include "optimizer/accuracy/choice.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "optimizer/accuracy/params.hpp"
 #include "optimizer/responses/response_table.hpp"
 #include "optimizer/scene/scene_kind.hpp"
+#include "steady/work.hpp"
 
 namespace dovetail::optimizer {
 
@@ -25,31 +27,60 @@ Knob knob_of(const std::string& source) {
   return Knob::none;
 }
 
-/// What an evaluation at some settings foresees of others: bars by the orders in which their parts fall, seconds by the
-/// powers in which theirs grow.
+/// Of every knob, over what it is elsewhere: larger is finer.
+double finer(Knob knob, const Settings& there, const Settings& here) {
+  switch (knob) {
+    case Knob::mesh:
+      return there.mesh / here.mesh;
+    case Knob::harmonics:
+      return (2.0 * there.harmonics + 1) / (2 * here.harmonics + 1);
+    case Knob::samples:
+      return static_cast<double>(there.samples) / here.samples;
+    case Knob::modes:
+      return static_cast<double>(there.modes) / here.modes;
+    case Knob::none:
+      break;
+  }
+  return 1;
+}
+
+/// Not so far from each other that one foresees nothing of the other.
+bool near(const Settings& a, const Settings& b) {
+  return std::ranges::all_of(std::array{Knob::mesh, Knob::harmonics, Knob::samples, Knob::modes}, [&](Knob knob) {
+    const double ratio = finer(knob, a, b);
+    return ratio <= kParams.step * (1 + 1e-9) && ratio >= 1 / kParams.step * (1 - 1e-9);
+  });
+}
+
+/// What evaluations with bars foresee of other settings: bars by the orders in which their parts fall, operations by
+/// the powers in which theirs grow.
 class Forecast {
  public:
-  Forecast(const Scene& scene, const AccuracyGoal& goal, const Settings& at, const Evaluation& evaluation)
-      : in_space_(scene.kind->in_space), at_(at), timings_(evaluation.timings_s) {
-    std::vector<std::string> names = goal.responses;
+  Forecast(const Scene& scene, const AccuracyGoal& goal) : goal_(&goal), in_space_(scene.kind->in_space) {}
+
+  /// The last one is what others are foreseen from. Where one before it differs in a knob the two say the order of a
+  /// part.
+  void add(const Settings& at, const Evaluation& evaluation) {
+    const std::vector<Part> before = std::exchange(parts_, {});
+    const Settings was = std::exchange(at_, at);
+    dofs_ = evaluation.model.at("dofs");
+    const auto nodes = static_cast<Eigen::Index>(evaluation.model.at("contact_nodes"));
+    contact_ = evaluation.model.at("jacobians_spent") *
+               steady::jacobian_operations(nodes, in_space_ ? 3 : 2, at.harmonics, at.samples);
+    std::vector<std::string> names = goal_->responses;
     if (names.empty())
       for (const Response& response : responses()) names.emplace_back(response.name);
-    for (const std::string& name : names) {
-      const Response* response = find_response(name);
-      const auto value = evaluation.responses.find(name);
-      const auto bars = evaluation.error_sources.find(name);
-      // A response without a value has no accuracy, one without a limit none that could be bought.
-      if (response == nullptr || value == evaluation.responses.end() || bars == evaluation.error_sources.end() ||
-          value->second == 0 || std::ranges::find(evaluation.unbounded, name) != evaluation.unbounded.end())
-        continue;
-      for (const auto& [source, bar] : bars->second)
-        if (const Knob knob = knob_of(source); knob != Knob::none && bar > 0)
-          parts_.push_back({.response = response,
-                            .source = source,
-                            .knob = knob,
-                            .order = order(*response, source, knob),
-                            .share = bar / std::abs(value->second) / goal.asked(name)});
-    }
+    for (const std::string& name : names)
+      if (const Response* response = find_response(name)) add(*response, evaluation);
+    for (Part& part : parts_)
+      for (const Part& old : before) {
+        if (part.response != old.response || part.source != old.source) continue;
+        part.order = old.order;
+        const double ratio = finer(part.knob, at_, was), expected = order(*part.response, part.source, part.knob);
+        if (ratio != 1)
+          part.order = std::clamp(std::log(old.share / part.share) / std::log(ratio), expected / kParams.order_off,
+                                  expected * kParams.order_off);
+      }
   }
 
   /// Largest bar over what is allowed of it.
@@ -59,13 +90,13 @@ class Forecast {
     for (const Part& part : parts_) {
       if (part.response != of) sum = 0;
       of = part.response;
-      sum += part.share * std::pow(finer(part.knob, there), -part.order);
+      sum += part.share * std::pow(finer(part.knob, there, at_), -part.order);
       largest = std::max(largest, sum);
     }
     return largest;
   }
 
-  [[nodiscard]] std::optional<Dominant> dominant(const AccuracyGoal& goal) const {
+  [[nodiscard]] std::optional<Dominant> dominant() const {
     std::map<const Response*, double> sums;
     for (const Part& part : parts_) sums[part.response] += part.share;
     const auto worst = std::ranges::max_element(sums, {}, [](const auto& s) { return s.second; });
@@ -77,34 +108,24 @@ class Forecast {
         largest = part.share;
         result.source = part.source;
       }
-    result.asked = goal.asked(result.response);
+    result.asked = goal_->asked(result.response);
     result.relative = worst->second * result.asked;
     return result;
   }
 
-  [[nodiscard]] double seconds(const Settings& there) const {
-    const auto spent = [this](std::initializer_list<const char*> stages) {
-      double sum = 0;
-      for (const char* stage : stages)
-        if (const auto found = timings_.find(stage); found != timings_.end()) sum += found->second;
-      return sum;
-    };
+  /// Of an evaluation without bars. Counted and not timed, so that the same is chosen on every machine.
+  [[nodiscard]] double operations(const Settings& there) const {
     const double mesh = there.mesh / at_.mesh;
-    const double modes = 1 - kParams.modes_share + kParams.modes_share * there.modes / at_.modes;
-    const double unknowns = std::pow(mesh, in_space_ ? 2 : 1) * (2 * there.harmonics + 1) / (2 * at_.harmonics + 1);
-    const double samples = unknowns * there.samples / at_.samples;
-    const double matrices = spent({"feasibility", "mesh", "assembly", "prestress", "reduction", "stress"});
-    const double contact = spent({"preload", "contact_fit", "unworn_resonance", "asymptote", "worn_resonance"});
-    return matrices * modes * std::pow(mesh, in_space_ ? kParams.matrices_in_space : kParams.matrices) +
-           contact * ((1 - kParams.contact_samples) * std::pow(unknowns, kParams.contact) +
-                      kParams.contact_samples * samples);
+    const double dofs = dofs_ * std::pow(mesh, in_space_ ? kParams.dofs_in_space : kParams.dofs);
+    const double matrices = (in_space_ ? kParams.matrices_by_in_space : kParams.matrices_by) *
+                            std::pow(dofs, in_space_ ? kParams.matrices_in_space : kParams.matrices_in_plane) *
+                            (1 - kParams.modes_share + kParams.modes_share * there.modes / kParams.modes);
+    const double unknowns = std::pow(mesh, in_space_ ? 2 : 1) * finer(Knob::harmonics, there, at_);
+    return matrices + contact_ * ((1 - kParams.marches) * std::pow(unknowns, kParams.contact) +
+                                  kParams.marches * unknowns * finer(Knob::samples, there, at_));
   }
 
-  /// Settings from which this one is not far enough to foresee nothing of them.
-  [[nodiscard]] bool sees(const Settings& there) const {
-    const double ratio = there.mesh / at_.mesh;
-    return ratio <= kParams.step * (1 + 1e-9) && ratio >= 1 / kParams.step * (1 - 1e-9);
-  }
+  [[nodiscard]] const Settings& at() const { return at_; }
 
  private:
   struct Part {
@@ -114,6 +135,23 @@ class Forecast {
     double order;
     double share;  ///< of the bar that is allowed
   };
+
+  /// A response without a value has no accuracy, one without a limit none that could be bought.
+  void add(const Response& response, const Evaluation& evaluation) {
+    const std::string name(response.name);
+    const auto value = evaluation.responses.find(name);
+    const auto bars = evaluation.error_sources.find(name);
+    if (value == evaluation.responses.end() || value->second == 0 || bars == evaluation.error_sources.end() ||
+        std::ranges::find(evaluation.unbounded, name) != evaluation.unbounded.end())
+      return;
+    for (const auto& [source, bar] : bars->second)
+      if (const Knob knob = knob_of(source); knob != Knob::none && bar > 0)
+        parts_.push_back({.response = &response,
+                          .source = source,
+                          .knob = knob,
+                          .order = order(response, source, knob),
+                          .share = bar / std::abs(value->second) / goal_->asked(name)});
+  }
 
   [[nodiscard]] double order(const Response& response, const std::string& source, Knob knob) const {
     switch (knob) {
@@ -132,36 +170,21 @@ class Forecast {
     return 0;
   }
 
-  [[nodiscard]] double finer(Knob knob, const Settings& there) const {
-    switch (knob) {
-      case Knob::mesh:
-        return there.mesh / at_.mesh;
-      case Knob::harmonics:
-        return (2.0 * there.harmonics + 1) / (2 * at_.harmonics + 1);
-      case Knob::samples:
-        return static_cast<double>(there.samples) / at_.samples;
-      case Knob::modes:
-        return static_cast<double>(there.modes) / at_.modes;
-      case Knob::none:
-        break;
-    }
-    return 1;
-  }
-
+  const AccuracyGoal* goal_;
   bool in_space_;
   Settings at_;
-  std::map<std::string, double> timings_;
-  std::vector<Part> parts_;  // those of a response one after the other
+  double dofs_ = 0, contact_ = 0;  // unknowns of the mesh, operations of all that follows the matrices
+  std::vector<Part> parts_;        // those of a response one after the other
 };
 
 /// The cheapest that should do; where none should, the most accurate.
 Settings cheapest(const std::vector<Settings>& all, const Forecast& forecast, double allowed, bool far) {
   const Settings* best = nullptr;
-  std::pair<double, double> least;  // excess beyond what is allowed, seconds
+  std::pair<double, double> least;  // excess beyond what is allowed, operations
   for (const Settings& settings : all) {
-    if (!far && !forecast.sees(settings)) continue;
+    if (!far && !near(settings, forecast.at())) continue;
     const std::pair<double, double> rank{std::max(0.0, forecast.excess(settings) - allowed),
-                                         forecast.seconds(settings)};
+                                         forecast.operations(settings)};
     if (best != nullptr && rank >= least) continue;
     best = &settings;
     least = rank;
@@ -175,13 +198,13 @@ std::optional<SettingsChoice::Digit> one_more_digit(const std::vector<Settings>&
   const Settings there = cheapest(all, forecast, tenth, true);
   if (forecast.excess(there) > tenth) return {};
   return SettingsChoice::Digit{.settings = there,
-                               .times_as_long = forecast.seconds(there) / forecast.seconds(choice.settings)};
+                               .times_as_long = forecast.operations(there) / forecast.operations(choice.settings)};
 }
 
 bool better(const SettingsTried& a, const SettingsTried& b) {
   const bool a_does = a.excess <= 1, b_does = b.excess <= 1;
   if (a_does != b_does) return a_does;
-  return a_does ? a.seconds < b.seconds : a.excess < b.excess;
+  return a_does ? a.operations < b.operations : a.excess < b.excess;
 }
 
 }  // namespace
@@ -191,37 +214,34 @@ SettingsChoice choose_settings(const Scene& scene, const AccuracyGoal& goal, con
   std::vector<Settings> all = all_settings(scene, goal.fixed);
   SettingsChoice choice;
   choice.settings = settings_of(scene);
-  std::optional<Forecast> best, forecast;  // at the settings chosen so far, and at the last ones
+  Forecast forecast(scene, goal);
+  std::optional<Forecast> best;
   Settings next = choice.settings;
   if (std::ranges::find(all, next) == all.end()) next = all.front();  // samples that alias
   for (int round = 0; round < kParams.rounds; ++round) {
-    const CandidateResult result = probe(next);
-    const Evaluation& evaluation = result.evaluation;
-    SettingsTried tried{.settings = next, .status = evaluation.status, .excess = kInfinity};
-    double without_bars = evaluation.timings_s.contains("total") ? evaluation.timings_s.at("total") : 0;
-    if (const auto bars = evaluation.timings_s.find("error_estimates"); bars != evaluation.timings_s.end())
-      without_bars -= bars->second;
-    tried.seconds = without_bars;
+    const Evaluation evaluation = probe(next);
+    SettingsTried tried{.settings = next, .status = evaluation.status};
     if (evaluation.converged()) {
-      forecast.emplace(scene, goal, next, evaluation);
-      tried.excess = forecast->excess(next);
-      tried.by = forecast->dominant(goal);
+      forecast.add(next, evaluation);
+      tried.excess = forecast.excess(next);
+      tried.by = forecast.dominant();
+      tried.operations = forecast.operations(next);
+      if (!best || better(tried, choice.tried)) {
+        choice.settings = next;
+        choice.tried = tried;
+        choice.evaluation = evaluation;
+        best = forecast;
+      }
     } else {
       std::erase(all, next);
     }
     choice.rounds.push_back(tried);
     if (told) told(tried);
-    if (!forecast) break;
-    if (evaluation.converged() && (!best || better(tried, choice.tried))) {
-      choice.settings = next;
-      choice.tried = tried;
-      choice.evaluation = evaluation;
-      best = forecast;
-    }
-    const Settings wanted = cheapest(all, *forecast, kParams.aim, false);
+    if (!best) break;
+    const Settings wanted = cheapest(all, forecast, kParams.aim, false);
     const bool known = std::ranges::any_of(choice.rounds, [&](const SettingsTried& t) { return t.settings == wanted; });
     const bool hardly_cheaper =
-        tried.excess <= 1 && forecast->seconds(wanted) > kParams.worth * forecast->seconds(next);
+        choice.tried.excess <= 1 && forecast.operations(wanted) > kParams.worth * choice.tried.operations;
     if (known || hardly_cheaper) break;
     next = wanted;
   }
@@ -241,7 +261,9 @@ SettingsChoice choose_settings(const Scene& reference, const Scene& scene, const
   return choose_settings(
       scene, goal,
       [&](const Settings& settings) {
-        return SceneEvaluator(with_settings(reference, settings)).evaluate(with_settings(scene, settings), purpose);
+        return SceneEvaluator(with_settings(reference, settings))
+            .evaluate(with_settings(scene, settings), purpose)
+            .evaluation;
       },
       told);
 }

@@ -36,9 +36,9 @@ struct Dominant {
 struct SettingsTried {
   Settings settings;
   std::string status = {};          ///< of the evaluation
-  double excess = 0;                ///< largest bar over what is allowed; <= 1: accurate enough
+  double excess = kInfinity;        ///< largest bar over what is allowed; <= 1: accurate enough
   std::optional<Dominant> by = {};  ///< where bars are known
-  double seconds = 0;               ///< of the evaluation without its bars
+  double operations = 0;            ///< of the evaluation without its bars
 };
 
 /// Settings for the accuracy asked for, at least cost as far as bars foresee it.
@@ -59,7 +59,7 @@ struct SettingsChoice {
 };
 
 /// A design with bars at other settings.
-using AccuracyProbe = std::function<CandidateResult(const Settings&)>;
+using AccuracyProbe = std::function<Evaluation(const Settings&)>;
 /// Hears of every round.
 using AccuracyListener = std::function<void(const SettingsTried&)>;
 

@@ -33,7 +33,7 @@ Json accuracy_json(const optimizer::Scene& scene, const optimizer::SettingsChoic
   for (const optimizer::SettingsTried& tried : choice.rounds) {
     Json round{{"settings", settings_json(scene, tried.settings)}, {"status", tried.status}};
     add_dominant(tried.by, round);
-    round["seconds"] = tried.seconds;
+    round["operations"] = tried.operations;
     json["rounds"].push_back(std::move(round));
   }
   json["one_more_digit"] = Json();

@@ -33,8 +33,8 @@ std::string round_words(const Study& study, const optimizer::SettingsTried& trie
   std::string text = fmt::format("{} edges per flank, {} harmonics, {} samples, {} modes: ", there.mesh.flank_elements,
                                  there.solver.harmonics, there.solver.samples, there.solver.modes);
   if (!tried.by) return text + tried.status;
-  return text + fmt::format("{} to {:.2g} % (asked: {:.2g} %), most of it by {}; {:.2g} s", tried.by->response,
-                            100 * tried.by->relative, 100 * tried.by->asked, tried.by->source, tried.seconds);
+  return text + fmt::format("{} to {:.2g} % (asked: {:.2g} %), most of it by {}", tried.by->response,
+                            100 * tried.by->relative, 100 * tried.by->asked, tried.by->source);
 }
 
 std::string accuracy_complaint(const optimizer::SettingsChoice& choice) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "optimizer/problem/problem.hpp"
+#include "optimizer/responses/response_table.hpp"
 #include "paths/steady_state.hpp"
 #include "tests/unit/reduction/stiffness_error.hpp"
 #include "tests/verification/optimizer/coarse_scene.hpp"
@@ -321,6 +322,34 @@ TEST(SectionEvaluation, RoughFlanksAreSofterAndRigidInTheLimit) {
   // What is left falls with the compliance.
   EXPECT_NEAR((rigid.first - stiff.first) / (rigid.first - stiffer.first), 10, 1);
   EXPECT_NEAR(stiffer.second, rigid.second, 1e-2 * rigid.second);
+}
+
+// What a stage answers hardly depends on whether later ones are computed, too: contact nodes follow worn zones only
+// where these are.
+TEST(SectionEvaluation, StopsAfterTheStageAskedForWithinTheBars) {
+  for (const Stage last : {Stage::model, Stage::unworn, Stage::worn_state}) {
+    const CandidateResult part = evaluator().evaluate(coarse_scene(), {.until = last});
+    const Evaluation &some = part.evaluation, &all = baseline().evaluation;
+    ASSERT_TRUE(some.converged()) << some.status;
+    EXPECT_EQ(part.unworn.has_value(), last >= Stage::unworn);
+    EXPECT_EQ(part.asymptote.has_value(), last >= Stage::worn_state);
+    EXPECT_FALSE(part.worn);
+    for (const Response& response : responses()) {
+      const std::string name(response.name);
+      ASSERT_EQ(some.responses.contains(name), response.stage <= last) << name;
+      if (response.stage > last) {
+        EXPECT_FALSE(some.error_estimates.contains(name)) << name;
+        continue;
+      }
+      EXPECT_EQ(some.error_estimates.contains(name), all.error_estimates.contains(name)) << name;
+      const double bar = all.error_estimates.contains(name) ? all.error_estimates.at(name) : all.responses.at(name);
+      EXPECT_NEAR(some.responses.at(name), all.responses.at(name), bar) << name;
+      // On the same contact nodes it is the same.
+      if (last == Stage::worn_state) {
+        EXPECT_EQ(some.responses.at(name), all.responses.at(name)) << name;
+      }
+    }
+  }
 }
 
 TEST(SectionEvaluation, RunsTwiceToTheSameBits) {

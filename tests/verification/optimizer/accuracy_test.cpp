@@ -1,0 +1,159 @@
+// Settings chosen for an accuracy: against laws that are known, and against a finer model.
+#include "optimizer/accuracy/choice.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "optimizer/responses/response_table.hpp"
+#include "steady/work.hpp"
+#include "tests/verification/optimizer/coarse_scene.hpp"
+
+namespace dovetail::optimizer {
+namespace {
+
+constexpr const char* kVolume = "asymptotic_wear_volume_m3";
+
+/// In units of those in which all nodes take part: the more there are, the fewer of them do.
+double jacobians(const Settings& s) {
+  return 8 * std::pow(s.mesh * (2.0 * s.harmonics + 1) / 11, -0.6);
+}
+
+/// A design whose bars fall with powers of the settings, not quite those that are expected of it.
+struct Laws {
+  double mesh = 0.03, harmonics = 0.03, samples = 0.01, modes = 0.002, history = 0.1;  ///< at the scene's own
+  double by_mesh = 1.7, by_harmonics = 2.5, by_samples = 1.5;
+
+  [[nodiscard]] std::map<std::string, double> at(const Settings& s) const {
+    return {{"mesh", mesh * std::pow(s.mesh, -by_mesh)},
+            {"harmonics", harmonics * std::pow((2.0 * s.harmonics + 1) / 11, -by_harmonics)},
+            {"samples", samples * std::pow(s.samples / 128.0, -by_samples)},
+            {"modes", modes * std::pow(s.modes / 20.0, -2.0)},
+            {"history", history}};
+  }
+  [[nodiscard]] double sum(const Settings& s) const {
+    double sum = -history;
+    for (const auto& [source, bar] : at(s)) sum += bar;
+    return sum;
+  }
+  [[nodiscard]] AccuracyProbe probe(int* calls = nullptr) const {
+    return [*this, calls](const Settings& s) {
+      if (calls != nullptr) ++*calls;
+      Evaluation evaluation;
+      evaluation.responses[kVolume] = 1;
+      evaluation.error_sources[kVolume] = at(s);
+      const double nodes = std::round(34 * s.mesh);
+      evaluation.model = {
+          {"dofs", 16000 * std::pow(s.mesh, 1.8)}, {"contact_nodes", nodes}, {"jacobians_spent", jacobians(s)}};
+      return evaluation;
+    };
+  }
+};
+
+const AccuracyGoal kGoal{.relative = 0.02, .responses = {kVolume}};
+
+TEST(Accuracy, IsReachedAtHardlyMoreThanTheLeastCost) {
+  const Scene scene;
+  for (const Laws& laws : {Laws{}, Laws{.mesh = 0.002}, Laws{.harmonics = 0.2}, Laws{.samples = 0.1, .by_samples = 1.3},
+                           Laws{.mesh = 0.1, .by_mesh = 1.2}}) {
+    int calls = 0;
+    const SettingsChoice choice = choose_settings(scene, kGoal, laws.probe(&calls));
+    ASSERT_EQ(choice.status, Status::converged);
+    EXPECT_LE(laws.sum(choice.settings), kGoal.relative);
+    EXPECT_LE(calls, 6);
+    // Of all that keep a little distance from what is asked.
+    double least = kInfinity, own = 0;
+    const auto cost = [](const Settings& s) {
+      return 1.8e9 * std::pow(s.mesh, 2.16) * (0.6 + 0.4 * s.modes / 20) +
+             jacobians(s) * steady::jacobian_operations(std::lround(34 * s.mesh), 2, s.harmonics, s.samples);
+    };
+    for (const Settings& settings : all_settings(scene, {}))
+      if (laws.sum(settings) <= 0.95 * kGoal.relative) least = std::min(least, cost(settings));
+    own = cost(choice.settings);
+    EXPECT_LE(own, 1.5 * least) << choice.settings.mesh << " " << choice.settings.harmonics << " "
+                                << choice.settings.samples << " " << choice.settings.modes;
+  }
+}
+
+TEST(Accuracy, LeavesWhatIsGivenAsItIs) {
+  const Scene scene;
+  AccuracyGoal goal = kGoal;
+  goal.fixed = {"mesh.bulk_size_mm", "solver.samples"};
+  const SettingsChoice choice = choose_settings(scene, goal, Laws{.mesh = 0.005}.probe());
+  EXPECT_EQ(choice.status, Status::converged);
+  EXPECT_EQ(choice.settings.mesh, 1);
+  EXPECT_EQ(choice.settings.samples, scene.solver.samples);
+  EXPECT_GT(choice.settings.harmonics, scene.solver.harmonics);
+}
+
+TEST(Accuracy, OutOfReachIsSaid) {
+  const Scene scene;
+  AccuracyGoal goal = kGoal;
+  goal.fixed = {"mesh.flank_elements"};
+  const SettingsChoice choice = choose_settings(scene, goal, Laws{.mesh = 0.03}.probe());
+  EXPECT_EQ(choice.status, Status::iteration_limit);
+  ASSERT_TRUE(choice.tried.by);
+  EXPECT_EQ(choice.tried.by->source, "mesh");
+  EXPECT_GT(choice.tried.by->relative, goal.relative);
+  // Nothing better was tried.
+  for (const SettingsTried& tried : choice.rounds) EXPECT_GE(tried.excess, choice.tried.excess);
+}
+
+TEST(Accuracy, WhatNoSettingBuysIsLeftOut) {
+  const SettingsChoice choice = choose_settings(Scene{}, kGoal, Laws{.history = 10}.probe());
+  EXPECT_EQ(choice.status, Status::converged);
+}
+
+TEST(Accuracy, OfOneResponseMayBeAnother) {
+  AccuracyGoal goal = kGoal;
+  goal.of[kVolume] = 0.005;
+  const SettingsChoice finer = choose_settings(Scene{}, goal, Laws{}.probe());
+  EXPECT_EQ(finer.status, Status::converged);
+  EXPECT_LE(Laws{}.sum(finer.settings), 0.005);
+  EXPECT_EQ(finer.tried.by->asked, 0.005);
+}
+
+TEST(Accuracy, SettingsWithoutAnAnswerAreLeftAside) {
+  const Laws laws;
+  // What is tried second has no answer.
+  const SettingsChoice without = choose_settings(Scene{}, kGoal, laws.probe());
+  ASSERT_GE(without.rounds.size(), 2U);
+  const Settings bad = without.rounds[1].settings;
+  const SettingsChoice choice = choose_settings(Scene{}, kGoal, [&](const Settings& s) {
+    Evaluation evaluation = laws.probe()(s);
+    if (s == bad) evaluation.status = failed_at("asymptote", to_string(Status::iteration_limit));
+    return evaluation;
+  });
+  EXPECT_EQ(choice.status, Status::converged);
+  EXPECT_FALSE(choice.settings == bad);
+  const SettingsChoice none = choose_settings(Scene{}, kGoal, [](const Settings&) {
+    Evaluation evaluation;
+    evaluation.status = failed_at("mesh", "inverted");
+    return evaluation;
+  });
+  EXPECT_EQ(none.status, Status::stalled);
+  EXPECT_TRUE(none.settings == settings_of(Scene{}));
+}
+
+// The true error, by a model with 2.7 times the edges, twice the harmonics and samples: within the accuracy.
+TEST(Accuracy, HoldsAgainstAFinerModel) {
+  const Scene scene = coarse_scene();
+  AccuracyGoal goal{.relative = 0.05, .responses = {kVolume, "peak_amplitude_m", "blade_fillet_stress_pa"}};
+  const SettingsChoice choice = choose_settings(scene, scene, goal);
+  ASSERT_EQ(choice.status, Status::converged);
+  Settings fine = choice.settings;
+  fine.mesh *= 8.0 / 3;
+  fine.harmonics = 2 * fine.harmonics + 1;
+  fine.samples *= 2;
+  fine.modes *= 2;
+  const Evaluation reference =
+      SceneEvaluator(with_settings(scene, fine)).evaluate(with_settings(scene, fine), kSearch).evaluation;
+  ASSERT_TRUE(reference.converged()) << reference.status;
+  for (const std::string& name : goal.responses)
+    EXPECT_NEAR(choice.evaluation.responses.at(name), reference.responses.at(name),
+                goal.relative * reference.responses.at(name))
+        << name;
+}
+
+}  // namespace
+}  // namespace dovetail::optimizer
