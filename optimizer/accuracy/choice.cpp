@@ -44,14 +44,6 @@ double finer(Knob knob, const Settings& there, const Settings& here) {
   return 1;
 }
 
-/// Not so far from each other that one foresees nothing of the other.
-bool near(const Settings& a, const Settings& b) {
-  return std::ranges::all_of(std::array{Knob::mesh, Knob::harmonics, Knob::samples, Knob::modes}, [&](Knob knob) {
-    const double ratio = finer(knob, a, b);
-    return ratio <= kParams.step * (1 + 1e-9) && ratio >= 1 / kParams.step * (1 - 1e-9);
-  });
-}
-
 /// What evaluations with bars foresee of other settings: bars by the orders in which their parts fall, operations by
 /// the powers in which theirs grow.
 class Forecast {
@@ -65,8 +57,11 @@ class Forecast {
     const Settings was = std::exchange(at_, at);
     dofs_ = evaluation.model.at("dofs");
     const auto nodes = static_cast<Eigen::Index>(evaluation.model.at("contact_nodes"));
-    contact_ = evaluation.model.at("jacobians_spent") *
-               steady::jacobian_operations(nodes, in_space_ ? 3 : 2, at.harmonics, at.samples);
+    const Eigen::Index directions = in_space_ ? 3 : 2;
+    const double jacobian = steady::jacobian_operations(nodes, directions, at.harmonics, at.samples);
+    const double factorisation = steady::factorisation_operations(nodes * directions * (2 * at.harmonics + 1));
+    factorisations_ = evaluation.model.at("jacobians_spent") * factorisation;
+    marches_ = evaluation.model.at("jacobians_spent") * (jacobian - factorisation);
     std::vector<std::string> names = goal_->responses;
     if (names.empty())
       for (const Response& response : responses()) names.emplace_back(response.name);
@@ -121,8 +116,8 @@ class Forecast {
                             std::pow(dofs, in_space_ ? kParams.matrices_in_space : kParams.matrices_in_plane) *
                             (1 - kParams.modes_share + kParams.modes_share * there.modes / kParams.modes);
     const double unknowns = std::pow(mesh, in_space_ ? 2 : 1) * finer(Knob::harmonics, there, at_);
-    return matrices + contact_ * ((1 - kParams.marches) * std::pow(unknowns, kParams.contact) +
-                                  kParams.marches * unknowns * finer(Knob::samples, there, at_));
+    return matrices + factorisations_ * std::pow(unknowns, kParams.contact) +
+           marches_ * unknowns * finer(Knob::samples, there, at_);
   }
 
   [[nodiscard]] const Settings& at() const { return at_; }
@@ -173,29 +168,38 @@ class Forecast {
   const AccuracyGoal* goal_;
   bool in_space_;
   Settings at_;
-  double dofs_ = 0, contact_ = 0;  // unknowns of the mesh, operations of all that follows the matrices
-  std::vector<Part> parts_;        // those of a response one after the other
+  double dofs_ = 0;                          // unknowns of the mesh
+  double factorisations_ = 0, marches_ = 0;  // operations of all that follows the matrices
+  std::vector<Part> parts_;                  // those of a response one after the other
 };
 
+constexpr std::array kKnobs{Knob::mesh, Knob::harmonics, Knob::samples, Knob::modes};
+
 /// The cheapest that should do; where none should, the most accurate.
-Settings cheapest(const std::vector<Settings>& all, const Forecast& forecast, double allowed, bool far) {
-  const Settings* best = nullptr;
-  std::pair<double, double> least;  // excess beyond what is allowed, operations
-  for (const Settings& settings : all) {
-    if (!far && !near(settings, forecast.at())) continue;
-    const std::pair<double, double> rank{std::max(0.0, forecast.excess(settings) - allowed),
-                                         forecast.operations(settings)};
-    if (best != nullptr && rank >= least) continue;
-    best = &settings;
-    least = rank;
-  }
-  return *best;
+Settings cheapest(const std::vector<Settings>& all, const Forecast& forecast, double allowed) {
+  const auto rank = [&](const Settings& settings) {
+    return std::pair{std::max(0.0, forecast.excess(settings) - allowed), forecast.operations(settings)};
+  };
+  return *std::ranges::min_element(all, {}, rank);
+}
+
+/// On the way there no further than may be foreseen.
+Settings towards(const Settings& there, const std::vector<Settings>& all, const Settings& at) {
+  const auto rank = [&](const Settings& settings) {
+    double too_far = 0, away = 0;
+    for (const Knob knob : kKnobs) {
+      too_far += std::max(0.0, std::abs(std::log(finer(knob, settings, at))) - std::log(kParams.step));
+      away += std::abs(std::log(finer(knob, settings, there)));
+    }
+    return std::pair{too_far, away};
+  };
+  return *std::ranges::min_element(all, {}, rank);
 }
 
 std::optional<SettingsChoice::Digit> one_more_digit(const std::vector<Settings>& all, const Forecast& forecast,
                                                     const SettingsChoice& choice) {
   const double tenth = choice.tried.excess / 10;
-  const Settings there = cheapest(all, forecast, tenth, true);
+  const Settings there = cheapest(all, forecast, tenth);
   if (forecast.excess(there) > tenth) return {};
   return SettingsChoice::Digit{.settings = there,
                                .times_as_long = forecast.operations(there) / forecast.operations(choice.settings)};
@@ -238,7 +242,7 @@ SettingsChoice choose_settings(const Scene& scene, const AccuracyGoal& goal, con
     choice.rounds.push_back(tried);
     if (told) told(tried);
     if (!best) break;
-    const Settings wanted = cheapest(all, forecast, kParams.aim, false);
+    const Settings wanted = towards(cheapest(all, forecast, kParams.aim), all, next);
     const bool known = std::ranges::any_of(choice.rounds, [&](const SettingsTried& t) { return t.settings == wanted; });
     const bool hardly_cheaper =
         choice.tried.excess <= 1 && forecast.operations(wanted) > kParams.worth * choice.tried.operations;

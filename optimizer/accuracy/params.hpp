@@ -11,8 +11,8 @@ namespace dovetail::optimizer {
 struct SettingLadders {
   std::array<double, 11> mesh{0.5, 0.667, 0.833, 1, 1.333, 1.667,
                               2,   2.667, 3.333, 4, 5.333};          ///< edges over the study's
-  std::array<int, 10> harmonics{1, 3, 5, 7, 9, 11, 15, 19, 23, 31};  ///< even ones hardly move of flanks under pressure
-  std::array<int, 8> samples{64, 96, 128, 192, 256, 384, 512, 1024};
+  std::array<int, 9> harmonics{3, 5, 7, 9, 11, 15, 19, 23, 31};  ///< even ones hardly move of flanks under pressure
+  std::array<int, 9> samples{64, 96, 128, 192, 256, 384, 512, 768, 1024};
   std::array<int, 9> modes{4, 6, 8, 12, 16, 20, 30, 45, 60};
 };
 
@@ -30,12 +30,11 @@ struct SettingsParams {
   double dofs = 1.8, dofs_in_space = 2.5;
   double modes_share = 0.4;
   double modes = 20;     ///< with which it was measured
-  double contact = 2.4;  ///< power of contact nodes times 2H+1, of the operations of steady states and wear
-  double marches = 0.2;  ///< share of these that grows with samples instead
+  double contact = 2.4;  ///< power of contact nodes times 2H+1, of the operations of factorisations
   double aim = 0.95;     ///< of the accuracy: what is foreseen is a little off
   double worth = 0.85;   ///< of the operations: for less than that saved nothing else is tried
-  double step = 2.2;     ///< settings further away than by this are not foreseen
-  int rounds = 6;
+  double step = 1.7;     ///< no setting changes by more from one round to the next
+  int rounds = 8;
 };
 
 static_assert(SettingsParams{}.aim < 1 && SettingsParams{}.worth < 1 && SettingsParams{}.step > 1,
