@@ -59,7 +59,7 @@ class ErrorBarSources {
     add_contact_grid(longer);
     if (as_here_.until >= Stage::unworn) {
       add_slip();
-      bars_.add("search", LeftOpen{.frequency = paths::ResonanceOptions{}.frequency_tolerance});
+      bars_.add("search", LeftOpen{.frequency = scene_.solver.resonance_tolerance});
     }
     ask_settings();
     bars_.add_own_errors();

@@ -75,7 +75,7 @@ std::optional<UnseenDrift> unseen_drift(const Scene& scene, const CandidateResul
   joint.options.budget = new_budget(scene.solver, result.model);
   joint.condition.released.assign(result.unworn->state.nodes.size(), 0);
   for (const EndNode& end : end_nodes(scene, result)) joint.condition.released[end.node] = 1;
-  const wear::Drift found = wear::resonance_drift(joint, *result.unworn, {});
+  const wear::Drift found = wear::resonance_drift(joint, *result.unworn, resonance_options(scene));
   if (found.worn.status != Status::converged) return {};
   return UnseenDrift{.drift = std::abs(found.drift) / 2,
                      .amplitude = std::abs(found.worn.amplitude - result.unworn->amplitude) / 2};

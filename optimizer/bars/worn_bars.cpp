@@ -74,7 +74,8 @@ void add_worn_bars(const Scene& scene, const CandidateResult& result, Bars& bars
     // On what the ends of worn zones bear the amplitude hardly depends; on a whole other state it may.
     steady::Joint joint = joint_of(scene, result.model);
     joint.options.budget = new_budget(scene.solver, result.model);
-    const paths::Resonance elsewhere = wear::resonance_drift(joint.worn(other->depth), *result.worn, {}).worn;
+    const paths::Resonance elsewhere =
+        wear::resonance_drift(joint.worn(other->depth), *result.worn, resonance_options(scene)).worn;
     const double amplitude = elsewhere.status == Status::converged ? elsewhere.amplitude : result.unworn->amplitude;
     bars.add("history", LeftOpen{.worn_amplitude = std::abs(result.worn->amplitude - amplitude)});
   }

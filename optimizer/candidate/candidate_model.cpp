@@ -1,81 +1,15 @@
 #include "optimizer/candidate/candidate_model.hpp"
 
-#include <span>
 #include <utility>
 
 #include "fem/flank_trace.hpp"
-#include "fem/stress.hpp"
 #include "optimizer/candidate/cell_grid.hpp"
 #include "optimizer/candidate/stopwatch.hpp"
-#include "reduction/rough_interface.hpp"
-#include "reduction/static_condensation.hpp"
 #include "steady/work.hpp"
 
 namespace dovetail::optimizer {
 
 namespace {
-
-/// `surface`: fem::ContactSurface of the trace or fem::ContactCells. Contact dofs begin at `first`.
-template <class Surface>
-reduction::ContactNodes contact_nodes(const Surface& surface, Eigen::Index first, const ContactProperties& properties) {
-  const Eigen::Index count = surface.count(), directions = surface.position.rows();
-  reduction::ContactNodes nodes;
-  nodes.normal.resize(count);
-  nodes.tangential.resize(count, directions - 1);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    nodes.normal(i) = static_cast<int>(first + directions * i);
-    for (Eigen::Index t = 0; t + 1 < directions; ++t)
-      nodes.tangential(i, t) = nodes.normal(i) + static_cast<int>(t) + 1;
-  }
-  nodes.area = surface.area;
-  nodes.gap = surface.gap;
-  nodes.friction = Eigen::VectorXd::Constant(count, properties.friction);
-  nodes.wear_law = properties.wear_law;
-  const contact::WearNumbers& wear = properties.wear.at(properties.wear_law);
-  nodes.wear_coefficient = Eigen::VectorXd::Constant(count, wear.coefficient);
-  if (contact::find_wear_law(properties.wear_law)->parameter(&contact::WearNumbers::threshold))
-    nodes.wear_threshold = Eigen::VectorXd::Constant(count, wear.threshold);
-  nodes.position = Eigen::MatrixX3d::Zero(count, 3);
-  nodes.position.leftCols(directions) = surface.position.transpose();
-  nodes.group = surface.flank;
-  nodes.slip_origin = Eigen::MatrixXd::Zero(count, directions - 1);
-  return nodes;
-}
-
-reduction::FullModel full_model(const Scene& scene, const fem::SectorSystem& system,
-                                const Eigen::SparseMatrix<double>& stiffness) {
-  const double speed = scene.loading.speed;
-  reduction::FullModel full;
-  full.stiffness = fem::constrain(stiffness, system.constraints);
-  full.mass = system.mass;
-  full.static_force = speed * speed * system.centrifugal;
-  full.cosine_force = scene.loading.tip_force * system.tip;
-  full.sine_force = Eigen::MatrixXd::Zero(system.size(), 1);
-  full.outputs = system.tip;
-  full.output_names = {"tip_x"};
-  full.contact = contact_nodes(system.contact, system.internal_size(), scene.contact);
-  return full;
-}
-
-/// Geometric stiffness from the stresses of the frictional preload: glued flanks would carry tension.
-Status geometric_stiffness(const Scene& scene, const CandidateModel& candidate, const fem::Assembler& assembler,
-                           std::span<const fem::Material> materials, Eigen::SparseMatrix<double>& result) {
-  const fem::SectorSystem& system = candidate.system;
-  const Eigen::SparseMatrix<double> bare = system.full.stiffness;
-  reduction::StaticCondensation condensed =
-      reduction::on_contact(reduction::condense_statically(full_model(scene, system, bare)), candidate.cells.average,
-                            contact_nodes(candidate.cells, 0, scene.contact));
-  if (condensed.status != Status::converged) return condensed.status;
-  reduction::add_interface(interface_of(scene.contact), condensed.model, &condensed.recovery);
-  const auto model = std::make_shared<const dynamics::CondensedModel>(condensed.model);
-  const steady::Preload preload = steady::quasi_static(model, {.budget = candidate.budget});
-  if (preload.status != Status::converged) return preload.status;
-  const Eigen::VectorXd independent = condensed.recovery.apply(preload.full_displacement, preload.force);
-  const Eigen::VectorXd displacement = system.constraints.transformation * independent;
-  const fem::Mesh& mesh = candidate.mesh.sector.mesh;
-  result = assembler.geometric_stiffness(mesh, fem::quadrature_stress(mesh, materials, displacement));
-  return Status::converged;
-}
 
 geometry::Feasibility feasibility_of(const Scene& scene) {
   geometry::FeasibilityLimits limits = scene.limits;
@@ -90,15 +24,15 @@ std::string first_broken(const geometry::Feasibility& feasibility, std::vector<s
 }
 
 double jacobian_operations(const SolverSettings& solver, const CandidateModel& candidate) {
-  return steady::jacobian_operations(candidate.cells.count(), candidate.system.full.dimensions, solver.harmonics,
-                                     solver.samples);
+  return steady::jacobian_operations(candidate.cells.count(), candidate.matrices->system.full.dimensions,
+                                     solver.harmonics, solver.samples);
 }
 
 std::map<std::string, double> sizes_of(const Scene& scene, const CandidateModel& candidate) {
   const fem::Mesh& mesh = candidate.mesh.sector.mesh;
   return {{"nodes", mesh.node_count()},
           {"elements", mesh.element_count()},
-          {"dofs", static_cast<double>(candidate.system.size())},
+          {"dofs", static_cast<double>(candidate.matrices->system.size())},
           {"contact_nodes", static_cast<double>(candidate.cells.count())},
           {"modes", scene.solver.modes},
           {"reduced_size", static_cast<double>(candidate.model.size())},
@@ -109,10 +43,6 @@ std::map<std::string, double> sizes_of(const Scene& scene, const CandidateModel&
 }
 
 }  // namespace
-
-reduction::InterfaceStiffness interface_of(const ContactProperties& contact) {
-  return {.normal = contact.normal_stiffness, .tangential = contact.tangential_stiffness};
-}
 
 SharedBudget new_budget(const SolverSettings& solver, const CandidateModel& candidate, double times) {
   return std::make_shared<Budget>(
@@ -128,8 +58,8 @@ void renew_budget(const SolverSettings& solver, CandidateModel& candidate) {
 void lay_contact(const Scene& scene, const std::vector<fem::FlankCells>& flanks, CandidateModel& candidate) {
   candidate.cells = fem::contact_cells(candidate.mesh.sector, flanks);
   candidate.reduction =
-      reduction::reduce(candidate.trace, candidate.cells.average, contact_nodes(candidate.cells, 0, scene.contact),
-                        scene.loading.damping_ratio);
+      reduction::reduce(candidate.matrices->trace, candidate.cells.average,
+                        contact_nodes(candidate.cells, 0, scene.contact), scene.loading.damping_ratio);
   if (candidate.reduction.status != Status::converged) {
     candidate.status = failed_at("reduction", candidate.reduction.status) + " " + candidate.reduction.message;
     return;
@@ -148,7 +78,8 @@ void lay_contact(const Scene& scene, const std::vector<fem::FlankCells>& flanks,
                                                                     : candidate.condensed->glued_frequencies();
 }
 
-ModelBuilder::ModelBuilder(const Scene& reference) {
+ModelBuilder::ModelBuilder(const Scene& reference)
+    : store_(std::make_shared<MatricesStore>(reference.contact.friction)) {
   if (std::vector<Violation> found = violations(reference); !found.empty()) throw InputError(std::move(found));
   try {
     mesher_ = reference.kind->mesher(reference);
@@ -193,28 +124,12 @@ CandidateModel ModelBuilder::build(const Scene& scene) const {
   candidate.mesh.sector = fem::with_trace(candidate.mesh.sector);
   const std::vector<fem::FlankCells> cells = cell_grid(scene, candidate.mesh.sector, cell_lengths(scene));
   candidate.cells = fem::contact_cells(candidate.mesh.sector, cells);
-  const std::vector<fem::Material> bodies = materials(scene);
-  const fem::Assembler assembler(candidate.mesh.sector.mesh);
-  candidate.system = fem::build_sector_system(candidate.mesh.sector, bodies, assembler);
-  candidate.timings_s["assembly"] = watch.lap();
+  candidate.timings_s["mesh"] += watch.lap();
+  candidate.matrices = store_->matrices(scene, candidate.mesh.sector, candidate.cells, candidate.timings_s);
+  candidate.status = candidate.matrices->status;
+  if (!candidate.converged()) return candidate;
+  watch = {};
   renew_budget(scene.solver, candidate);
-
-  Eigen::SparseMatrix<double> geometric;
-  const Status prestress = geometric_stiffness(scene, candidate, assembler, bodies, geometric);
-  candidate.timings_s["prestress"] = watch.lap();
-  if (prestress != Status::converged) {
-    candidate.status = failed_at("prestress", prestress);
-    return candidate;
-  }
-
-  candidate.stiffness = fem::stiffness_at_speed(candidate.system.full, geometric, scene.loading.speed);
-  candidate.trace = reduction::trace_model(full_model(scene, candidate.system, candidate.stiffness),
-                                           {.modes = scene.solver.modes, .damping_ratio = scene.loading.damping_ratio});
-  candidate.timings_s["reduction"] = watch.lap();
-  if (candidate.trace.status != Status::converged) {
-    candidate.status = failed_at("reduction", candidate.trace.status) + " " + candidate.trace.message;
-    return candidate;
-  }
   lay_contact(scene, cells, candidate);
   candidate.timings_s["preload"] = watch.lap();
   if (!candidate.converged()) return candidate;

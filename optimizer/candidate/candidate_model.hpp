@@ -5,16 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "fem/assembly.hpp"
 #include "fem/contact_cells.hpp"
-#include "fem/sector_system.hpp"
 #include "geometry/mesh/mesh_motion.hpp"
 #include "geometry/rules/feasibility.hpp"
+#include "optimizer/candidate/contact_nodes.hpp"
+#include "optimizer/candidate/matrices.hpp"
 #include "optimizer/problem/outcome.hpp"
 #include "optimizer/scene/scene.hpp"
 #include "optimizer/scene/scene_kind.hpp"
 #include "reduction/massless_boundary.hpp"
-#include "reduction/rough_interface.hpp"
 #include "steady/preload.hpp"
 
 namespace dovetail::optimizer {
@@ -26,10 +25,8 @@ struct CandidateModel {
   std::vector<std::string> messages;                   ///< broken rules, re-meshing: for people
 
   geometry::Feasibility feasibility;
-  geometry::MeshedSector mesh;            ///< its flanks are the trace of the contact
-  fem::SectorSystem system;               ///< on the trace
-  Eigen::SparseMatrix<double> stiffness;  ///< over all nodes, at speed: K + K_g - Omega^2 M
-  reduction::TraceModel trace;
+  geometry::MeshedSector mesh;  ///< its flanks are the trace of the contact
+  std::shared_ptr<const Matrices> matrices;
   // With contact nodes on the trace, see lay_contact:
   fem::ContactCells cells;
   reduction::Reduction reduction;
@@ -47,10 +44,7 @@ struct CandidateModel {
   [[nodiscard]] bool infeasible() const { return outcome_of(status) == Outcome::infeasible; }
 };
 
-/// Of rough flanks.
-[[nodiscard]] reduction::InterfaceStiffness interface_of(const ContactProperties& contact);
-
-/// Lays contact nodes on the trace of a candidate whose `trace` is there, in place of those it has: reduced model and
+/// Lays contact nodes on the trace of a candidate whose matrices are there, in place of those it has: reduced model and
 /// preload. A stage that fails is named in its status. Cost: dense algebra of their number and a preload.
 void lay_contact(const Scene& scene, const std::vector<fem::FlankCells>& flanks, CandidateModel& candidate);
 
@@ -70,14 +64,16 @@ class ModelBuilder {
   explicit ModelBuilder(const Scene& reference);
 
   /// Stages in order: feasibility, mesh motion, assembly, preload without geometric stiffness (for the stresses it
-  /// comes from), stiffness at speed, reduction to the trace, contact nodes by the sizes of the scene. The scene's kind
-  /// and mesh sizes must be the reference's. Throws InputError for a scene that violates its ranges.
+  /// comes from), stiffness at speed, reduction to the trace, contact nodes by the sizes of the scene. Matrices that
+  /// the last candidate had, too, are not computed again. The scene's kind and mesh sizes must be the reference's.
+  /// Throws InputError for a scene that violates its ranges.
   [[nodiscard]] CandidateModel build(const Scene& scene) const;
 
  private:
   [[nodiscard]] geometry::MeshedSector mesh_of(const Scene& scene) const;
 
   Mesher mesher_;  // empty when the reference cannot be meshed
+  std::shared_ptr<MatricesStore> store_;
 };
 
 }  // namespace dovetail::optimizer

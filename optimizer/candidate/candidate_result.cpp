@@ -75,7 +75,7 @@ std::string dynamics(const Scene& scene, const Computation& how, const ContactFi
   Stopwatch watch;
 
   const double start = fit.displacement.size() > 0 ? fit.omega : model.glued_frequencies(scene.loading.mode - 1);
-  result.unworn = paths::resonance(joint, start, {}, fit.displacement);
+  result.unworn = paths::resonance(joint, start, resonance_options(scene), fit.displacement);
   evaluation.timings_s["unworn_resonance"] = watch.lap();
   if (result.unworn->status != Status::converged) return failed_at("unworn_resonance", result.unworn->status);
   add_fillet_stresses(scene, result);
@@ -107,7 +107,7 @@ std::string dynamics(const Scene& scene, const Computation& how, const ContactFi
   // A joint that does not wear stays as it is.
   result.worn = asymptote.largest_depth == 0
                     ? *result.unworn
-                    : wear::resonance_drift(joint.worn(asymptote.depth), *result.unworn, {}).worn;
+                    : wear::resonance_drift(joint.worn(asymptote.depth), *result.unworn, resonance_options(scene)).worn;
   evaluation.timings_s["worn_resonance"] = watch.lap();
   if (result.worn->status != Status::converged) return failed_at("worn_resonance", result.worn->status);
   result.stage = Stage::worn_resonance;

@@ -41,6 +41,11 @@ struct CandidateResult {
 /// Options of every steady state of a scene.
 [[nodiscard]] steady::Options steady_options(const SolverSettings& settings);
 
+/// Of every search of a resonance of a scene.
+[[nodiscard]] inline paths::ResonanceOptions resonance_options(const Scene& scene) {
+  return {.frequency_tolerance = scene.solver.resonance_tolerance};
+}
+
 /// The joint of a candidate with these options, on its budget.
 [[nodiscard]] steady::Joint joint_of(const Scene& scene, const CandidateModel& model, double penalty_scale = 1);
 

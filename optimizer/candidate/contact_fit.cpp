@@ -100,7 +100,7 @@ class GridSearch {
   }
 
   [[nodiscard]] bool find_resonance(double start) {
-    peak_ = paths::resonance(joint_, start);
+    peak_ = paths::resonance(joint_, start, resonance_options(scene_));
     unworn_ = peak_.state;
     return peak_.status == Status::converged;
   }

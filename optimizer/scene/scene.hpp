@@ -42,6 +42,18 @@ struct Loading {
   wear::Follow follow = wear::Follow::fixed;
 };
 
+/// Flanks whose preload stresses the structure while it vibrates.
+enum class Prestress {
+  matched,  ///< of one form without gaps, with the friction of the study: stiffnesses follow from the mesh alone
+  own,      ///< the design's own
+};
+constexpr EnumNames<Prestress, 2> enum_names(Prestress) {
+  return {{{Prestress::matched, "matched"}, {Prestress::own, "own"}}};
+}
+[[nodiscard]] constexpr std::string_view to_string(Prestress prestress) {
+  return name_of(prestress);
+}
+
 /// Of an accuracy that is asked for.
 inline constexpr Range kAccuracyRange{.lower = 1e-6, .upper = 0.5};
 
@@ -49,8 +61,10 @@ inline constexpr Range kAccuracyRange{.lower = 1e-6, .upper = 0.5};
 struct SolverSettings {
   int harmonics = 5;
   int samples = 128;
-  int modes = 20;           ///< free-interface modes kept
-  double tolerance = 1e-9;  ///< relative residual of the steady state
+  int modes = 20;                     ///< free-interface modes kept
+  double tolerance = 1e-9;            ///< relative residual of the steady state
+  double resonance_tolerance = 1e-7;  ///< of the frequency of a resonance, relative
+  Prestress prestress = Prestress::matched;
   steady::Solver solver = steady::Solver::automatic;
   double pseudo_penalty = 0;         ///< eps of all contact nodes, N/m; 0: from the model
   double pseudo_penalty_normal = 0;  ///< eps in the normal direction, N/m; 0: pseudo_penalty

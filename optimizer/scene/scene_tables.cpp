@@ -98,7 +98,7 @@ std::span<const Field<optimizer::Loading>> option_table<optimizer::Loading>() {
 template <>
 std::span<const Field<optimizer::SolverSettings>> option_table<optimizer::SolverSettings>() {
   using S = optimizer::SolverSettings;
-  static const std::array<Field<S>, 10> table{
+  static const std::array<Field<S>, 12> table{
       Field<S>{.key = "harmonics",
                .member = &S::harmonics,
                .range = {.lower = 1, .upper = 200},
@@ -128,6 +128,15 @@ std::span<const Field<optimizer::SolverSettings>> option_table<optimizer::Solver
                .member = &S::pseudo_penalty_normal,
                .range = kNonNegative,
                .help = "pseudo-penalty in the normal direction alone; 0: that of all contact nodes"},
+      Field<S>{.key = "resonance_tolerance",
+               .member = &S::resonance_tolerance,
+               .range = {.lower = 1e-8, .upper = 1e-4},
+               .help = "relative accuracy of the frequency of a resonance"},
+      Field<S>{.key = "prestress",
+               .member = &S::prestress,
+               .help = "flanks whose preload stresses the structure while it vibrates; matched: without gaps and with "
+                       "the friction in the middle of its range, so that designs with one mesh share their matrices, "
+                       "own: the design's own"},
       Field<S>{.key = "accuracy",
                .member = &S::accuracy,
                .range = {.lower = optimizer::kAccuracyRange.lower,

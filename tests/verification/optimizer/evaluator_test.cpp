@@ -104,7 +104,7 @@ TEST(SectionEvaluation, FlanksCarryTheCentrifugalPull) {
   for (int e = 0; e < mesh.element_count(); ++e)
     if (mesh.regions[static_cast<std::size_t>(mesh.region[static_cast<std::size_t>(e)])].body == 0)
       for (const int node : mesh.element(e)) blade_node[static_cast<std::size_t>(node)] = true;
-  const Eigen::VectorXd load = fem::centrifugal_load(model.system.full.mass, mesh);
+  const Eigen::VectorXd load = fem::centrifugal_load(model.matrices->system.full.mass, mesh);
   for (int node = 0; node < mesh.node_count(); ++node)
     if (blade_node[static_cast<std::size_t>(node)]) pull += speed * speed * load(2 * node + 1);
   EXPECT_NEAR(-radial, pull, 2e-3 * pull);
@@ -115,12 +115,12 @@ TEST(SectionEvaluation, ReducedModelAgreesWithTheFullOneAtEveryHarmonic) {
   const CandidateModel& model = baseline().model;
   const double omega = baseline().unworn->omega;
   reduction::FullModel full;
-  full.stiffness = fem::constrain(model.stiffness, model.system.constraints);
-  full.mass = model.system.mass;
-  full.static_force = model.system.centrifugal;
-  full.cosine_force = model.system.tip;
-  full.sine_force = Eigen::MatrixXd::Zero(model.system.size(), 1);
-  full.outputs = model.system.tip;
+  full.stiffness = fem::constrain(model.matrices->stiffness, model.matrices->system.constraints);
+  full.mass = model.matrices->system.mass;
+  full.static_force = model.matrices->system.centrifugal;
+  full.cosine_force = model.matrices->system.tip;
+  full.sine_force = Eigen::MatrixXd::Zero(model.matrices->system.size(), 1);
+  full.outputs = model.matrices->system.tip;
   full.output_names = {"tip_x"};
   full.contact = model.trace.contact;
   Eigen::SparseMatrix<double> same(full.contact.count(), full.contact.count());
