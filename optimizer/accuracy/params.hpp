@@ -10,7 +10,7 @@ namespace dovetail::optimizer {
 /// Settings that are tried, coarse to fine. A study's own value is one of them, too.
 struct SettingLadders {
   std::array<double, 11> mesh{0.5, 0.667, 0.833, 1, 1.333, 1.667,
-                              2,   2.667, 3.333, 4, 5.333};          ///< edges over the study's
+                              2,   2.667, 3.333, 4, 5.333};      ///< edges over the study's
   std::array<int, 9> harmonics{3, 5, 7, 9, 11, 15, 19, 23, 31};  ///< even ones hardly move of flanks under pressure
   std::array<int, 9> samples{64, 96, 128, 192, 256, 384, 512, 768, 1024};
   std::array<int, 9> modes{4, 6, 8, 12, 16, 20, 30, 45, 60};

@@ -160,6 +160,8 @@ class ErrorBarSources {
     ask(bases, "modes", kCompanion.modes_factor, {[](Scene& changed, Computation&) {
           changed.solver.modes = std::max(2 * changed.solver.modes, changed.solver.modes + kCompanion.more_modes);
         }});
+    if (scene_.solver.prestress == Prestress::matched)
+      ask(bases, "prestress", 1, {[](Scene& changed, Computation&) { changed.solver.prestress = Prestress::own; }});
     if (as_here_.until < Stage::unworn) return;  // nothing moves
     ask(bases, "harmonics", factors.harmonics, {[](Scene& changed, Computation&) {
           changed.solver.harmonics = 2 * changed.solver.harmonics + 1;
@@ -180,7 +182,8 @@ class ErrorBarSources {
         Computation how = as_here_;
         change(changed, how);
         if (!base.model) base.model = base.builder->build(base.scene);
-        const bool same = changed.solver.modes == base.scene.solver.modes;
+        const bool same =
+            changed.solver.modes == base.scene.solver.modes && changed.solver.prestress == base.scene.solver.prestress;
         answer = companion(changed, same ? *base.model : base.builder->build(changed), how);
         if (answer.converged()) return bars_.add(source, {{&answer, same_for_all(factor)}}, *base.answer);
       }

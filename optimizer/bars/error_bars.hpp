@@ -22,20 +22,21 @@ struct Computation;
 /// - pseudo_penalty: 1/2 d to half of it, or to twice as much where half has no answer, which acts through the
 ///   harmonics left out.
 /// - modes: d to twice as many: 1.5 d, as the error falls like the square of the first frequency left out.
+/// - prestress: d to the design's own preload in place of the one on matched flanks.
 /// - edge: ends of worn zones that went to and fro between two grids, in proportion to how far.
 /// - history: where the wear history decided against the direct method, by how much they differ; where it confirmed
 ///   what was in doubt, a part of a node at the ends of worn zones, as the history wears off whole nodes; all of the
 ///   worn shape where it was in doubt and no history came to an end.
 /// - search: what the tolerance of the resonance search leaves.
 ///
-/// Harmonics, samples, pseudo-penalty and modes are asked of the first coarser companion that converged, at a fraction
-/// of the cost; where they have no answer there, of the next, in the end on the design's own mesh. The bar is the sum.
-/// Responses add what their own computation knows of its error. One without a limit is `unbounded`, and whatever
-/// companions none of which converged leave open (with a message).
+/// Harmonics, samples, pseudo-penalty, modes and prestress are asked of the first coarser companion that converged, at
+/// a fraction of the cost; where they have no answer there, of the next, in the end on the design's own mesh. The bar
+/// is the sum. Responses add what their own computation knows of its error. One without a limit is `unbounded`, and
+/// whatever companions none of which converged leave open (with a message).
 /// @param builder  of the design's own mesh
 /// @param how  the design was computed: what it leaves out has no bars, and companions leave it out, too
-/// Cost: an evaluation on a finer mesh, five on coarser ones and one or two on other grids of contact nodes; in space
-/// two on coarser meshes and six or seven as large as the design's own. Each has a budget of its own.
+/// Cost: an evaluation on a finer mesh, six on coarser ones and one or two on other grids of contact nodes; in space
+/// two on coarser meshes and seven or eight as large as the design's own. Each has a budget of its own.
 void add_error_bars(const Scene& scene, const ModelBuilder& builder, const OtherMeshes& others, const Computation& how,
                     CandidateResult& result);
 

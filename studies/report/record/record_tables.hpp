@@ -38,13 +38,17 @@ inline constexpr auto kFields<DesignVariable> =
 template <>
 inline constexpr auto kFields<ObjectiveTerm> =
     std::tuple{RecordField{"response", &ObjectiveTerm::response}, RecordField{"weight", &ObjectiveTerm::weight},
-               RecordField{"scale", &ObjectiveTerm::scale}, RecordField{"absolute", &ObjectiveTerm::absolute}};
+               RecordField{"scale", &ObjectiveTerm::scale}, RecordField{"absolute", &ObjectiveTerm::absolute},
+               RecordField{"accuracy", &ObjectiveTerm::accuracy, true}};
 
 template <>
 inline constexpr auto kFields<ResponseConstraint> =
-    std::tuple{RecordField{"response", &ResponseConstraint::response}, RecordField{"lower", &ResponseConstraint::lower},
-               RecordField{"upper", &ResponseConstraint::upper}, RecordField{"scale", &ResponseConstraint::scale},
-               RecordField{"absolute", &ResponseConstraint::absolute}};
+    std::tuple{RecordField{"response", &ResponseConstraint::response},
+               RecordField{"lower", &ResponseConstraint::lower},
+               RecordField{"upper", &ResponseConstraint::upper},
+               RecordField{"scale", &ResponseConstraint::scale},
+               RecordField{"absolute", &ResponseConstraint::absolute},
+               RecordField{"accuracy", &ResponseConstraint::accuracy, true}};
 
 template <>
 inline constexpr auto kFields<geometry::Edge> =

@@ -24,7 +24,9 @@ TEST(OptimizerOptions, DifferenceStepGrowsWithNoise) {
   OptimizerOptions options;
   options.noise = 1e-6;
   EXPECT_DOUBLE_EQ(difference_step(options), 2e-3);
-  options.noise = 0;
+  options.noise = 0;  // not known
+  EXPECT_DOUBLE_EQ(difference_step(options), 2e-3);
+  options.noise = 1e-20;
   EXPECT_DOUBLE_EQ(difference_step(options), 1e-7);
   options.noise = 0.5;
   EXPECT_DOUBLE_EQ(difference_step(options), 0.1);

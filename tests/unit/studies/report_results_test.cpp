@@ -59,14 +59,14 @@ bool same(const optimizer::DesignVariable& a, const optimizer::DesignVariable& b
   return a1 == b1 && same(a2, b2) && same(a3, b3) && same(a4, b4);
 }
 bool same(const optimizer::ObjectiveTerm& a, const optimizer::ObjectiveTerm& b) {
-  const auto& [a1, a2, a3, a4] = a;
-  const auto& [b1, b2, b3, b4] = b;
-  return a1 == b1 && same(a2, b2) && same(a3, b3) && a4 == b4;
-}
-bool same(const optimizer::ResponseConstraint& a, const optimizer::ResponseConstraint& b) {
   const auto& [a1, a2, a3, a4, a5] = a;
   const auto& [b1, b2, b3, b4, b5] = b;
-  return a1 == b1 && a2 == b2 && a3 == b3 && same(a4, b4) && a5 == b5;
+  return a1 == b1 && same(a2, b2) && same(a3, b3) && a4 == b4 && same(a5, b5);
+}
+bool same(const optimizer::ResponseConstraint& a, const optimizer::ResponseConstraint& b) {
+  const auto& [a1, a2, a3, a4, a5, a6] = a;
+  const auto& [b1, b2, b3, b4, b5, b6] = b;
+  return a1 == b1 && a2 == b2 && a3 == b3 && same(a4, b4) && a5 == b5 && same(a6, b6);
 }
 bool same(const geometry::Edge& a, const geometry::Edge& b) {
   const auto& [a1, a2, a3, a4, a5, a6] = a;

@@ -122,11 +122,11 @@ TEST(SectionEvaluation, ReducedModelAgreesWithTheFullOneAtEveryHarmonic) {
   full.sine_force = Eigen::MatrixXd::Zero(model.matrices->system.size(), 1);
   full.outputs = model.matrices->system.tip;
   full.output_names = {"tip_x"};
-  full.contact = model.trace.contact;
+  full.contact = model.matrices->trace.contact;
   Eigen::SparseMatrix<double> same(full.contact.count(), full.contact.count());
   same.setIdentity();
   const reduction::Reduction reduced =
-      reduction::reduce(model.trace, same, full.contact, coarse_scene().loading.damping_ratio);
+      reduction::reduce(model.matrices->trace, same, full.contact, coarse_scene().loading.damping_ratio);
   // 1.001: beside the resonance of the glued blade, where Z is large but finite.
   const std::array<double, 4> at{0.0, 1.01 * omega, 2 * omega, 3 * omega};
   for (const reduction::StiffnessError& error : reduction::compare(full, reduced, at)) {
@@ -349,6 +349,57 @@ TEST(SectionEvaluation, StopsAfterTheStageAskedForWithinTheBars) {
         EXPECT_EQ(some.responses.at(name), all.responses.at(name)) << name;
       }
     }
+  }
+}
+
+// What the flanks are like changes no matrix, and matrices computed before change no result.
+TEST(SectionEvaluation, DesignsThatDifferOnTheFlanksShareTheirMatrices) {
+  const ModelBuilder builder(coarse_scene());
+  const CandidateModel first = builder.build(coarse_scene());
+  ASSERT_TRUE(first.converged()) << first.status;
+  EXPECT_TRUE(first.timings_s.contains("reduction"));
+  Scene other = coarse_scene();
+  for (geometry::FlankParameters& flank : other.geometry.flanks) {
+    flank.mismatch += 4e-6;
+    flank.crown += 2e-6;
+  }
+  other.contact.friction *= 0.9;
+  const CandidateModel again = builder.build(other);
+  EXPECT_EQ(again.matrices, first.matrices);
+  EXPECT_FALSE(again.timings_s.contains("reduction"));
+  const CandidateModel fresh = ModelBuilder(coarse_scene()).build(other);
+  EXPECT_NE(fresh.matrices, first.matrices);
+  EXPECT_EQ(again.model.stiffness, fresh.model.stiffness);
+  EXPECT_EQ(again.preload.pressure, fresh.preload.pressure);
+  for (const char* key : {"geometry.neck_width_mm", "scene.speed_rpm", "material.blade.density_kg_m3",
+                          "loading.tip_force_n", "geometry.slot_length_mm"}) {
+    Scene changed = coarse_scene();
+    set_parameter(changed, key, 1.01 * parameter(changed, key));
+    EXPECT_NE(builder.build(changed).matrices, builder.build(coarse_scene()).matrices) << key;
+  }
+  // The design's own prestress hangs on its gaps.
+  other.solver.prestress = Prestress::own;
+  EXPECT_NE(builder.build(other).matrices, builder.build(coarse_scene()).matrices);
+}
+
+// The preload on matched flanks stresses the structure as the design's own does: within the bar that it has for that,
+// which is a small part of the whole.
+TEST(SectionEvaluation, PrestressOfMatchedFlanksIsWithinItsBar) {
+  Scene scene = coarse_scene();
+  for (geometry::FlankParameters& flank : scene.geometry.flanks) {
+    flank.mismatch = 15e-6;
+    flank.crown = 5e-6;
+  }
+  const Evaluation matched = evaluator().evaluate(scene).evaluation;
+  scene.solver.prestress = Prestress::own;
+  const Evaluation own = evaluator().evaluate(scene, {.bars = false}).evaluation;
+  ASSERT_TRUE(matched.converged() && own.converged()) << matched.status << own.status;
+  for (const char* name : {"glued_frequency_hz", "resonance_hz", "peak_amplitude_m", "asymptotic_wear_volume_m3"}) {
+    const double change = std::abs(matched.responses.at(name) - own.responses.at(name));
+    const double bar = matched.error_sources.at(name).at("prestress");
+    EXPECT_GT(change, 0) << name;
+    EXPECT_LT(change, 3 * bar + 1e-6 * matched.responses.at(name)) << name;
+    EXPECT_LT(bar, 0.3 * matched.error_estimates.at(name)) << name;
   }
 }
 
