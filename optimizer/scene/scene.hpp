@@ -64,7 +64,7 @@ struct SolverSettings {
   int modes = 20;                     ///< free-interface modes kept
   double tolerance = 1e-9;            ///< relative residual of the steady state
   double resonance_tolerance = 1e-7;  ///< of the frequency of a resonance, relative
-  Prestress prestress = Prestress::matched;
+  Prestress prestress = Prestress::own;
   steady::Solver solver = steady::Solver::automatic;
   double pseudo_penalty = 0;         ///< eps of all contact nodes, N/m; 0: from the model
   double pseudo_penalty_normal = 0;  ///< eps in the normal direction, N/m; 0: pseudo_penalty

@@ -133,7 +133,8 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
           ->evaluate(study.scene,
                      {.bars = !options.no_bars && !options.unworn,
                       .history = !options.no_history,
-                      .until = options.unworn ? optimizer::Stage::unworn : optimizer::Stage::worn_resonance})
+                      .until = options.unworn ? optimizer::Stage::unworn : optimizer::Stage::worn_resonance,
+                      .to_worn_zones = true})
           .evaluation;
   if (automatic && *automatic != Status::converged)
     evaluation.messages.push_back(

@@ -28,9 +28,15 @@ constexpr const char* kFile = "settings.json";
 /// Of objectives without bars, or of which there is nothing at the start.
 constexpr double kUnknownNoise = 0.02;
 
+/// What the bars of the start say of differences between designs. No history is asked in a search: a doubt that only
+/// one settles is no noise.
 double noise_of(const Study& study, const optimizer::Evaluation& start) {
+  std::map<std::string, double> bars;
+  for (const auto& [response, sources] : start.error_sources)
+    for (const auto& [source, bar] : sources)
+      if (source != "history") bars[response] += bar;
   const double objective = judge(study.problem, start, study.optimizer.constraint_tolerance).objective;
-  const double bar = judgement_bars(study.problem, start.error_estimates).objective;
+  const double bar = judgement_bars(study.problem, bars).objective;
   if (!std::isfinite(objective) || !std::isfinite(bar) || objective == 0) return kUnknownNoise;
   return std::clamp(bar / std::abs(objective), 1e-6, 0.5);
 }

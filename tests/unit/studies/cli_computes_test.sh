@@ -134,7 +134,9 @@ if command -v python3 > /dev/null; then
 import json
 records = [json.loads(line)["record"] for line in open("o/journal.jsonl")][1:]
 least = min((r for r in records if r["feasible"]), key=lambda r: r["responses"]["asymptotic_wear_volume_m3"])
-assert json.load(open("best.json"))["responses"] == least["responses"]
+best = json.load(open("best.json"))["responses"]
+# A candidate of a search is computed as far as its objective and limits need it.
+assert least["responses"] and all(best[name] == value for name, value in least["responses"].items())
 PYTHON
 fi
 expect 0 report o -o page.html; same page.html o/report.html
