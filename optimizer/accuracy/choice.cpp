@@ -72,10 +72,19 @@ class Forecast {
         if (part.response != old.response || part.source != old.source) continue;
         part.order = old.order;
         const double ratio = finer(part.knob, at_, was), expected = order(*part.response, part.source, part.knob);
-        if (ratio != 1)
+        if (ratio != 1 && old.share > 0 && part.share > 0)
           part.order = std::clamp(std::log(old.share / part.share) / std::log(ratio), expected / kParams.order_off,
                                   expected * kParams.order_off);
       }
+  }
+
+  /// Responses asked for by name of which nothing is known.
+  [[nodiscard]] std::vector<std::string> not_held() const {
+    std::vector<std::string> names;
+    for (const std::string& name : goal_->responses)
+      if (std::ranges::none_of(parts_, [&](const Part& part) { return part.response->name == name; }))
+        names.push_back(name);
+    return names;
   }
 
   /// Largest bar over what is allowed of it.
@@ -140,7 +149,7 @@ class Forecast {
         std::ranges::find(evaluation.unbounded, name) != evaluation.unbounded.end())
       return;
     for (const auto& [source, bar] : bars->second)
-      if (const Knob knob = knob_of(source); knob != Knob::none && bar > 0)
+      if (const Knob knob = knob_of(source); knob != Knob::none)
         parts_.push_back({.response = &response,
                           .source = source,
                           .knob = knob,
@@ -227,13 +236,17 @@ SettingsChoice choose_settings(const Scene& scene, const AccuracyGoal& goal, con
     SettingsTried tried{.settings = next, .status = evaluation.status};
     if (evaluation.converged()) {
       forecast.add(next, evaluation);
-      tried.excess = forecast.excess(next);
       tried.by = forecast.dominant();
+      if (tried.by) tried.excess = forecast.excess(next);
       tried.operations = forecast.operations(next);
+      if (!best) choice.not_held = forecast.not_held();
+    }
+    if (tried.by) {
       if (!best || better(tried, choice.tried)) {
         choice.settings = next;
         choice.tried = tried;
         choice.evaluation = evaluation;
+        choice.not_held = forecast.not_held();
         best = forecast;
       }
     } else {

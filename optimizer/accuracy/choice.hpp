@@ -44,12 +44,14 @@ struct SettingsTried {
 /// Settings for the accuracy asked for, at least cost as far as bars foresee it.
 struct SettingsChoice {
   /// converged: all responses are accurate enough; iteration_limit: not reached, these are the most accurate ones
-  /// tried; stalled: the scene has no bars at its own settings, which stay.
+  /// tried; stalled: at
+  /// the scene's own settings no response asked for has a value and a bar, and they stay.
   Status status = Status::iteration_limit;
   Settings settings;
   SettingsTried tried;                ///< at those settings
   std::vector<SettingsTried> rounds;  ///< all
   Evaluation evaluation;              ///< at those settings, with bars
+  std::vector<std::string> not_held;  ///< responses asked for that have no value or no bar there
   /// Foreseen for a tenth of the bars; without a value where no settings there are would reach it.
   struct Digit {
     Settings settings;

@@ -16,8 +16,8 @@ struct SettingLadders {
   std::array<int, 9> modes{4, 6, 8, 12, 16, 20, 30, 45, 60};
 };
 
-/// How settings are foreseen from an evaluation with bars. Orders and powers are of sections with 34 to 208 contact
-/// nodes; off by one: another round.
+/// How settings are foreseen from an evaluation with bars. Powers in the plane are of sections with 34 to 208 contact
+/// nodes, all else was chosen on one of them, and those in space are estimates. Off by one: another round.
 struct SettingsParams {
   double by_harmonics = 1.5;  ///< order of what harmonics and the pseudo-penalty leave, by 2H+1
   double by_samples = 1;      ///< of samples

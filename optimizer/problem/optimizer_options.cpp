@@ -7,11 +7,8 @@ namespace dovetail::optimizer {
 
 namespace {
 
-/// Where nobody knows it.
-constexpr double kNoise = 1e-6;
-
 double noise_of(const OptimizerOptions& options) {
-  return options.noise > 0 ? options.noise : kNoise;
+  return options.noise > 0 ? options.noise : NoiseParams{}.unknown;
 }
 
 }  // namespace

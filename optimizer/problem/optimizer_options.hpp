@@ -80,6 +80,13 @@ struct OptimizerOptions {
   int verify = 3;  ///< >= 0; best designs verified by the full wear history after the search
 };
 
+/// Noise where it is not given.
+struct NoiseParams {
+  double unknown = 1e-6;      ///< nothing is known of it; never less follows from bars
+  double unknown_bar = 0.02;  ///< the objective has no bar, or there is nothing of it at the start
+};
+static_assert(NoiseParams{}.unknown < NoiseParams{}.unknown_bar, "in doubt longer steps");
+
 /// Step of finite differences in unit coordinates that balances noise (1e-6 where it is not known) and truncation:
 /// forward 2 sqrt(noise), central cbrt(3 noise), within [1e-7, 0.1].
 [[nodiscard]] double difference_step(const OptimizerOptions& options);

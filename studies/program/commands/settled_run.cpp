@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <ostream>
 
 #include "core/replace_file.hpp"
 #include "optimizer/journal/fingerprint.hpp"
-#include "optimizer/journal/record_json.hpp"
 #include "studies/program/answers/accuracy_json.hpp"
 #include "studies/program/answers/version.hpp"
 #include "studies/program/engine/settled_study.hpp"
@@ -25,9 +24,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kFile = "settings.json";
 
-/// Of objectives without bars, or of which there is nothing at the start.
-constexpr double kUnknownNoise = 0.02;
-
 /// What the bars of the start say of differences between designs. No history is asked in a search: a doubt that only
 /// one settles is no noise.
 double noise_of(const Study& study, const optimizer::Evaluation& start) {
@@ -37,8 +33,8 @@ double noise_of(const Study& study, const optimizer::Evaluation& start) {
       if (source != "history") bars[response] += bar;
   const double objective = judge(study.problem, start, study.optimizer.constraint_tolerance).objective;
   const double bar = judgement_bars(study.problem, bars).objective;
-  if (!std::isfinite(objective) || !std::isfinite(bar) || objective == 0) return kUnknownNoise;
-  return std::clamp(bar / std::abs(objective), 1e-6, 0.5);
+  if (!std::isfinite(objective) || !std::isfinite(bar) || objective == 0) return optimizer::NoiseParams{}.unknown_bar;
+  return std::clamp(bar / std::abs(objective), optimizer::NoiseParams{}.unknown, 0.5);
 }
 
 /// What was chosen before for the same question; null otherwise.

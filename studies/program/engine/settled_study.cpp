@@ -38,8 +38,12 @@ std::string round_words(const Study& study, const optimizer::SettingsTried& trie
 }
 
 std::string accuracy_complaint(const optimizer::SettingsChoice& choice) {
+  if (!choice.tried.by)
+    return "no settings could be chosen: at the design's own ones no response asked for has a value and an error bar";
+  if (choice.status == Status::converged && !choice.not_held.empty())
+    return fmt::format("settings were chosen without {}: no value, or no error bar, says how accurate it is",
+                       fmt::join(choice.not_held, ", "));
   if (choice.status == Status::converged) return {};
-  if (!choice.tried.by) return "no settings could be chosen: the design has no error bars at its own ones";
   return fmt::format(
       "the accuracy asked for is not reached: {} is known to {:.2g} %, asked for {:.2g} %; most of it is "
       "left by {}",

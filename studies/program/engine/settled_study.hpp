@@ -1,6 +1,5 @@
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 
@@ -20,7 +19,7 @@ std::optional<optimizer::SettingsChoice> settle(Study& study, const optimizer::A
 
 /// A round in a line for people.
 [[nodiscard]] std::string round_words(const Study& study, const optimizer::SettingsTried& tried);
-/// What was not reached and why; empty where everything was.
+/// What was not reached or not held to it, and why; empty where everything was.
 [[nodiscard]] std::string accuracy_complaint(const optimizer::SettingsChoice& choice);
 
 }  // namespace dovetail::studies

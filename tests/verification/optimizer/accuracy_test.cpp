@@ -104,6 +104,25 @@ TEST(Accuracy, WhatNoSettingBuysIsLeftOut) {
   EXPECT_EQ(choice.status, Status::converged);
 }
 
+// Of a response without a value, or without a bar, no settings are known to be accurate enough.
+TEST(Accuracy, IsNotReachedWhereNothingIsHeldToIt) {
+  const SettingsChoice none = choose_settings(Scene{}, kGoal, [](const Settings& s) {
+    Evaluation evaluation = Laws{}.probe()(s);
+    evaluation.responses[kVolume] = 0;
+    return evaluation;
+  });
+  EXPECT_EQ(none.status, Status::stalled);
+  EXPECT_TRUE(none.settings == settings_of(Scene{}));
+  EXPECT_EQ(none.rounds.size(), 1U);
+  EXPECT_EQ(none.not_held, std::vector<std::string>{kVolume});
+  // Others are held all the same, and it is said which are not.
+  AccuracyGoal goal = kGoal;
+  goal.responses.emplace_back("peak_amplitude_m");
+  const SettingsChoice one = choose_settings(Scene{}, goal, Laws{}.probe());
+  EXPECT_EQ(one.status, Status::converged);
+  EXPECT_EQ(one.not_held, std::vector<std::string>{"peak_amplitude_m"});
+}
+
 TEST(Accuracy, OfOneResponseMayBeAnother) {
   AccuracyGoal goal = kGoal;
   goal.of[kVolume] = 0.005;
