@@ -11,26 +11,13 @@ double noise_of(const OptimizerOptions& options) {
   return options.noise > 0 ? options.noise : NoiseParams{}.unknown;
 }
 
-}  // namespace
+using O = OptimizerOptions;
+using Fields = std::vector<Field<O>>;
 
-double difference_step(const OptimizerOptions& options) {
-  const double noise = noise_of(options);
-  const double step = options.difference == Difference::central ? std::cbrt(3 * noise) : 2 * std::sqrt(noise);
-  return std::clamp(step, 1e-7, 0.1);
-}
-
-double stopping_step(const OptimizerOptions& options) {
-  return std::min(std::max(options.step_tolerance, 0.1 * std::sqrt(noise_of(options))), options.initial_step / 2);
-}
-
-}  // namespace dovetail::optimizer
-
-template <>
-std::span<const dovetail::Field<dovetail::optimizer::OptimizerOptions>>
-dovetail::option_table<dovetail::optimizer::OptimizerOptions>() {
-  using O = optimizer::OptimizerOptions;
+/// How the search moves and when it ends.
+Fields fields_of_the_search() {
   constexpr Range share{.lower = 0, .upper = 0.5, .lower_open = true};
-  static const std::vector<Field<O>> table{
+  return {
       {.key = "algorithm", .member = &O::algorithm, .help = "Search algorithm."},
       {.key = "max_evaluations",
        .member = &O::max_evaluations,
@@ -66,6 +53,13 @@ dovetail::option_table<dovetail::optimizer::OptimizerOptions>() {
        .member = &O::restart_factor,
        .range = {.lower = 0, .upper = 1, .lower_open = true},
        .help = "First step of a restart by that of the run before."},
+      {.key = "difference", .member = &O::difference, .help = "Finite differences of gradient methods."},
+  };
+}
+
+/// What is asked of a candidate, and of the best ones once the search is over.
+Fields fields_of_candidates() {
+  return {
       {.key = "constraint_tolerance",
        .member = &O::constraint_tolerance,
        .range = kNonNegative,
@@ -74,7 +68,6 @@ dovetail::option_table<dovetail::optimizer::OptimizerOptions>() {
        .member = &O::constraint_margin,
        .range = kNonNegative,
        .help = "Algorithms aim at normalised constraints at or below minus this."},
-      {.key = "difference", .member = &O::difference, .help = "Finite differences of gradient methods."},
       {.key = "responses",
        .member = &O::responses,
        .help = "What a candidate answers with: needed stops after the stage that the last response of objective and "
@@ -93,5 +86,31 @@ dovetail::option_table<dovetail::optimizer::OptimizerOptions>() {
        .range = {.lower = 0, .upper = 100},
        .help = "Best designs whose wear `run` verifies by the full history at finer settings after the search."},
   };
+}
+
+/// The first and then the second.
+Fields joined(Fields first, const Fields& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+}  // namespace
+
+double difference_step(const OptimizerOptions& options) {
+  const double noise = noise_of(options);
+  const double step = options.difference == Difference::central ? std::cbrt(3 * noise) : 2 * std::sqrt(noise);
+  return std::clamp(step, 1e-7, 0.1);
+}
+
+double stopping_step(const OptimizerOptions& options) {
+  return std::min(std::max(options.step_tolerance, 0.1 * std::sqrt(noise_of(options))), options.initial_step / 2);
+}
+
+}  // namespace dovetail::optimizer
+
+template <>
+std::span<const dovetail::Field<dovetail::optimizer::OptimizerOptions>>
+dovetail::option_table<dovetail::optimizer::OptimizerOptions>() {
+  static const auto table = optimizer::joined(optimizer::fields_of_the_search(), optimizer::fields_of_candidates());
   return table;
 }

@@ -132,13 +132,11 @@ std::span<const Field<optimizer::SolverSettings>> option_table<optimizer::Solver
                .member = &S::resonance_tolerance,
                .range = {.lower = 1e-8, .upper = 1e-4},
                .help = "relative accuracy of the frequency of a resonance"},
-      Field<S>{
-          .key = "prestress",
-          .member = &S::prestress,
-          .help =
-              "flanks whose preload stresses the structure while it vibrates; own: the design's own, matched: without "
-              "gaps "
-              "and with the friction in the middle of its range, so that designs with one mesh share their matrices"},
+      Field<S>{.key = "prestress",
+               .member = &S::prestress,
+               .help = "flanks whose preload stresses the structure while it vibrates; own: the design's own, matched: "
+                       "without gaps and with the friction in the middle of its range, so that designs with one mesh "
+                       "share their matrices"},
       Field<S>{.key = "accuracy",
                .member = &S::accuracy,
                .range = {.lower = optimizer::kAccuracyRange.lower,
