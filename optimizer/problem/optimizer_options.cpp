@@ -17,7 +17,7 @@ using Fields = std::vector<Field<O>>;
 /// How the search moves and when it ends.
 Fields fields_of_the_search() {
   constexpr Range share{.lower = 0, .upper = 0.5, .lower_open = true};
-  return {
+  Fields fields{
       {.key = "algorithm", .member = &O::algorithm, .help = "Search algorithm."},
       {.key = "max_evaluations",
        .member = &O::max_evaluations,
@@ -55,11 +55,12 @@ Fields fields_of_the_search() {
        .help = "First step of a restart by that of the run before."},
       {.key = "difference", .member = &O::difference, .help = "Finite differences of gradient methods."},
   };
+  return fields;
 }
 
 /// What is asked of a candidate, and of the best ones once the search is over.
 Fields fields_of_candidates() {
-  return {
+  Fields fields{
       {.key = "constraint_tolerance",
        .member = &O::constraint_tolerance,
        .range = kNonNegative,
@@ -86,6 +87,7 @@ Fields fields_of_candidates() {
        .range = {.lower = 0, .upper = 100},
        .help = "Best designs whose wear `run` verifies by the full history at finer settings after the search."},
   };
+  return fields;
 }
 
 /// The first and then the second.
