@@ -54,54 +54,87 @@ TraceModel failed(TraceModel result, Status status, const char* message) {
   return result;
 }
 
-/// Lambda + Phi_r^T G^-1 Phi_r [m, m].
-Eigen::MatrixXd glued_stiffness(const RitzBasis& basis, const numerics::DenseCholesky& flexibility,
-                                const Eigen::MatrixXd& on_contact) {
-  Eigen::MatrixXd glued = numerics::transposed_product(on_contact, flexibility.solve(on_contact));
-  glued = (0.5 * (glued + glued.transpose())).eval();
-  glued.diagonal() += basis.eigenvalues;
-  return glued;
+using Sparse = Eigen::SparseMatrix<double>;
+
+Eigen::MatrixXd symmetric(const Eigen::MatrixXd& matrix) {
+  return 0.5 * (matrix + matrix.transpose());
 }
 
-/// Mass, damping and stiffness in contact displacements and glued modes of these squared frequencies, which move the
-/// contact of the free structure by `on_contact` [nc, m].
-ReducedModel in_glued_modes(const numerics::DenseCholesky& flexibility, const Eigen::MatrixXd& on_contact,
-                            const Eigen::VectorXd& squares, double damping_ratio) {
-  const Eigen::Index contact = on_contact.rows(), modes = on_contact.cols(), n = contact + modes;
+/// The stiffness of a trace in displacements u of contact nodes, whose flexibility is G, and coordinates q of the
+/// basis, which moves them by Phi_r in a free structure.
+struct Blocks {
+  Eigen::MatrixXd contact;   ///< G^-1 [nc, nc]
+  Eigen::MatrixXd coupling;  ///< -G^-1 Phi_r [nc, m]
+  Eigen::MatrixXd glued;     ///< Lambda + Phi_r^T G^-1 Phi_r [m, m]
+
+  Blocks(const RitzBasis& basis, const numerics::DenseCholesky& flexibility, const Eigen::MatrixXd& on_contact)
+      : contact(symmetric(flexibility.solve(Eigen::MatrixXd::Identity(on_contact.rows(), on_contact.rows())))),
+        coupling(-flexibility.solve(on_contact)),
+        glued(symmetric(numerics::transposed_product(on_contact, -coupling))) {
+    glued.diagonal() += basis.eigenvalues;
+  }
+
+  /// Adds Psi^T D Psi, with the fields of unit coordinates Psi = [X A^T, Phi] [[G^-1, -G^-1 Phi_r], [0, I]].
+  void add(const Sparse& change, const ResidualFlexibility& structure, const Sparse& average) {
+    const Eigen::MatrixXd& phi = structure.basis().vectors;
+    const Eigen::Index nc = contact.rows(), m = phi.cols();
+    Eigen::MatrixXd fields(phi.rows(), nc + m);
+    fields << structure.field(Eigen::MatrixXd::Zero(m, nc), Eigen::MatrixXd(average.transpose())), phi;
+    Eigen::MatrixXd coordinates = Eigen::MatrixXd::Identity(nc + m, nc + m);
+    coordinates.topRows(nc) << contact, coupling;
+    const Eigen::MatrixXd of_fields = numerics::transposed_product(fields, change * fields);
+    const Eigen::MatrixXd added =
+        symmetric(numerics::transposed_product(coordinates, numerics::product(of_fields, coordinates)));
+    contact += added.topLeftCorner(nc, nc);
+    coupling += added.topRightCorner(nc, m);
+    glued += added.bottomRightCorner(m, m);
+  }
+};
+
+/// Mass, damping and stiffness in contact displacements and glued modes: `modes` are pairs of the glued stiffness.
+ReducedModel in_glued_modes(const Blocks& blocks, const numerics::SymmetricPairs& modes, double damping_ratio) {
+  const Eigen::Index contact = blocks.contact.rows(), m = modes.values.size(), n = contact + m;
   ReducedModel model;
   model.mass = Eigen::MatrixXd::Zero(n, n);
-  model.mass.diagonal().tail(modes).setOnes();
+  model.mass.diagonal().tail(m).setOnes();
   model.damping = Eigen::MatrixXd::Zero(n, n);
-  model.damping.diagonal().tail(modes) = 2 * damping_ratio * squares.cwiseSqrt();
+  model.damping.diagonal().tail(m) = 2 * damping_ratio * modes.values.cwiseSqrt();
   model.stiffness = Eigen::MatrixXd::Zero(n, n);
-  const Eigen::MatrixXd inverse = flexibility.solve(Eigen::MatrixXd::Identity(contact, contact));
-  model.stiffness.topLeftCorner(contact, contact) = 0.5 * (inverse + inverse.transpose());
-  const Eigen::MatrixXd coupling = -flexibility.solve(on_contact);
-  model.stiffness.topRightCorner(contact, modes) = coupling;
-  model.stiffness.bottomLeftCorner(modes, contact) = coupling.transpose();
-  model.stiffness.diagonal().tail(modes) = squares;
+  model.stiffness.topLeftCorner(contact, contact) = blocks.contact;
+  const Eigen::MatrixXd coupling = numerics::product(blocks.coupling, modes.vectors);
+  model.stiffness.topRightCorner(contact, m) = coupling;
+  model.stiffness.bottomLeftCorner(m, contact) = coupling.transpose();
+  model.stiffness.diagonal().tail(m) = modes.values;
   return model;
 }
 
 }  // namespace
 
 Eigen::VectorXd glued_frequencies(const TraceModel& trace) {
-  const RitzBasis& basis = trace.structure->basis();
-  const Eigen::MatrixXd& flexibility = trace.structure->on_contact();
-  const Eigen::MatrixXd on_contact = basis.vectors.bottomRows(flexibility.rows());
-  const numerics::DenseCholesky g(flexibility);
-  const Eigen::Index modes = on_contact.cols();
-  if (g.status() != Status::converged) return Eigen::VectorXd::Constant(modes, kUnknown);
-  const numerics::SymmetricPairs glued = numerics::all_values<double>(glued_stiffness(basis, g, on_contact));
-  if (glued.status != Status::converged) return Eigen::VectorXd::Constant(modes, kUnknown);
-  return glued.values.cwiseMax(0.0).cwiseSqrt();
+  const ResidualFlexibility& structure = *trace.structure;
+  const RitzBasis& basis = structure.basis();
+  const Eigen::Index contact = structure.on_contact().rows(), m = basis.vectors.cols();
+  const Eigen::VectorXd unknown = Eigen::VectorXd::Constant(m, kUnknown);
+  const numerics::DenseCholesky g(structure.on_contact());
+  if (g.status() != Status::converged) return unknown;
+  const Eigen::MatrixXd on_contact = basis.vectors.bottomRows(contact);
+  const Eigen::MatrixXd forces = -g.solve(on_contact);
+  Eigen::MatrixXd glued = symmetric(numerics::transposed_product(on_contact, -forces));
+  glued.diagonal() += basis.eigenvalues;
+  if (trace.change) {
+    const Eigen::MatrixXd fields = structure.field(Eigen::MatrixXd::Identity(m, m), forces);
+    glued += symmetric(numerics::transposed_product(fields, *trace.change * fields));
+  }
+  const numerics::SymmetricPairs pairs = numerics::all_values<double>(glued);
+  if (pairs.status != Status::converged) return unknown;
+  return pairs.values.cwiseMax(0.0).cwiseSqrt();
 }
 
 TraceModel trace_model(const FullModel& full, const ReductionOptions& options) {
   check(full, options);
   TraceModel result;
   Clock::time_point start = Clock::now();
-  const Eigen::SparseMatrix<double> mass = full.mass.pruned();
+  const Sparse mass = full.mass.pruned();
   const auto stiffness = std::make_shared<numerics::PartialCholesky>();
   const Status factorised = stiffness->factorise(full.stiffness, full.contact_size());
   result.seconds_factorisation = lap(start);
@@ -143,24 +176,23 @@ TraceModel trace_model(const FullModel& full, const ReductionOptions& options) {
   return result;
 }
 
-Reduction reduce(const TraceModel& trace, const Eigen::SparseMatrix<double>& average, ContactNodes contact,
-                 double damping_ratio) {
+Reduction reduce(const TraceModel& trace, const Sparse& average, ContactNodes contact, double damping_ratio) {
   Reduction result;
   static_cast<ModesRecord&>(result) = trace;
   if (trace.status != Status::converged) return result;
 
   const RitzBasis& basis = trace.structure->basis();
   result.free_eigenvalues = basis.eigenvalues;
-  const Eigen::SparseMatrix<double> a = for_directions(average, contact.directions());
-  const Eigen::MatrixXd flexibility = a * trace.structure->on_contact() * a.transpose();
-  const numerics::DenseCholesky g(0.5 * (flexibility + flexibility.transpose()));
+  const Sparse a = for_directions(average, contact.directions());
+  const numerics::DenseCholesky g(symmetric(a * trace.structure->on_contact() * a.transpose()));
   if (!(g.reciprocal_condition() > FlexibilityParams{}.singular)) {
     result.status = Status::singular;
     result.message = "the residual flexibility of the contact is not positive definite: too many modes are kept";
     return result;
   }
-  const Eigen::MatrixXd free_on_contact = a * basis.vectors.bottomRows(a.cols());
-  const numerics::SymmetricPairs glued = numerics::all_pairs<double>(glued_stiffness(basis, g, free_on_contact));
+  Blocks blocks(basis, g, a * basis.vectors.bottomRows(a.cols()));
+  if (trace.change) blocks.add(*trace.change, *trace.structure, a);
+  const numerics::SymmetricPairs glued = numerics::all_pairs<double>(blocks.glued);
   if (glued.status != Status::converged || (basis.vectors.cols() > 0 && !(glued.values(0) > 0))) {
     result.status = Status::singular;
     result.message = "the glued structure is not positive definite";
@@ -170,11 +202,14 @@ Reduction reduce(const TraceModel& trace, const Eigen::SparseMatrix<double>& ave
   const Eigen::MatrixXd& rotation = glued.vectors;
   result.glued_frequencies = glued.values.cwiseSqrt();
   using Columns = Recovery::Columns;
-  result.recovery.linear = [structure = trace.structure, rotation, a](const Columns& q, const Columns& lambda) {
+  result.recovery.linear = [structure = trace.structure, change = trace.change, rotation, a](const Columns& q,
+                                                                                             const Columns& lambda) {
     const Eigen::MatrixXd force = lambda.size() > 0 ? Eigen::MatrixXd(-a.transpose() * lambda) : Eigen::MatrixXd();
-    return structure->field(numerics::product(rotation, q.bottomRows(rotation.rows())), force);
+    Eigen::MatrixXd field = structure->field(numerics::product(rotation, q.bottomRows(rotation.rows())), force);
+    if (change) field -= structure->response(*change * field);
+    return field;
   };
-  result.model = in_glued_modes(g, numerics::product(free_on_contact, rotation), glued.values, damping_ratio);
+  result.model = in_glued_modes(blocks, glued, damping_ratio);
   result.model.contact = contact_first(std::move(contact));
   const auto rows_of = [&](const Eigen::MatrixXd& loads) {
     Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(loads.cols(), result.model.size());
@@ -191,7 +226,7 @@ Reduction reduce(const TraceModel& trace, const Eigen::SparseMatrix<double>& ave
 
 Reduction reduce(const FullModel& full, const ReductionOptions& options) {
   const TraceModel trace = trace_model(full, options);
-  Eigen::SparseMatrix<double> same(trace.contact.count(), trace.contact.count());
+  Sparse same(trace.contact.count(), trace.contact.count());
   same.setIdentity();
   return reduce(trace, same, trace.contact, options.damping_ratio);
 }

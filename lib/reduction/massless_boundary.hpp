@@ -54,6 +54,8 @@ struct TraceModel : ModesRecord {
   Eigen::MatrixXd outputs;                                 ///< Phi^T c [m, n_out]
   std::vector<std::string> output_names;
   ContactNodes contact;  ///< the trace's own nodes
+  /// A small change of the stiffness [n, n] since, which reduced models have to first order; null: none.
+  std::shared_ptr<const Eigen::SparseMatrix<double>> change;
 };
 
 /// First half of `reduce`, for `full` with its trace as contact. Cost and statuses as there.
@@ -62,7 +64,9 @@ struct TraceModel : ModesRecord {
 /// Second half, with other contact nodes on the trace: their relative displacements are u = A v, v the trace's and A
 /// `average` [nodes, trace nodes] for each direction, and their forces act on the trace as A^T lambda. Between them
 /// the trace is free to deform. `contact`: what the nodes are like; its dof numbers are set here. Glued modes, and with
-/// them the damping, are those of u = 0.
+/// them the damping, are those of u = 0. A change D of the stiffness adds Psi^T D Psi, Psi the fields of unit
+/// coordinates, and costs a back-solve for every contact dof: displacements, frequencies and fields err like its
+/// square.
 [[nodiscard]] Reduction reduce(const TraceModel& trace, const Eigen::SparseMatrix<double>& average,
                                ContactNodes contact, double damping_ratio);
 

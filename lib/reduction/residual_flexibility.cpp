@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "numerics/dense_product.hpp"
-#include "numerics/dense_symmetric.hpp"
 
 namespace dovetail::reduction {
 
@@ -22,10 +21,10 @@ ResidualFlexibility::ResidualFlexibility(std::shared_ptr<const numerics::Partial
     const Eigen::MatrixXd eliminated = stiffness_->eliminate(mass * basis_.vectors.leftCols(low));
     inertia_ = eliminated.topRows(internal);
     const Eigen::MatrixXd border = eliminated.bottomRows(contact);
-    const numerics::DenseCholesky d(numerics::transposed_product(inertia_, inertia_));
-    status_ = d.status();
+    inertia_gram_.emplace(numerics::transposed_product(inertia_, inertia_));
+    status_ = inertia_gram_->status();
     if (status_ != Status::converged) return;
-    multiplier_ = d.solve(border.transpose());
+    multiplier_ = inertia_gram_->solve(border.transpose());
     numerics::add_product(border, multiplier_, constrained_);
   }
   status_ = numerics::invert_positive_definite(constrained_);
@@ -48,6 +47,31 @@ Eigen::MatrixXd ResidualFlexibility::field(const Eigen::Ref<const Eigen::MatrixX
   x << -numerics::product(inertia_, numerics::product(multiplier_, at_contact)), at_contact;
   x = stiffness_->substitute(x);
   numerics::add_product(basis_.vectors, q - numerics::product(represented_, f), x);
+  return x;
+}
+
+Eigen::MatrixXd ResidualFlexibility::response(const Eigen::Ref<const Eigen::MatrixXd>& loads) const {
+  // As in the constructor, with a load: y = [g; h] eliminated, x_r = (S + N d^-1 N^T)^-1 (h - N d^-1 E^T g),
+  // mu = d^-1 (E^T g + N^T x_r), z_i = g - E mu, x = substitute([z_i; x_r]).
+  const Eigen::Index contact = stiffness_->border(), internal = stiffness_->size() - contact;
+  const Eigen::Index low = inertia_.cols(), m = basis_.vectors.cols();
+  Eigen::MatrixXd y = stiffness_->eliminate(loads);
+  Eigen::MatrixXd right = y.bottomRows(contact);
+  if (low > 0) {
+    const Eigen::MatrixXd constrained = numerics::transposed_product(inertia_, Eigen::MatrixXd(y.topRows(internal)));
+    right -= numerics::transposed_product(multiplier_, constrained);
+    y.bottomRows(contact) = numerics::product(constrained_, right);
+    const Eigen::MatrixXd multipliers =
+        inertia_gram_->solve(constrained) + numerics::product(multiplier_, Eigen::MatrixXd(y.bottomRows(contact)));
+    y.topRows(internal) -= numerics::product(inertia_, multipliers);
+  } else {
+    y.bottomRows(contact) = numerics::product(constrained_, right);
+  }
+  Eigen::MatrixXd x = stiffness_->substitute(y);
+  Eigen::MatrixXd along = numerics::transposed_product(basis_.vectors, Eigen::MatrixXd(loads));
+  along.topRows(low).setZero();
+  along.bottomRows(m - low).array().colwise() /= basis_.eigenvalues.tail(m - low).array();
+  numerics::add_product(basis_.vectors, Eigen::MatrixXd(-along), x);
   return x;
 }
 

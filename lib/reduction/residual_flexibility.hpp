@@ -3,8 +3,10 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <memory>
+#include <optional>
 
 #include "core/status.hpp"
+#include "numerics/dense_symmetric.hpp"
 #include "numerics/partial_cholesky.hpp"
 #include "reduction/boundary_basis.hpp"
 
@@ -28,6 +30,10 @@ class ResidualFlexibility {
   [[nodiscard]] Eigen::MatrixXd field(const Eigen::Ref<const Eigen::MatrixXd>& q,
                                       const Eigen::Ref<const Eigen::MatrixXd>& f) const;
 
+  /// Displacement [n, k] to loads [n, k] beyond what the basis represents: (K^-1 - Phi Lambda^-1 Phi^T) b, whose part
+  /// along the low pairs is left out of b. Of contact forces, b = B^T f, it is X f.
+  [[nodiscard]] Eigen::MatrixXd response(const Eigen::Ref<const Eigen::MatrixXd>& loads) const;
+
  private:
   std::shared_ptr<const numerics::PartialCholesky> stiffness_;
   RitzBasis basis_;
@@ -37,6 +43,7 @@ class ResidualFlexibility {
   Eigen::MatrixXd represented_;  // [m, nc] what the other pairs take of it: Lambda^-1 Phi^T B^T
   Eigen::MatrixXd inertia_;      // [n - nc, low] M Phi of the low pairs, eliminated
   Eigen::MatrixXd multiplier_;   // [low, nc] of the constraints to unit displacements
+  std::optional<numerics::DenseCholesky> inertia_gram_;  // E^T E [low, low]
 };
 
 }  // namespace dovetail::reduction

@@ -160,7 +160,7 @@ class ErrorBarSources {
     ask(bases, "modes", kCompanion.modes_factor, {[](Scene& changed, Computation&) {
           changed.solver.modes = std::max(2 * changed.solver.modes, changed.solver.modes + kCompanion.more_modes);
         }});
-    if (scene_.solver.prestress == Prestress::matched)
+    if (scene_.solver.prestress == Prestress::shared)
       ask(bases, "prestress", 1, {[](Scene& changed, Computation&) { changed.solver.prestress = Prestress::own; }});
     if (as_here_.until < Stage::unworn) return;  // nothing moves
     ask(bases, "harmonics", factors.harmonics, {[](Scene& changed, Computation&) {

@@ -22,7 +22,7 @@ struct Computation;
 /// - pseudo_penalty: 1/2 d to half of it, or to twice as much where half has no answer, which acts through the
 ///   harmonics left out.
 /// - modes: d to twice as many: 1.5 d, as the error falls like the square of the first frequency left out.
-/// - prestress: d to the design's own preload in place of the one on matched flanks.
+/// - prestress: d to matrices assembled with the design's own preload, where designs share theirs.
 /// - edge: ends of worn zones that went to and fro between two grids, in proportion to how far.
 /// - history: where the wear history decided against the direct method, by how much they differ; where it confirmed
 ///   what was in doubt, a part of a node at the ends of worn zones, as the history wears off whole nodes; all of the

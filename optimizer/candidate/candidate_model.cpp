@@ -24,7 +24,7 @@ std::string first_broken(const geometry::Feasibility& feasibility, std::vector<s
 }
 
 double jacobian_operations(const SolverSettings& solver, const CandidateModel& candidate) {
-  return steady::jacobian_operations(candidate.cells.count(), candidate.matrices->system.full.dimensions,
+  return steady::jacobian_operations(candidate.cells.count(), candidate.matrices.shared->system.full.dimensions,
                                      solver.harmonics, solver.samples);
 }
 
@@ -32,7 +32,7 @@ std::map<std::string, double> sizes_of(const Scene& scene, const CandidateModel&
   const fem::Mesh& mesh = candidate.mesh.sector.mesh;
   return {{"nodes", mesh.node_count()},
           {"elements", mesh.element_count()},
-          {"dofs", static_cast<double>(candidate.matrices->system.size())},
+          {"dofs", static_cast<double>(candidate.matrices.shared->system.size())},
           {"contact_nodes", static_cast<double>(candidate.cells.count())},
           {"modes", scene.solver.modes},
           {"reduced_size", static_cast<double>(candidate.model.size())},
@@ -58,7 +58,7 @@ void renew_budget(const SolverSettings& solver, CandidateModel& candidate) {
 void lay_contact(const Scene& scene, const std::vector<fem::FlankCells>& flanks, CandidateModel& candidate) {
   candidate.cells = fem::contact_cells(candidate.mesh.sector, flanks);
   candidate.reduction =
-      reduction::reduce(candidate.matrices->trace, candidate.cells.average,
+      reduction::reduce(candidate.matrices.trace, candidate.cells.average,
                         contact_nodes(candidate.cells, 0, scene.contact), scene.loading.damping_ratio);
   if (candidate.reduction.status != Status::converged) {
     candidate.status = failed_at("reduction", candidate.reduction.status) + " " + candidate.reduction.message;
@@ -126,7 +126,7 @@ CandidateModel ModelBuilder::build(const Scene& scene) const {
   candidate.cells = fem::contact_cells(candidate.mesh.sector, cells);
   candidate.timings_s["mesh"] += watch.lap();
   candidate.matrices = store_->matrices(scene, candidate.mesh.sector, candidate.cells, candidate.timings_s);
-  candidate.status = candidate.matrices->status;
+  candidate.status = candidate.matrices.status;
   if (!candidate.converged()) return candidate;
   watch = {};
   renew_budget(scene.solver, candidate);

@@ -26,7 +26,7 @@ struct CandidateModel {
 
   geometry::Feasibility feasibility;
   geometry::MeshedSector mesh;  ///< its flanks are the trace of the contact
-  std::shared_ptr<const Matrices> matrices;
+  DesignMatrices matrices;
   // With contact nodes on the trace, see lay_contact:
   fem::ContactCells cells;
   reduction::Reduction reduction;

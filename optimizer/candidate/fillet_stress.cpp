@@ -63,7 +63,7 @@ FilletStress fillet_stress(const Scene& scene, const CandidateModel& candidate, 
                            std::span<const int> nodes, const Eigen::VectorXd& share, double poisson_ratio) {
   const fem::Mesh& mesh = candidate.mesh.sector.mesh;
   const std::vector<fem::Material> bodies = materials(scene);
-  const Eigen::MatrixXd field = candidate.matrices->system.constraints.transformation *
+  const Eigen::MatrixXd field = candidate.matrices.shared->system.constraints.transformation *
                                 candidate.reduction.recovery.apply(reduced_coordinates(state), state.force);
   Eigen::MatrixXd coefficients = fem::nodal_stress_operator(mesh, bodies, nodes) * field;
   const Eigen::Index components = fem::stress_components(mesh.kind);

@@ -15,15 +15,19 @@ namespace dovetail::optimizer {
 
 namespace {
 
-/// The preload that the prestress comes from: on matched flanks with a friction that all designs share, or the design's
-/// own.
-struct Nominal {
+/// What the preload that stresses the matrices acts on.
+struct Preloaded {
   ContactProperties contact;
   Eigen::VectorXd gap;  ///< of contact nodes
 };
 
-Nominal nominal(const Scene& scene, const fem::ContactCells& cells, double friction) {
-  Nominal result{.contact = scene.contact, .gap = cells.gap};
+Preloaded own(const Scene& scene, const fem::ContactCells& cells) {
+  return {.contact = scene.contact, .gap = cells.gap};
+}
+
+/// Of all designs that share their matrices: without gaps, and with one friction.
+Preloaded stressed(const Scene& scene, const fem::ContactCells& cells, double friction) {
+  Preloaded result = own(scene, cells);
   if (scene.solver.prestress == Prestress::own) return result;
   result.contact.friction = friction;
   result.gap.setZero();
@@ -37,7 +41,7 @@ reduction::FullModel full_model(const Scene& scene, const fem::SectorSystem& sys
   full.stiffness = fem::constrain(stiffness, system.constraints);
   full.mass = system.mass;
   full.static_force = speed * speed * system.centrifugal;
-  full.cosine_force = scene.loading.tip_force * system.tip;
+  full.cosine_force = system.tip;
   full.sine_force = Eigen::MatrixXd::Zero(system.size(), 1);
   full.outputs = system.tip;
   full.output_names = {"tip_x"};
@@ -52,45 +56,49 @@ SharedBudget budget(const SolverSettings& solver, Eigen::Index nodes, Eigen::Ind
                                   solver.time_limit > 0 ? solver.time_limit : kInfinity);
 }
 
-/// Geometric stiffness from the stresses of a frictional preload: glued flanks would carry tension.
-Status geometric_stiffness(const Scene& scene, const fem::SectorMesh& sector, const fem::ContactCells& cells,
-                           const Nominal& nominal, const fem::Assembler& assembler, const fem::SectorSystem& system,
-                           Eigen::SparseMatrix<double>& result) {
-  reduction::ContactNodes nodes = contact_nodes(cells, 0, nominal.contact);
-  nodes.gap = nominal.gap;
-  reduction::StaticCondensation condensed = reduction::on_contact(
-      reduction::condense_statically(full_model(scene, system, system.full.stiffness)), cells.average, nodes);
+/// Displacement of all nodes under the pull of the blade, with friction: glued flanks would carry tension.
+Status preloaded(const Scene& scene, const fem::ContactCells& cells, const Preloaded& by, const Matrices& matrices,
+                 Eigen::VectorXd& displacement) {
+  if (matrices.at_rest.status != Status::converged) return matrices.at_rest.status;
+  reduction::ContactNodes nodes = contact_nodes(cells, 0, by.contact);
+  nodes.gap = by.gap;
+  reduction::StaticCondensation condensed = reduction::on_contact(matrices.at_rest, cells.average, nodes);
   if (condensed.status != Status::converged) return condensed.status;
-  reduction::add_interface(interface_of(nominal.contact), condensed.model, &condensed.recovery);
+  reduction::add_interface(interface_of(by.contact), condensed.model, &condensed.recovery);
   const auto model = std::make_shared<const dynamics::CondensedModel>(condensed.model);
   const steady::Preload preload =
-      steady::quasi_static(model, {.budget = budget(scene.solver, cells.count(), system.full.dimensions)});
+      steady::quasi_static(model, {.budget = budget(scene.solver, cells.count(), matrices.system.full.dimensions)});
   if (preload.status != Status::converged) return preload.status;
-  const Eigen::VectorXd independent = condensed.recovery.apply(preload.full_displacement, preload.force);
-  const Eigen::VectorXd displacement = system.constraints.transformation * independent;
-  result =
-      assembler.geometric_stiffness(sector.mesh, fem::quadrature_stress(sector.mesh, materials(scene), displacement));
+  displacement = matrices.system.constraints.transformation *
+                 condensed.recovery.apply(preload.full_displacement, preload.force).col(0);
   return Status::converged;
 }
 
+Eigen::SparseMatrix<double> geometric_stiffness(const Scene& scene, const fem::SectorMesh& sector,
+                                                const fem::Assembler& assembler, const Eigen::VectorXd& displacement) {
+  return assembler.geometric_stiffness(sector.mesh,
+                                       fem::quadrature_stress(sector.mesh, materials(scene), displacement));
+}
+
 Matrices computed(const Scene& scene, const fem::SectorMesh& sector, const fem::ContactCells& cells,
-                  const Nominal& nominal, std::map<std::string, double>& timings_s) {
+                  const Preloaded& by, std::map<std::string, double>& timings_s) {
   Matrices result;
   Stopwatch watch;
-  const std::vector<fem::Material> bodies = materials(scene);
   const fem::Assembler assembler(sector.mesh);
-  result.system = fem::build_sector_system(sector, bodies, assembler);
+  result.system = fem::build_sector_system(sector, materials(scene), assembler);
   timings_s["assembly"] = watch.lap();
 
-  Eigen::SparseMatrix<double> geometric;
-  const Status prestress = geometric_stiffness(scene, sector, cells, nominal, assembler, result.system, geometric);
-  timings_s["prestress"] = watch.lap();
+  result.at_rest = reduction::condense_statically(full_model(scene, result.system, result.system.full.stiffness));
+  const Status prestress = preloaded(scene, cells, by, result, result.preloaded);
   if (prestress != Status::converged) {
     result.status = failed_at("prestress", prestress);
     return result;
   }
+  result.stiffness = fem::stiffness_at_speed(
+      result.system.full, geometric_stiffness(scene, sector, assembler, result.preloaded), scene.loading.speed);
+  if (scene.solver.prestress == Prestress::own) result.at_rest = {};
+  timings_s["prestress"] = watch.lap();
 
-  result.stiffness = fem::stiffness_at_speed(result.system.full, geometric, scene.loading.speed);
   result.trace = reduction::trace_model(full_model(scene, result.system, result.stiffness),
                                         {.modes = scene.solver.modes, .damping_ratio = scene.loading.damping_ratio});
   timings_s["reduction"] = watch.lap();
@@ -99,19 +107,32 @@ Matrices computed(const Scene& scene, const fem::SectorMesh& sector, const fem::
   return result;
 }
 
-MatricesOf asked_for(const Scene& scene, const fem::SectorMesh& sector, const Nominal& nominal) {
+/// Takes the difference to the design's own preload into its matrices. Stress is linear in displacements, and the
+/// geometric stiffness in stress.
+Status add_own_preload(const Scene& scene, const fem::SectorMesh& sector, const fem::ContactCells& cells,
+                       DesignMatrices& result) {
+  Eigen::VectorXd displacement;
+  const Status status = preloaded(scene, cells, own(scene, cells), *result.shared, displacement);
+  if (status != Status::converged) return status;
+  const fem::Assembler assembler(sector.mesh);
+  result.change = geometric_stiffness(scene, sector, assembler, displacement - result.shared->preloaded);
+  result.trace.change = std::make_shared<const Eigen::SparseMatrix<double>>(
+      fem::constrain(result.change, result.shared->system.constraints));
+  return Status::converged;
+}
+
+MatricesOf asked_for(const Scene& scene, const fem::SectorMesh& sector, const Preloaded& by) {
   std::vector<double> numbers{scene.loading.speed,
-                              scene.loading.tip_force,
-                              scene.loading.damping_ratio,
                               static_cast<double>(scene.solver.modes),
-                              nominal.contact.friction,
-                              nominal.contact.normal_stiffness,
-                              nominal.contact.tangential_stiffness,
+                              by.contact.friction,
+                              by.contact.normal_stiffness,
+                              by.contact.tangential_stiffness,
+                              static_cast<double>(scene.solver.prestress),
                               static_cast<double>(sector.sectors)};
   for (const fem::Material& body : materials(scene))
     numbers.insert(numbers.end(), {body.youngs_modulus, body.poisson_ratio, body.density});
   for (const fem::Region& region : sector.mesh.regions) numbers.push_back(region.thickness);
-  numbers.insert(numbers.end(), nominal.gap.begin(), nominal.gap.end());
+  numbers.insert(numbers.end(), by.gap.begin(), by.gap.end());
   return {.nodes = sector.mesh.nodes,
           .connectivity = sector.mesh.connectivity,
           .region = sector.mesh.region,
@@ -125,10 +146,39 @@ bool MatricesOf::operator==(const MatricesOf& other) const {
          nodes.rows() == other.nodes.rows() && nodes.cols() == other.nodes.cols() && nodes == other.nodes;
 }
 
-std::shared_ptr<const Matrices> MatricesStore::matrices(const Scene& scene, const fem::SectorMesh& sector,
-                                                        const fem::ContactCells& cells,
-                                                        std::map<std::string, double>& timings_s) {
-  const Nominal by = nominal(scene, cells, friction_);
+bool shares_matrices(std::string_view key) {
+  if (key == "loading.tip_force_n" || key == "loading.damping_ratio") return true;
+  if (key.ends_with(".flank_mismatch_um") || key.ends_with(".flank_crown_um")) return true;
+  return key.starts_with("contact.") && !key.ends_with("_n_per_m3");  // but the springs of rough flanks
+}
+
+Eigen::SparseMatrix<double> DesignMatrices::stiffness() const {
+  if (change.size() == 0) return shared->stiffness;
+  return shared->stiffness + change;
+}
+
+DesignMatrices MatricesStore::matrices(const Scene& scene, const fem::SectorMesh& sector,
+                                       const fem::ContactCells& cells, std::map<std::string, double>& timings_s) {
+  DesignMatrices result;
+  result.shared = shared(scene, sector, cells, timings_s);
+  result.status = result.shared->status;
+  if (outcome_of(result.status) != Outcome::converged) return result;
+  result.trace = result.shared->trace;
+  result.trace.cosine_force *= scene.loading.tip_force;
+  if (scene.solver.prestress == Prestress::own) return result;
+  Stopwatch watch;
+  result.trace.contact =
+      contact_nodes(fem::contact_surface(sector), result.shared->system.internal_size(), scene.contact);
+  if (const Status status = add_own_preload(scene, sector, cells, result); status != Status::converged)
+    result.status = failed_at("prestress", status);
+  timings_s["prestress"] += watch.lap();
+  return result;
+}
+
+std::shared_ptr<const Matrices> MatricesStore::shared(const Scene& scene, const fem::SectorMesh& sector,
+                                                      const fem::ContactCells& cells,
+                                                      std::map<std::string, double>& timings_s) {
+  const Preloaded by = stressed(scene, cells, friction_);
   MatricesOf asked = asked_for(scene, sector, by);
   {
     const std::lock_guard lock(mutex_);

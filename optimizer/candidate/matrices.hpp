@@ -4,6 +4,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "fem/contact_cells.hpp"
@@ -11,17 +12,35 @@
 #include "optimizer/problem/outcome.hpp"
 #include "optimizer/scene/scene.hpp"
 #include "reduction/massless_boundary.hpp"
+#include "reduction/static_condensation.hpp"
 
 namespace dovetail::optimizer {
 
-/// What of a candidate follows from its mesh, materials, speed and tip force: the same for designs that differ in the
-/// form of their flanks, friction and wear alone. Members after the stage that failed are empty.
+/// What follows from mesh, materials, speed and the preload that stresses them.
 struct Matrices {
   std::string status = status_of(Outcome::converged);
   fem::SectorSystem system;               ///< on the trace
   Eigen::SparseMatrix<double> stiffness;  ///< over all nodes, at speed: K + K_g - Omega^2 M
-  reduction::TraceModel trace;
+  reduction::TraceModel trace;            ///< of a tip force of 1 N
+  // To add what the preload of another design changes:
+  reduction::StaticCondensation at_rest;  ///< of K; its factors are kept for designs that share the matrices alone
+  Eigen::VectorXd preloaded;              ///< displacement of all nodes
 };
+
+/// The matrices of a candidate, of its own or shared by designs that differ in the form of their flanks, friction, wear
+/// and tip force alone. Members after the stage that failed are empty.
+struct DesignMatrices {
+  std::string status = status_of(Outcome::converged);
+  std::shared_ptr<const Matrices> shared;
+  Eigen::SparseMatrix<double> change;  ///< of the stiffness over all nodes, or empty: by the design's own preload
+  reduction::TraceModel trace;         ///< with the change, of the design's tip force
+
+  /// At speed, over all nodes.
+  [[nodiscard]] Eigen::SparseMatrix<double> stiffness() const;
+};
+
+/// Whether designs that differ by this key of a study file alone share their matrices.
+[[nodiscard]] bool shares_matrices(std::string_view key);
 
 /// Everything that they follow from.
 struct MatricesOf {
@@ -34,17 +53,20 @@ struct MatricesOf {
 /// Computes matrices and keeps the last ones. May be called from several threads.
 class MatricesStore {
  public:
-  /// @param friction  of the preload that the prestress comes from, where it is not the design's own
+  /// @param friction  of the preload on flanks without gaps, where designs share it
   explicit MatricesStore(double friction) : friction_(friction) {}
 
   /// @param sector  with its trace
   /// @param cells  the grid of contact nodes to begin with
   /// @param timings_s  of its stages, unless they were there already, are added
-  [[nodiscard]] std::shared_ptr<const Matrices> matrices(const Scene& scene, const fem::SectorMesh& sector,
-                                                         const fem::ContactCells& cells,
-                                                         std::map<std::string, double>& timings_s);
+  [[nodiscard]] DesignMatrices matrices(const Scene& scene, const fem::SectorMesh& sector,
+                                        const fem::ContactCells& cells, std::map<std::string, double>& timings_s);
 
  private:
+  [[nodiscard]] std::shared_ptr<const Matrices> shared(const Scene& scene, const fem::SectorMesh& sector,
+                                                       const fem::ContactCells& cells,
+                                                       std::map<std::string, double>& timings_s);
+
   double friction_;
   std::mutex mutex_;
   MatricesOf of_;

@@ -20,7 +20,7 @@ const Response kGluedFrequency{
           // Glued on all of the mesh; how much softer asperities make that is known between contact nodes.
           const int mode = scene.loading.mode - 1;
           const double softer = result.model.glued_frequencies(mode) / result.model.reduction.glued_frequencies(mode);
-          return hertz(reduction::glued_frequencies(result.model.matrices->trace)(mode) * softer);
+          return hertz(reduction::glued_frequencies(result.model.matrices.trace)(mode) * softer);
         },
     .mesh_order = kFrequency};
 

@@ -42,13 +42,13 @@ struct Loading {
   wear::Follow follow = wear::Follow::fixed;
 };
 
-/// Flanks whose preload stresses the structure while it vibrates.
+/// How the stress of the preload gets into the stiffness of the vibrating structure.
 enum class Prestress {
-  matched,  ///< of one form without gaps, with the friction of the study: stiffnesses follow from the mesh alone
-  own,      ///< the design's own
+  own,     ///< assembled for each design
+  shared,  ///< of flanks without gaps, for all designs with one mesh; what a design's own adds to first order
 };
 constexpr EnumNames<Prestress, 2> enum_names(Prestress) {
-  return {{{Prestress::matched, "matched"}, {Prestress::own, "own"}}};
+  return {{{Prestress::own, "own"}, {Prestress::shared, "shared"}}};
 }
 [[nodiscard]] constexpr std::string_view to_string(Prestress prestress) {
   return name_of(prestress);

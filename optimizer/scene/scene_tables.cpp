@@ -134,9 +134,10 @@ std::span<const Field<optimizer::SolverSettings>> option_table<optimizer::Solver
                .help = "relative accuracy of the frequency of a resonance"},
       Field<S>{.key = "prestress",
                .member = &S::prestress,
-               .help = "flanks whose preload stresses the structure while it vibrates; own: the design's own, matched: "
-                       "without gaps and with the friction in the middle of its range, so that designs with one mesh "
-                       "share their matrices"},
+               .help =
+                   "how the stress of the preload stiffens the vibrating structure; own: assembled for each design, "
+                   "shared: that of flanks without gaps for all designs with one mesh, with what a design's own "
+                   "adds to first order. shared unless given where no variable changes the mesh, else own"},
       Field<S>{.key = "accuracy",
                .member = &S::accuracy,
                .range = {.lower = optimizer::kAccuracyRange.lower,

@@ -6,6 +6,7 @@
 #include <map>
 #include <type_traits>
 
+#include "optimizer/candidate/matrices.hpp"
 #include "optimizer/responses/response_table.hpp"
 #include "optimizer/scene/scene_kind.hpp"
 #include "studies/program/study_file/export.hpp"
@@ -153,6 +154,11 @@ Study read_study(const Document& document) {
   root.finish();
   problems.raise();
   optimizer::check_terms(study.problem);
+  // Where every design has the same mesh, matrices are computed once.
+  const auto& variables = study.problem.space.variables();
+  const auto shares = [](const optimizer::DesignVariable& v) { return optimizer::shares_matrices(v.key); };
+  if (!study.given.contains("solver.prestress") && !variables.empty() && std::ranges::all_of(variables, shares))
+    study.scene.solver.prestress = optimizer::Prestress::shared;
   return study;
 }
 
@@ -169,9 +175,10 @@ std::string physics_text(const optimizer::Scene& scene) {
   // Other texts where they are not what they are by default: runs from before a text was there can be resumed.
   optimizer::visit_tables(
       scene, [&]<class S>(std::string_view section, const S& object, std::span<const Field<S>> table) {
-        if constexpr (!std::is_same_v<S, optimizer::SceneType> && !std::is_same_v<S, optimizer::SolverSettings>)
+        if constexpr (!std::is_same_v<S, optimizer::SceneType>)
           for (const Field<S>& field : table)
-            if (const auto word = text_in(object, field); word && word != text_in(S{}, field))
+            if (const auto word = text_in(object, field);
+                word && word != text_in(S{}, field) && !(section == "solver" && field.key == "solver"))
               text += std::string(section) + "." + std::string(field.key) + " = " + *word + "\n";
       });
   return text;

@@ -57,11 +57,11 @@ void add_nodal_diameters(const Scene& scene, const CandidateModel& model, const 
   const reduction::InterfaceStiffness interface = optimizer::interface_of(scene.contact);
   fem::DiameterOptions diameters{.modes = {.count = options.nodal_diameter_modes}, .tolerance = 1e-5};
   if (!interface.rigid())
-    diameters.contact_flexibility = reduction::spring_flexibility(interface, model.matrices->system.contact.area,
-                                                                  model.matrices->system.full.dimensions);
+    diameters.contact_flexibility = reduction::spring_flexibility(interface, model.matrices.shared->system.contact.area,
+                                                                  model.matrices.shared->system.full.dimensions);
   const fem::NodalDiameterFrequencies found =
-      fem::nodal_diameter_frequencies(model.mesh.sector, model.matrices->stiffness, model.matrices->system.full.mass,
-                                      fem::BoreSupport::tangential, diameters);
+      fem::nodal_diameter_frequencies(model.mesh.sector, model.matrices.stiffness(),
+                                      model.matrices.shared->system.full.mass, fem::BoreSupport::tangential, diameters);
   NodalDiameterRecord& out = record.nodal_diameters;
   out.nodal_diameter.assign(found.nodal_diameters.begin(), found.nodal_diameters.end());
   out.modes = found.frequency.cols();
@@ -91,7 +91,7 @@ FieldRecord preload_fields(const Scene& scene, const CandidateModel& model) {
   const fem::Mesh& mesh = model.mesh.sector.mesh;
   const Eigen::VectorXd independent =
       model.reduction.recovery.apply(model.preload.full_displacement, model.preload.force);
-  const Eigen::VectorXd displacement = model.matrices->system.constraints.transformation * independent;
+  const Eigen::VectorXd displacement = model.matrices.shared->system.constraints.transformation * independent;
   std::vector<int> nodes(static_cast<std::size_t>(mesh.node_count()));
   std::iota(nodes.begin(), nodes.end(), 0);
   const std::vector<fem::Material> bodies = optimizer::materials(scene);

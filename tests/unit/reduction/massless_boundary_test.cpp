@@ -207,5 +207,50 @@ TEST_P(Spinning, OtherNodesOnTheTraceSeeItsFlexibility) {
   EXPECT_LT((found - expected).norm(), 1e-9 * expected.norm());
 }
 
+// A change of the stiffness after the reduction: what the reduced model, its frequencies and its fields miss falls with
+// the square of it.
+TEST_P(AtSpeed, AChangeOfTheStiffnessIsTakenToFirstOrder) {
+  const FullModel full = truss_model({.speed = GetParam(), .contact_mass = false});
+  const TraceModel trace = trace_model(full, {.modes = 1000});
+  ASSERT_EQ(trace.status, Status::converged) << trace.message;
+  Eigen::SparseMatrix<double> same(trace.contact.count(), trace.contact.count());
+  same.setIdentity();
+  // The same pattern, other values: some springs stiffer, some softer.
+  Eigen::SparseMatrix<double> change = full.stiffness;
+  for (Eigen::Index column = 0; column < change.outerSize(); ++column)
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(change, column); entry; ++entry)
+      entry.valueRef() *= std::sin(0.7 * static_cast<double>(entry.row() + entry.col()));
+
+  const Eigen::MatrixXd forces = some(full.contact_size(), 0.3);
+  double last_model = 0, last_field = 0, last_glued = 0;
+  for (const double size : {1e-3, 1e-4}) {
+    TraceModel changed = trace;
+    changed.change = std::make_shared<Eigen::SparseMatrix<double>>(size * change);
+    const Reduction found = reduce(changed, same, trace.contact, 1e-3);
+    FullModel exact = full;
+    exact.stiffness = full.stiffness + size * change;
+    // Compliance of the contact at a frequency, and the field of contact forces.
+    const double model = compare(exact, found, std::vector{kAngular}).front().flexibility;
+    const Eigen::VectorXd q = some(found.model.size() - full.contact_size(), 1.1);
+    Eigen::VectorXd coordinates(found.model.size());
+    coordinates << Eigen::VectorXd::Zero(full.contact_size()), q;
+    const Eigen::MatrixXd field = found.recovery.apply(coordinates, forces);
+    // Its contact part are the displacements at which the reduced model has these forces.
+    const Eigen::Index nc = full.contact_size();
+    const Eigen::VectorXd u = found.model.stiffness.topLeftCorner(nc, nc).ldlt().solve(
+        -forces - found.model.stiffness.topRightCorner(nc, q.size()) * q);
+    const double fields = (field.bottomRows(nc) - u).norm() / u.norm();
+    const Eigen::VectorXd traced = glued_frequencies(changed), whole = glued_frequencies(exact);
+    const double glued = std::abs(traced(0) / whole(0) - 1) + std::abs(found.glued_frequencies(0) / whole(0) - 1);
+    if (last_model > 0) {
+      EXPECT_LT(model, 0.02 * last_model + 1e-9);
+      EXPECT_LT(fields, 0.02 * last_field + 1e-9);
+      EXPECT_LT(glued, 0.02 * last_glued + 1e-9);
+    }
+    last_model = model, last_field = fields, last_glued = glued;
+  }
+  EXPECT_GT(last_model, 0);
+}
+
 }  // namespace
 }  // namespace dovetail::reduction

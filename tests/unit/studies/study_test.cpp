@@ -224,8 +224,28 @@ TEST(Study, ModesOtherThanTheDefaultOnesAreItsPhysics) {
   EXPECT_THAT(physics_text(scene), Not(AnyOf(HasSubstr("wear_law"), HasSubstr("follow"))));
   scene.contact.wear_law = "energy";
   scene.loading.follow = wear::Follow::resonance;
+  EXPECT_THAT(physics_text(scene), Not(HasSubstr("prestress")));
+  scene.solver.prestress = optimizer::Prestress::shared;
   EXPECT_THAT(physics_text(scene),
-              AllOf(HasSubstr("contact.wear_law = energy\n"), HasSubstr("loading.follow = resonance\n")));
+              AllOf(HasSubstr("contact.wear_law = energy\n"), HasSubstr("loading.follow = resonance\n"),
+                    HasSubstr("solver.prestress = shared\n")));
+}
+
+// Unless a study says otherwise its designs share their matrices where all of them have the same mesh.
+TEST(Study, DesignsWithOneMeshShareTheirMatrices) {
+  const std::string given = "prestress = \"own\"";
+  std::string silent = sample();
+  silent.erase(silent.find(given), given.size());
+  EXPECT_EQ(read(silent).scene.solver.prestress, optimizer::Prestress::own);
+  const auto of_variable = [](std::string text, const std::string& variable) {
+    for (std::size_t at = text.find("\n[[variable]]"); at != std::string::npos; at = text.find("\n[[variable]]"))
+      text.erase(at, text.find("\n[", at + 2) - at);
+    return read(text + "\n[[variable]]\n" + variable).scene.solver.prestress;
+  };
+  const std::string crown = "key = \"geometry.left.flank_crown_um\"\nlower = 0\nupper = 9\n";
+  EXPECT_EQ(of_variable(silent, crown), optimizer::Prestress::shared);
+  EXPECT_EQ(of_variable(sample(), crown), optimizer::Prestress::own);
+  EXPECT_EQ(of_variable(silent, "key = \"geometry.neck_width_mm\"\nlower = 8\nupper = 9\n"), optimizer::Prestress::own);
 }
 
 TEST(Study, AContactGridFinerThanTheMeshIsRefused) {
