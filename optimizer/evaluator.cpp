@@ -16,7 +16,6 @@ const OtherMeshes& SceneEvaluator::others() const {
 CandidateResult SceneEvaluator::evaluate(const Scene& scene, const Purpose& purpose) const {
   Stopwatch total;
   Computation how = until(purpose.until, purpose.history);
-  how.contact.to_worn_zones = how.contact.to_worn_zones || purpose.to_worn_zones;
   CandidateResult result = computed(scene, builder_.build(scene), how);
   if (purpose.bars && result.evaluation.converged()) {
     Stopwatch watch;

@@ -13,8 +13,6 @@ struct Purpose {
   bool bars = true;                     ///< error bars of all responses there are
   bool history = true;                  ///< where the direct worn state is in doubt, the wear history decides
   Stage until = Stage::worn_resonance;  ///< the last one that is computed; responses of later ones have no value
-  /// Contact nodes follow worn zones whatever is asked for: values are those of an evaluation through all stages.
-  bool to_worn_zones = false;
 };
 inline constexpr Purpose kSearch{.bars = false, .history = false};
 

@@ -13,6 +13,7 @@ namespace dovetail::fem {
 struct FlankCells {
   std::vector<double> along;                ///< [strips + 1]
   std::vector<std::vector<double>> across;  ///< [strips][cells + 1], neck to root side
+  bool operator==(const FlankCells& other) const = default;
 };
 
 /// Cells that lie side by side across the slot.

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <new>
 #include <numeric>
+#include <span>
 #include <vector>
 
 #include "numerics/cholmod_view.hpp"
@@ -46,7 +47,7 @@ struct PartialCholesky::Factor {
   Factor(const Factor&) = delete;
   Factor& operator=(const Factor&) = delete;
 
-  void analyse(const Sparse& lower);
+  void analyse(const Sparse& lower, EliminationOrder& kept);
   Status factorise(Sparse& lower, double& shift);
 
   [[nodiscard]] int supernodes() const { return static_cast<int>(factor->nsuper); }
@@ -68,19 +69,14 @@ struct PartialCholesky::Factor {
   void substitute(Rows& x) const;
 };
 
-// The order that CHOLMOD finds best for the interior, with the border last and as it is.
-void PartialCholesky::Factor::analyse(const Sparse& lower) {
+// The order that is best for the interior, with the border last and as it is.
+void PartialCholesky::Factor::analyse(const Sparse& lower, EliminationOrder& kept) {
   std::vector<int> order(static_cast<std::size_t>(lower.rows()));
   std::iota(order.begin(), order.end(), 0);
   if (interior > 0) {
     Sparse inner = lower.topLeftCorner(interior, interior);
     inner.makeCompressed();
-    cholmod_sparse view = lower_view(inner);
-    common.supernodal = CHOLMOD_SIMPLICIAL;  // only its order is needed
-    cholmod_factor* found = cholmod_analyze(&view, &common);
-    if (found == nullptr) throw std::bad_alloc();
-    std::copy_n(static_cast<const int*>(found->Perm), interior, order.begin());
-    cholmod_free_factor(&found, &common);
+    std::ranges::copy(kept.of(inner), order.begin());
   }
 
   common.supernodal = CHOLMOD_SUPERNODAL;
@@ -173,6 +169,29 @@ void PartialCholesky::Factor::substitute(Rows& x) const {
   }
 }
 
+std::vector<int> EliminationOrder::of(const Sparse& lower_interior) {
+  const std::span<const int> outer(lower_interior.outerIndexPtr(), static_cast<std::size_t>(lower_interior.cols() + 1));
+  const std::span<const int> inner(lower_interior.innerIndexPtr(), static_cast<std::size_t>(lower_interior.nonZeros()));
+  const std::lock_guard lock(mutex_);
+  if (std::ranges::equal(outer, outer_) && std::ranges::equal(inner, inner_)) return order_;
+  cholmod_common common{};
+  start_cholmod(common);
+  common.supernodal = CHOLMOD_SIMPLICIAL;  // only its order is needed
+  cholmod_sparse view = lower_view(lower_interior);
+  cholmod_factor* found = cholmod_analyze(&view, &common);
+  const bool enough_memory = found != nullptr;
+  if (enough_memory) {
+    const int* order = static_cast<const int*>(found->Perm);
+    order_.assign(order, order + lower_interior.cols());
+    outer_.assign(outer.begin(), outer.end());
+    inner_.assign(inner.begin(), inner.end());
+  }
+  cholmod_free_factor(&found, &common);
+  cholmod_finish(&common);
+  if (!enough_memory) throw std::bad_alloc();
+  return order_;
+}
+
 PartialCholesky::PartialCholesky() = default;
 PartialCholesky::~PartialCholesky() = default;
 PartialCholesky::PartialCholesky(PartialCholesky&&) noexcept = default;
@@ -182,7 +201,7 @@ Eigen::Index PartialCholesky::size() const {
   return factor_ ? static_cast<Eigen::Index>(factor_->factor->n) : 0;
 }
 
-Status PartialCholesky::factorise(const Sparse& a, Eigen::Index border) {
+Status PartialCholesky::factorise(const Sparse& a, Eigen::Index border, EliminationOrder* order) {
   assert(a.rows() == a.cols() && border >= 0 && border <= a.rows());
   const Eigen::Index interior = a.rows() - border;
   factor_.reset();
@@ -199,7 +218,8 @@ Status PartialCholesky::factorise(const Sparse& a, Eigen::Index border) {
 
   auto factor = std::make_unique<Factor>();
   factor->interior = interior;
-  factor->analyse(lower);
+  EliminationOrder own;
+  factor->analyse(lower, order ? *order : own);
   const Status status = factor->factorise(lower, shift);
   if (status != Status::converged) return status;
   // L L^T by LAPACK, which has U U^T: U is L in reverse order.

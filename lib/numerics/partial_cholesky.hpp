@@ -3,10 +3,26 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <memory>
+#include <mutex>
+#include <vector>
 
 #include "core/status.hpp"
 
 namespace dovetail::numerics {
+
+/// Keeps the order of elimination that was found last, for matrices with the same pattern. May be used from several
+/// threads.
+class EliminationOrder {
+ public:
+  /// Of the interior of a matrix, of which only the lower triangle is there: the one kept if it is of this pattern,
+  /// else a new one, which is kept.
+  [[nodiscard]] std::vector<int> of(const Eigen::SparseMatrix<double>& lower_interior);
+
+ private:
+  std::mutex mutex_;
+  std::vector<int> outer_, inner_;  // of the pattern
+  std::vector<int> order_;
+};
 
 /// A symmetric sparse matrix with all but its last rows and columns, the border b, eliminated:
 ///   A = [[L, 0], [L_b, I]] [[I, 0], [0, S]] [[L, 0], [L_b, I]]^T,  A_ii = L L^T (in a fill-reducing order),
@@ -25,7 +41,9 @@ class PartialCholesky {
 
   /// Only the lower triangle of `a` is read. `singular`: A_ii is not positive definite; `not_finite`.
   /// Cost: one supernodal factorisation of A (CHOLMOD) in the order that is best for A_ii, with the border last.
-  [[nodiscard]] Status factorise(const Eigen::SparseMatrix<double>& a, Eigen::Index border);
+  /// @param order  to take it from where the pattern is the same; null: it is found anew
+  [[nodiscard]] Status factorise(const Eigen::SparseMatrix<double>& a, Eigen::Index border,
+                                 EliminationOrder* order = nullptr);
 
   [[nodiscard]] Eigen::Index size() const;
   [[nodiscard]] Eigen::Index border() const { return schur_.rows(); }

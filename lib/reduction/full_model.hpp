@@ -2,9 +2,11 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "numerics/partial_cholesky.hpp"
 #include "reduction/reduced_model.hpp"
 
 namespace dovetail::reduction {
@@ -22,6 +24,8 @@ struct FullModel {
   Eigen::MatrixXd outputs;                ///< [n, n_out], y = c^T u
   std::vector<std::string> output_names;  ///< [n_out]
   ContactNodes contact;                   ///< indices refer to the n coordinates
+  /// To eliminate in, kept for models with the same pattern; null: each finds its own.
+  std::shared_ptr<numerics::EliminationOrder> order;
 
   [[nodiscard]] Eigen::Index size() const { return stiffness.rows(); }
   [[nodiscard]] Eigen::Index contact_size() const { return contact.count() * contact.directions(); }

@@ -136,7 +136,7 @@ TraceModel trace_model(const FullModel& full, const ReductionOptions& options) {
   Clock::time_point start = Clock::now();
   const Sparse mass = full.mass.pruned();
   const auto stiffness = std::make_shared<numerics::PartialCholesky>();
-  const Status factorised = stiffness->factorise(full.stiffness, full.contact_size());
+  const Status factorised = stiffness->factorise(full.stiffness, full.contact_size(), full.order.get());
   result.seconds_factorisation = lap(start);
   if (factorised != Status::converged)
     return failed(std::move(result), factorised, "the stiffness with the contact held is not positive definite");

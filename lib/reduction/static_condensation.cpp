@@ -16,7 +16,7 @@ StaticCondensation condense_statically(const FullModel& full) {
   StaticCondensation result;
   const auto factor = std::make_shared<numerics::PartialCholesky>();
   const Eigen::Index contact = full.contact_size();
-  result.status = factor->factorise(full.stiffness, contact);
+  result.status = factor->factorise(full.stiffness, contact, full.order.get());
   if (result.status != Status::converged) return result;
 
   Eigen::MatrixXd loads(full.size(), 1 + full.cosine_force.cols() + full.sine_force.cols() + full.outputs.cols());

@@ -114,6 +114,7 @@ class Forecast {
       }
     result.asked = goal_->asked(result.response);
     result.relative = worst->second * result.asked;
+    result.whole = whole_.at(result.response);
     return result;
   }
 
@@ -148,6 +149,9 @@ class Forecast {
     if (value == evaluation.responses.end() || value->second == 0 || bars == evaluation.error_sources.end() ||
         std::ranges::find(evaluation.unbounded, name) != evaluation.unbounded.end())
       return;
+    double whole = 0;
+    for (const auto& [source, bar] : bars->second) whole += bar;
+    whole_[name] = whole / std::abs(value->second);
     for (const auto& [source, bar] : bars->second)
       if (const Knob knob = knob_of(source); knob != Knob::none)
         parts_.push_back({.response = &response,
@@ -179,17 +183,23 @@ class Forecast {
   Settings at_;
   double dofs_ = 0;                          // unknowns of the mesh
   double factorisations_ = 0, marches_ = 0;  // operations of all that follows the matrices
+  std::map<std::string, double> whole_;      // bars over values, with what no setting buys
   std::vector<Part> parts_;                  // those of a response one after the other
 };
 
 constexpr std::array kKnobs{Knob::mesh, Knob::harmonics, Knob::samples, Knob::modes};
 
-/// The cheapest that should do; where none should, the most accurate.
+/// The cheapest that should do; where none should, of those that are as good as the most accurate one.
 Settings cheapest(const std::vector<Settings>& all, const Forecast& forecast, double allowed) {
-  const auto rank = [&](const Settings& settings) {
-    return std::pair{std::max(0.0, forecast.excess(settings) - allowed), forecast.operations(settings)};
-  };
-  return *std::ranges::min_element(all, {}, rank);
+  std::vector<double> excess;
+  for (const Settings& settings : all) excess.push_back(forecast.excess(settings));
+  const double least = *std::ranges::min_element(excess);
+  const double limit = least <= allowed ? allowed : kParams.as_good * least;
+  std::size_t best = 0;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (excess[i] <= limit && (excess[best] > limit || forecast.operations(all[i]) < forecast.operations(all[best])))
+      best = i;
+  return all[best];
 }
 
 /// On the way there no further than may be foreseen.

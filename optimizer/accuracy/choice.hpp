@@ -28,7 +28,8 @@ struct AccuracyGoal {
 /// The part of a bar that counts most.
 struct Dominant {
   std::string response = {}, source = {};
-  double relative = 0;  ///< bar of the response over its value
+  double relative = 0;  ///< what settings buy of the bar of the response, over its value
+  double whole = 0;     ///< the same of the whole bar
   double asked = 0;     ///< the same that was asked for
 };
 
@@ -44,8 +45,8 @@ struct SettingsTried {
 /// Settings for the accuracy asked for, at least cost as far as bars foresee it.
 struct SettingsChoice {
   /// converged: all responses are accurate enough; iteration_limit: not reached, these are the most accurate ones
-  /// tried; stalled: at
-  /// the scene's own settings no response asked for has a value and a bar, and they stay.
+  /// tried; stalled: no response asked for has a value and a bar at the first settings, which are the scene's own
+  /// unless samples and harmonics there do not match, and they stay.
   Status status = Status::iteration_limit;
   Settings settings;
   SettingsTried tried;                ///< at those settings

@@ -67,6 +67,8 @@ std::vector<Settings> all_settings(const Scene& scene, const std::set<std::strin
           if (modes >= scene.loading.mode || given("solver.modes"))
             result.push_back({.mesh = mesh, .harmonics = harmonics, .samples = samples, .modes = modes});
       }
+  // Samples that are too few for any harmonics on the ladder: there is nothing to choose.
+  if (result.empty()) result.push_back(settings_of(scene));
   return result;
 }
 

@@ -95,7 +95,7 @@ class GridSearch {
   [[nodiscard]] bool has_own_budget() const { return joint_.options.budget != candidate_.budget; }
 
   void lay(const std::vector<fem::FlankCells>& flanks) {
-    lay_contact(scene_, flanks, candidate_);
+    if (flanks != candidate_.cells.flanks) lay_contact(scene_, flanks, candidate_);
     joint_.model = candidate_.condensed;
   }
 

@@ -7,7 +7,7 @@
 namespace dovetail::optimizer {
 
 struct ContactFitOptions {
-  /// False: contact nodes stay where the first grid has them, for responses that know nothing of wear.
+  /// False: contact nodes stay where the first grid has them, for responses that know of no vibration.
   bool to_worn_zones = true;
   int grids = 6;            ///< >= 0. Further grids of contact nodes tried at most
   double aim = 0.005;       ///< > 0. No further grid where edges move by less, in lengths of the mesh's edge there
@@ -25,10 +25,11 @@ struct Computation {
   Stage until = Stage::worn_resonance;  ///< the last one that is gone through
 };
 
-/// Through this stage and no further. Contact nodes follow worn zones where a response may hang on these.
+/// Through this stage and no further. Contact nodes follow worn zones where anything moves: what does not wear yet is
+/// then the same as with all stages.
 [[nodiscard]] inline Computation until(Stage stage, bool history) {
   Computation how{.history = history, .until = stage};
-  how.contact.to_worn_zones = stage >= Stage::worn_state;
+  how.contact.to_worn_zones = stage >= Stage::unworn;
   return how;
 }
 

@@ -34,8 +34,10 @@ Preloaded stressed(const Scene& scene, const fem::ContactCells& cells, double fr
   return result;
 }
 
+using Order = std::shared_ptr<numerics::EliminationOrder>;
+
 reduction::FullModel full_model(const Scene& scene, const fem::SectorSystem& system,
-                                const Eigen::SparseMatrix<double>& stiffness) {
+                                const Eigen::SparseMatrix<double>& stiffness, const Order& order) {
   const double speed = scene.loading.speed;
   reduction::FullModel full;
   full.stiffness = fem::constrain(stiffness, system.constraints);
@@ -45,6 +47,7 @@ reduction::FullModel full_model(const Scene& scene, const fem::SectorSystem& sys
   full.sine_force = Eigen::MatrixXd::Zero(system.size(), 1);
   full.outputs = system.tip;
   full.output_names = {"tip_x"};
+  full.order = order;
   full.contact = contact_nodes(system.contact, system.internal_size(), scene.contact);
   return full;
 }
@@ -81,14 +84,15 @@ Eigen::SparseMatrix<double> geometric_stiffness(const Scene& scene, const fem::S
 }
 
 Matrices computed(const Scene& scene, const fem::SectorMesh& sector, const fem::ContactCells& cells,
-                  const Preloaded& by, std::map<std::string, double>& timings_s) {
+                  const Preloaded& by, const Order& order, std::map<std::string, double>& timings_s) {
   Matrices result;
   Stopwatch watch;
   const fem::Assembler assembler(sector.mesh);
   result.system = fem::build_sector_system(sector, materials(scene), assembler);
   timings_s["assembly"] = watch.lap();
 
-  result.at_rest = reduction::condense_statically(full_model(scene, result.system, result.system.full.stiffness));
+  result.at_rest =
+      reduction::condense_statically(full_model(scene, result.system, result.system.full.stiffness, order));
   const Status prestress = preloaded(scene, cells, by, result, result.preloaded);
   if (prestress != Status::converged) {
     result.status = failed_at("prestress", prestress);
@@ -99,7 +103,7 @@ Matrices computed(const Scene& scene, const fem::SectorMesh& sector, const fem::
   if (scene.solver.prestress == Prestress::own) result.at_rest = {};
   timings_s["prestress"] = watch.lap();
 
-  result.trace = reduction::trace_model(full_model(scene, result.system, result.stiffness),
+  result.trace = reduction::trace_model(full_model(scene, result.system, result.stiffness, order),
                                         {.modes = scene.solver.modes, .damping_ratio = scene.loading.damping_ratio});
   timings_s["reduction"] = watch.lap();
   if (result.trace.status != Status::converged)
@@ -185,7 +189,7 @@ std::shared_ptr<const Matrices> MatricesStore::shared(const Scene& scene, const 
     if (last_ && of_ == asked) return last_;
     last_.reset();  // before the next ones are there: both need not fit into memory
   }
-  auto result = std::make_shared<const Matrices>(computed(scene, sector, cells, by, timings_s));
+  auto result = std::make_shared<const Matrices>(computed(scene, sector, cells, by, order_, timings_s));
   const std::lock_guard lock(mutex_);
   of_ = std::move(asked);
   last_ = result;

@@ -9,6 +9,7 @@
 
 #include "fem/contact_cells.hpp"
 #include "fem/sector_system.hpp"
+#include "numerics/partial_cholesky.hpp"
 #include "optimizer/problem/outcome.hpp"
 #include "optimizer/scene/scene.hpp"
 #include "reduction/massless_boundary.hpp"
@@ -68,6 +69,7 @@ class MatricesStore {
                                                        std::map<std::string, double>& timings_s);
 
   double friction_;
+  std::shared_ptr<numerics::EliminationOrder> order_ = std::make_shared<numerics::EliminationOrder>();
   std::mutex mutex_;
   MatricesOf of_;
   std::shared_ptr<const Matrices> last_;

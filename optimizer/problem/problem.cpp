@@ -96,8 +96,11 @@ void check(const Problem& problem) {
 
 std::vector<std::string> responses_of(const Problem& problem) {
   std::vector<std::string> names;
-  for (const ObjectiveTerm& term : problem.objective) names.push_back(term.response);
-  for (const ResponseConstraint& c : problem.constraints) names.push_back(c.response);
+  const auto add = [&names](const std::string& name) {
+    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+  };
+  for (const ObjectiveTerm& term : problem.objective) add(term.response);
+  for (const ResponseConstraint& c : problem.constraints) add(c.response);
   return names;
 }
 

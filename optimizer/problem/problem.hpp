@@ -47,7 +47,7 @@ void check_terms(const Problem& problem);
 /// The same, and what a search needs besides: a variable and a term.
 void check(const Problem& problem);
 
-/// Responses that the objective and the constraints name, in this order.
+/// Responses that the objective and the constraints name, in this order, each once.
 [[nodiscard]] std::vector<std::string> responses_of(const Problem& problem);
 
 /// Names of the response constraints in the order algorithms see them: "peak_amplitude_m:upper", ...

@@ -21,6 +21,7 @@ void add_dominant(const std::optional<optimizer::Dominant>& by, Json& json) {
   json["response"] = by ? Json(by->response) : Json();
   json["source"] = by ? Json(by->source) : Json();
   json["relative_bar"] = by ? Json(by->relative) : Json();
+  json["relative_bar_total"] = by ? Json(by->whole) : Json();
   json["asked"] = by ? Json(by->asked) : Json();
 }
 

@@ -117,11 +117,24 @@ std::vector<std::string> keep_unworn(optimizer::Problem& problem, optimizer::Eva
   return unjudged;
 }
 
+/// Two ways to choose the same.
+void refuse_automatic(const SolverChoice& solver) {
+  std::vector<Violation> found;
+  for (const SolverKey& key : solver_keys())
+    if (key.automatic && solver.*key.member == kAutomatic)
+      found.push_back({.file = {},
+                       .key = key.option() + " " + std::string(kAutomatic),
+                       .value = {},
+                       .allowed = "must not be given beside solver.accuracy, which chooses it"});
+  refuse(std::move(found));
+}
+
 }  // namespace
 
 int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
   Study study = load_study(options.study, overrides(options.set, options.solver));
   for (const std::string& warning : warnings(study)) streams.err << options.study << ": warning: " << warning << "\n";
+  if (study.scene.solver.accuracy > 0) refuse_automatic(options.solver);
   const Study asked = study;
   const std::optional<optimizer::SettingsChoice> choice = settle(study, [&](const optimizer::SettingsTried& tried) {
     streams.err << "dovetail: " << round_words(asked, tried) << "\n";
@@ -133,13 +146,12 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
           ->evaluate(study.scene,
                      {.bars = !options.no_bars && !options.unworn,
                       .history = !options.no_history,
-                      .until = options.unworn ? optimizer::Stage::unworn : optimizer::Stage::worn_resonance,
-                      .to_worn_zones = true})
+                      .until = options.unworn ? optimizer::Stage::unworn : optimizer::Stage::worn_resonance})
           .evaluation;
   if (automatic && *automatic != Status::converged)
     evaluation.messages.push_back(
         truncation_complaint(*automatic, optimizer::steady_options(study.scene.solver), options.solver));
-  const std::string inaccurate = choice ? accuracy_complaint(*choice) : std::string();
+  const std::string inaccurate = choice ? accuracy_complaint(asked, *choice) : std::string();
   if (!inaccurate.empty()) evaluation.messages.push_back(inaccurate);
   std::vector<std::string> unjudged;
   if (options.unworn && evaluation.converged()) unjudged = keep_unworn(study.problem, evaluation);
@@ -150,7 +162,10 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
   if (options.json != "-") streams.out << evaluation_table(evaluation);
   if (evaluation.infeasible()) throw infeasible(options.study, evaluation.messages);
   for (const std::string& message : evaluation.messages) streams.err << "dovetail: " << message << "\n";
-  if (evaluation.converged()) return automatic && *automatic != Status::converged ? kNotConverged : kDone;
+  const auto missed = [](const auto& found, auto status) { return found && status(*found) != Status::converged; };
+  if (evaluation.converged())
+    return missed(automatic, std::identity{}) || missed(choice, [](const auto& c) { return c.status; }) ? kNotConverged
+                                                                                                        : kDone;
   const auto ends_in = [&](auto why) { return evaluation.status.ends_with(to_string(why)); };
   const char* what = ends_in(wear::Verdict::no_asymptote) ? "wear has no end"
                      : ends_in(Status::gross_sliding)     ? "the joint slides"

@@ -7,12 +7,14 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <ostream>
 
 #include "core/replace_file.hpp"
 #include "optimizer/journal/fingerprint.hpp"
 #include "studies/program/answers/accuracy_json.hpp"
 #include "studies/program/answers/version.hpp"
+#include "studies/program/engine/engine.hpp"
 #include "studies/program/engine/settled_study.hpp"
 #include "studies/program/study_file/best_file.hpp"
 
@@ -24,50 +26,76 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kFile = "settings.json";
 
+/// What a run searches with and its study file does not give.
+struct Chosen {
+  std::map<std::string, double> settings;  ///< by key
+  double noise = 0;
+  Json accuracy = {};  ///< how settings were chosen, see accuracy_json
+};
+
 /// What the bars of the start say of differences between designs. No history is asked in a search: a doubt that only
-/// one settles is no noise.
-double noise_of(const Study& study, const optimizer::Evaluation& start) {
+/// one settles is no noise. Nothing where they say nothing.
+std::optional<double> noise_of(const Study& study, const optimizer::Evaluation& start) {
+  for (const optimizer::ObjectiveTerm& term : study.problem.objective)
+    if (std::ranges::find(start.unbounded, term.response) != start.unbounded.end()) return {};
   std::map<std::string, double> bars;
   for (const auto& [response, sources] : start.error_sources)
     for (const auto& [source, bar] : sources)
       if (source != "history") bars[response] += bar;
   const double objective = judge(study.problem, start, study.optimizer.constraint_tolerance).objective;
   const double bar = judgement_bars(study.problem, bars).objective;
-  if (!std::isfinite(objective) || !std::isfinite(bar) || objective == 0) return optimizer::NoiseParams{}.unknown_bar;
+  if (!std::isfinite(objective) || !std::isfinite(bar) || objective == 0) return {};
   return std::clamp(bar / std::abs(objective), optimizer::NoiseParams{}.unknown, 0.5);
 }
 
-/// What was chosen before for the same question; null otherwise.
-Json kept(const std::filesystem::path& file, const std::string& question) {
+/// What was chosen before for the same question; nothing where none was. Throws InputError for a damaged file.
+std::optional<Chosen> kept(const std::filesystem::path& file, const std::string& question) {
   std::ifstream stream(file);
-  const Json json = Json::parse(stream, nullptr, false);
-  return json.is_object() && json.value("question", "") == question ? json : Json();
+  if (!stream) return {};
+  try {
+    const Json json = Json::parse(stream);
+    if (json.at("question").get<std::string>() != question) return {};
+    return Chosen{.settings = json.at("settings").get<std::map<std::string, double>>(),
+                  .noise = json.at("noise").get<double>(),
+                  .accuracy = json.at("accuracy")};
+  } catch (const Json::exception&) {
+    throw InputError(Violation{.file = file.string(),
+                               .key = "the file",
+                               .value = {},
+                               .allowed = "is damaged: remove it, and --resume chooses the settings again"});
+  }
 }
 
-/// @return "question", "settings", "noise" and "accuracy"
-Json chosen(const Study& asked, const std::string& question, const RunEngineFactory& make_engine, std::ostream& err) {
-  Json json{{"question", question}, {"settings", Json::object()}, {"noise", asked.optimizer.noise}, {"accuracy", {}}};
-  Study study = asked;
-  const std::optional<optimizer::SettingsChoice> choice = settle(
-      study, [&](const optimizer::SettingsTried& tried) { err << "dovetail: " << round_words(asked, tried) << "\n"; });
+Chosen chosen(const Study& asked, const RunEngineFactory& make_engine, std::ostream& err) {
+  Chosen result{.settings = {}, .noise = asked.optimizer.noise};
+  Study at_start = asked;
+  at_start.scene = start_scene(asked);
+  const std::optional<optimizer::SettingsChoice> choice = settle(at_start, [&](const optimizer::SettingsTried& tried) {
+    err << "dovetail: " << round_words(asked, tried) << "\n";
+  });
   if (choice) {
     for (const auto& [key, value] : settings_by_key(asked.scene, choice->settings))
-      if (!asked.given.contains(key)) json["settings"][key] = value;
-    json["accuracy"] = accuracy_json(asked.scene, *choice);
-    if (const std::string open = accuracy_complaint(*choice); !open.empty()) err << "dovetail: " << open << "\n";
+      if (!asked.given.contains(key)) result.settings[key] = value;
+    result.accuracy = accuracy_json(asked.scene, *choice);
+    if (const std::string open = accuracy_complaint(asked, *choice); !open.empty()) err << "dovetail: " << open << "\n";
   }
-  if (asked.optimizer.noise == 0) {
-    const RunEngine engine = choice && choice->tried.by ? RunEngine{} : make_engine(study);
-    if (engine.start)
-      json["noise"] = noise_of(study, engine.start());
-    else if (choice)
-      json["noise"] = noise_of(study, choice->evaluation);
-    else
-      return json;
-    err << fmt::format("dovetail: noise of the objective, from its error bar at the start: {:.2g}\n",
-                       json["noise"].get<double>());
-  }
-  return json;
+  if (asked.optimizer.noise > 0) return result;
+  const RunEngine engine = choice && choice->tried.by ? RunEngine{} : make_engine(asked);
+  if (!engine.start && !choice) return result;
+  const std::optional<double> noise = noise_of(asked, engine.start ? engine.start() : choice->evaluation);
+  result.noise = noise.value_or(optimizer::NoiseParams{}.unknown_bar);
+  err << fmt::format("dovetail: noise of the objective{}: {:.2g}\n",
+                     noise ? ", from its error bar at the start" : ", which has no error bar at the start",
+                     result.noise);
+  return result;
+}
+
+/// Everything that the choice hangs on; which keys the file gives, too, for a key that is given stays.
+std::string question_of(const Study& study) {
+  std::string text = std::string("dovetail ") + version() + "\n" + physics_text(study.scene);
+  for (const std::string& key : study.given)
+    if (optimizer::buys_accuracy(study.scene, key)) text += "given " + key + "\n";
+  return optimizer::fingerprint(study.problem, study.optimizer, text);
 }
 
 }  // namespace
@@ -75,18 +103,21 @@ Json chosen(const Study& asked, const std::string& question, const RunEngineFact
 Study settled_run(Study study, const std::filesystem::path& directory, bool resume, const RunEngineFactory& make_engine,
                   std::ostream& err) {
   if (study.scene.solver.accuracy == 0 && study.optimizer.noise > 0) return study;
-  const std::string question = optimizer::fingerprint(
-      study.problem, study.optimizer, std::string("dovetail ") + version() + "\n" + physics_text(study.scene));
+  const std::string question = question_of(study);
   const std::filesystem::path file = directory / kFile;
-  Json json = resume ? kept(file, question) : Json();
-  if (json.is_null()) {
-    json = chosen(study, question, make_engine, err);
+  std::optional<Chosen> settled = resume ? kept(file, question) : std::nullopt;
+  if (!settled) {
+    settled = chosen(study, make_engine, err);
+    const Json json{{"question", question},
+                    {"settings", settled->settings},
+                    {"noise", settled->noise},
+                    {"accuracy", settled->accuracy}};
     replace_file(file, json.dump(1) + "\n");
   }
-  const auto settings = json.at("settings").get<std::map<std::string, double>>();
-  if (!settings.empty())
-    study = read_study(parse_document(with_values(parse_document(study.text, study.file), settings), study.file));
-  study.optimizer.noise = json.at("noise").get<double>();
+  if (!settled->settings.empty())
+    study =
+        read_study(parse_document(with_values(parse_document(study.text, study.file), settled->settings), study.file));
+  study.optimizer.noise = settled->noise;
   return study;
 }
 

@@ -22,6 +22,13 @@ namespace dovetail::studies {
 using optimizer::Scene;
 using optimizer::SceneEvaluator;
 
+Scene start_scene(const Study& study) {
+  Scene scene = study.scene;
+  for (const optimizer::DesignVariable& variable : study.problem.space.variables())
+    optimizer::set_parameter(scene, variable.key, variable.start);
+  return scene;
+}
+
 Scene reference_scene(const Study& study) {
   Scene scene = study.scene;
   for (const optimizer::DesignVariable& variable : study.problem.space.variables())
@@ -64,7 +71,7 @@ RunEngine study_engine(const Study& study) {
   engine.evaluate = [evaluator, scene_at, purpose](std::span<const double> x) {
     return evaluator->evaluate(scene_at(x), purpose).evaluation;
   };
-  engine.start = [evaluator, scene = study.scene, purpose] {
+  engine.start = [evaluator, scene = start_scene(study), purpose] {
     optimizer::Purpose with_bars = purpose;
     with_bars.bars = true;
     return evaluator->evaluate(scene, with_bars).evaluation;

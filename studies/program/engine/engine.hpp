@@ -21,6 +21,9 @@ namespace dovetail::studies {
 inline constexpr double kTurn = 2 * std::numbers::pi;                         ///< rad/s of 1 Hz
 inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();  ///< null in an answer
 
+/// The design at which a run starts: every variable at its start.
+[[nodiscard]] optimizer::Scene start_scene(const Study& study);
+
 /// The scene whose geometry fixes the mesh topology of a study: every variable in the middle of its bounds. It does not
 /// depend on the values of the variables, so that a best design evaluates in its own file as it did in the run.
 [[nodiscard]] optimizer::Scene reference_scene(const Study& study);

@@ -3,9 +3,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "studies/program/engine/engine.hpp"
 
 namespace dovetail::studies {
+
+/// Whole bar over what settings buy of it from which it is told.
+static constexpr double kTellWhole = 1.05;
 
 std::optional<optimizer::AccuracyGoal> accuracy_goal(const Study& study) {
   if (study.scene.solver.accuracy == 0) return {};
@@ -13,7 +18,9 @@ std::optional<optimizer::AccuracyGoal> accuracy_goal(const Study& study) {
   goal.responses = optimizer::responses_of(study.problem);
   goal.fixed = study.given;
   const auto own = [&goal](const auto& term) {
-    if (term.accuracy > 0) goal.of[term.response] = term.accuracy;
+    if (term.accuracy == 0) return;
+    const auto [at, first] = goal.of.try_emplace(term.response, term.accuracy);
+    if (!first) at->second = std::min(at->second, term.accuracy);
   };
   for (const optimizer::ObjectiveTerm& term : study.problem.objective) own(term);
   for (const optimizer::ResponseConstraint& limit : study.problem.constraints) own(limit);
@@ -28,27 +35,38 @@ std::optional<optimizer::SettingsChoice> settle(Study& study, const optimizer::A
   return choice;
 }
 
+namespace {
+
+/// How well the response is known that is known worst.
+std::string known(const optimizer::Dominant& by) {
+  std::string text = fmt::format("{} to {:.2g} % (asked: {:.2g} %)", by.response, 100 * by.relative, 100 * by.asked);
+  if (!by.source.empty()) text += ", most of it by " + by.source;
+  // What no setting buys: doubts of the worn state, edges of zones.
+  if (by.whole > kTellWhole * by.relative) text += fmt::format("; {:.2g} % with what no setting buys", 100 * by.whole);
+  return text;
+}
+
+}  // namespace
+
 std::string round_words(const Study& study, const optimizer::SettingsTried& tried) {
   const optimizer::Scene there = optimizer::with_settings(study.scene, tried.settings);
   std::string text = fmt::format("{} edges per flank, {} harmonics, {} samples, {} modes: ", there.mesh.flank_elements,
                                  there.solver.harmonics, there.solver.samples, there.solver.modes);
-  if (!tried.by) return text + tried.status;
-  return text + fmt::format("{} to {:.2g} % (asked: {:.2g} %), most of it by {}", tried.by->response,
-                            100 * tried.by->relative, 100 * tried.by->asked, tried.by->source);
+  return text + (tried.by ? known(*tried.by) : tried.status);
 }
 
-std::string accuracy_complaint(const optimizer::SettingsChoice& choice) {
+std::string accuracy_complaint(const Study& study, const optimizer::SettingsChoice& choice) {
   if (!choice.tried.by)
     return "no settings could be chosen: at the design's own ones no response asked for has a value and an error bar";
   if (choice.status == Status::converged && !choice.not_held.empty())
     return fmt::format("settings were chosen without {}: no value, or no error bar, says how accurate it is",
                        fmt::join(choice.not_held, ", "));
   if (choice.status == Status::converged) return {};
-  return fmt::format(
-      "the accuracy asked for is not reached: {} is known to {:.2g} %, asked for {:.2g} %; most of it is "
-      "left by {}",
-      choice.tried.by->response, 100 * choice.tried.by->relative, 100 * choice.tried.by->asked,
-      choice.tried.by->source);
+  std::vector<std::string> held;
+  for (const std::string& key : study.given)
+    if (optimizer::buys_accuracy(study.scene, key)) held.push_back(key);
+  return fmt::format("the accuracy asked for is not reached: {}{}{}", known(*choice.tried.by),
+                     held.empty() ? "" : ". The study file holds ", fmt::join(held, ", "));
 }
 
 }  // namespace dovetail::studies

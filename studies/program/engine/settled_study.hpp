@@ -19,7 +19,8 @@ std::optional<optimizer::SettingsChoice> settle(Study& study, const optimizer::A
 
 /// A round in a line for people.
 [[nodiscard]] std::string round_words(const Study& study, const optimizer::SettingsTried& tried);
-/// What was not reached or not held to it, and why; empty where everything was.
-[[nodiscard]] std::string accuracy_complaint(const optimizer::SettingsChoice& choice);
+/// What was not reached or not held to it, why, and which keys of the study file keep it from being bought; empty where
+/// everything was.
+[[nodiscard]] std::string accuracy_complaint(const Study& study, const optimizer::SettingsChoice& choice);
 
 }  // namespace dovetail::studies

@@ -54,7 +54,7 @@ std::string edited(const Document& document, const std::map<std::string, double>
   };
   std::vector<Edit> edits;
   std::string text = document.text;
-  std::string appended;
+  std::map<std::string, std::string> appended;  // lines by section
   for (const auto& [key, value] : values) {
     const std::size_t dot = key.rfind('.');
     const std::string line = key.substr(dot + 1) + " = " + value_text(key, value);
@@ -63,13 +63,14 @@ std::string edited(const Document& document, const std::map<std::string, double>
     } else if (const std::size_t header = end_of_header(text, key.substr(0, dot)); header != std::string::npos) {
       edits.push_back({header, header, "\n" + line});
     } else {
-      appended += "\n[" + key.substr(0, dot) + "]\n" + line + "\n";
+      appended[key.substr(0, dot)] += line + "\n";
     }
   }
   std::stable_sort(edits.begin(), edits.end(), [](const Edit& a, const Edit& b) { return a.begin > b.begin; });
   for (const Edit& edit : edits) text.replace(edit.begin, edit.end - edit.begin, edit.text);
   if (!appended.empty() && !text.empty() && text.back() != '\n') text += '\n';
-  return text + appended;
+  for (const auto& [section, lines] : appended) text += "\n[" + section + "]\n" + lines;
+  return text;
 }
 
 std::string rewritten(const Document& document, const std::map<std::string, double>& values) {

@@ -63,6 +63,8 @@ std::vector<std::string> of_flanks(const std::string& key) {
 std::string conflict(const Node* root, const Parameter& parameter) {
   if (parameter.kind != Parameter::Kind::real) return "cannot be varied: it is not a real number";
   const std::string& key = parameter.key;
+  for (const char* section : {"mesh", "solver"})
+    if (is_prefix_section(key, section)) return "cannot be varied: it is no property of a design";
   if (is_prefix_section(key, "material.blade")) {
     const std::string disk = "material.disk." + key.substr(key.rfind('.') + 1);
     if (!given(root, disk)) return "cannot be varied unless " + disk + " is given: the disk would follow the blade";

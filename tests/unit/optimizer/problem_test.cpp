@@ -140,5 +140,12 @@ TEST(Problem, ReportsEverythingWrong) {
   EXPECT_NO_THROW(check(two_terms()));
 }
 
+TEST(Problem, NamesEachResponseOnce) {
+  Problem problem;
+  for (const char* name : {"a", "b", "b"}) problem.objective.emplace_back().response = name;
+  for (const char* name : {"b", "c", "a"}) problem.constraints.emplace_back().response = name;
+  EXPECT_EQ(responses_of(problem), (std::vector<std::string>{"a", "b", "c"}));
+}
+
 }  // namespace
 }  // namespace dovetail::optimizer

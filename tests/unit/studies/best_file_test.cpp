@@ -43,6 +43,16 @@ TEST(BestFile, SectionsThatAreAbsentAreAppended) {
   EXPECT_EQ(optimizer::parameter(read_study(parse_document(best, "b")).scene, "geometry.left.flank_crown_um"), 2.5);
 }
 
+// Several keys of a section that is absent, with all that people wrote kept.
+TEST(BestFile, AnAbsentSectionIsAppendedOnce) {
+  std::string text = study_template("sample");
+  const std::size_t begin = text.find("\n[mesh]\n"), end = text.find("\n[", begin + 1);
+  text.erase(begin, end - begin);
+  const std::string best =
+      with_values(parse_document(text, "s.toml"), {{"mesh.flank_elements", 30}, {"mesh.bulk_size_mm", 2.5}});
+  EXPECT_EQ(best, text + "\n[mesh]\nbulk_size_mm = 2.5\nflank_elements = 30\n");
+}
+
 TEST(BestFile, ColumnsCountCodePoints) {
   const std::string text =
       replaced(study_template("sample"), "neck_width_mm = 8.5", "\"neck_width_mm\" = 8.5 # \xc3\xa4\xe2\x82\xac");

@@ -36,6 +36,15 @@ TEST(ModelBuilder, RefusesMeshSizesOutOfRange) {
   EXPECT_THROW(ModelBuilder{scene}, InputError);
 }
 
+// A variable may start elsewhere than at the value in the file.
+TEST(StudyEngine, StartsWhereTheVariablesStart) {
+  studies::Study study;
+  study.problem.space = DesignSpace({{.key = "geometry.flank_mismatch_um", .lower = -5, .upper = 25, .start = 12}});
+  EXPECT_EQ(parameter(studies::start_scene(study), "geometry.flank_mismatch_um"), 12);
+  EXPECT_EQ(parameter(study.scene, "geometry.flank_mismatch_um"), 0);
+  EXPECT_EQ(parameter(studies::reference_scene(study), "geometry.flank_mismatch_um"), 10);
+}
+
 // Whatever bounds were held against: a run comes to its report.
 TEST(StudyEngine, DescribesADesignThatIsRefusedAsFailed) {
   studies::Study study;

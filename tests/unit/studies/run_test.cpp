@@ -19,6 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
+using testing::Not;
 
 /// A new directory that goes with the test.
 class Run : public testing::Test {
@@ -88,6 +89,50 @@ TEST_F(Run, WritesAStudyThatEvaluatesToTheBestDesign) {
   EXPECT_TRUE(fs::exists(results() / "best.dxf"));
   EXPECT_THAT(err_.str(), HasSubstr("evaluation 1/40: "));
   EXPECT_THAT(err_.str(), HasSubstr(" to go"));
+}
+
+/// What a run finds out at its start is kept beside its results.
+TEST_F(Run, KeepsTheNoiseFromTheBarOfItsStart) {
+  int starts = 0;
+  double bar = 3e-12;
+  bool unbounded = false;
+  const RunEngineFactory with_start = [&](const Study&) {
+    RunEngine engine{.evaluate = bowl, .describe = {}};
+    engine.start = [&] {
+      ++starts;
+      optimizer::Evaluation start = bowl(std::vector<double>{10, 3, 9});
+      start.error_sources["asymptotic_wear_volume_m3"] = {{"mesh", bar}, {"history", 1e-11}};
+      if (unbounded) start.unbounded.emplace_back("asymptotic_wear_volume_m3");
+      return start;
+    };
+    return engine;
+  };
+  ASSERT_EQ(run(false, with_start), kDone) << err_.str();
+  EXPECT_THAT(err_.str(), HasSubstr("noise of the objective, from its error bar at the start: 0.03\n"));
+  bar = 5e-12;
+  ASSERT_EQ(run(true, with_start), kDone) << err_.str();
+  EXPECT_EQ(starts, 1);
+  EXPECT_THAT(err_.str(), Not(HasSubstr("noise")));
+  // A bar that grows without limit says nothing.
+  unbounded = true;
+  fs::remove_all(results());
+  ASSERT_EQ(run(false, with_start), kDone) << err_.str();
+  EXPECT_EQ(starts, 2);
+  EXPECT_THAT(err_.str(), HasSubstr("noise of the objective, which has no error bar at the start: 0.02\n"));
+  // A damaged file is named, and nothing computed is lost.
+  for (const char* text : {"", "{", "{}", "5", "{\"question\": 5}"}) {
+    replace_file(results() / "settings.json", text);
+    try {
+      run(true, with_start);
+      ADD_FAILURE() << "accepted: " << text;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::AllOf(HasSubstr("settings.json"), HasSubstr("is damaged"))) << text;
+    }
+  }
+  EXPECT_EQ(starts, 2);
+  fs::remove(results() / "settings.json");
+  ASSERT_EQ(run(true, with_start), kDone) << err_.str();
+  EXPECT_EQ(starts, 3);
 }
 
 // The wear history may say something else of the best design than the search, which does not ask it.

@@ -290,6 +290,8 @@ TEST(Study, VariablesAreChecked) {
               HasSubstr("geometry.flank_angle_deg = 50: is the start of variable[3] and must be between"));
   EXPECT_THAT(variable("key = \"geometry.flank_angle_deg\"\nlower = 52\nupper = 55\nstart = 56\n"),
               HasSubstr("variable[3].start = 56: must be between lower = 52 and upper = 55"));
+  EXPECT_THAT(variable("key = \"solver.tolerance\"\nlower = 1e-9\nupper = 1e-8\n"),
+              HasSubstr("cannot be varied: it is no property of a design"));
   EXPECT_THAT(variable("key = \"geometry.sectors\"\nlower = 40\nupper = 50\n"), HasSubstr("it is not a real number"));
   EXPECT_THAT(variable("key = \"material.blade.density_kg_m3\"\nlower = 4000\nupper = 5000\n"),
               HasSubstr("unless material.disk.density_kg_m3 is given"));

@@ -123,6 +123,29 @@ TEST(Accuracy, IsNotReachedWhereNothingIsHeldToIt) {
   EXPECT_EQ(one.not_held, std::vector<std::string>{"peak_amplitude_m"});
 }
 
+// So few samples that every number of harmonics on the ladder would alias.
+TEST(Accuracy, HasNothingToChooseWhereSamplesAreTooFew) {
+  Scene scene;
+  scene.solver.samples = 12;
+  AccuracyGoal goal = kGoal;
+  goal.fixed = {"solver.samples"};
+  const SettingsChoice choice = choose_settings(scene, goal, Laws{}.probe());
+  EXPECT_TRUE(choice.settings == settings_of(scene));
+  EXPECT_EQ(choice.status, Status::iteration_limit);
+}
+
+// Knobs that leave next to nothing stay where the accuracy is out of reach for another reason.
+TEST(Accuracy, TurnsNoKnobThatBuysNothing) {
+  AccuracyGoal goal = kGoal;
+  goal.fixed = {"mesh.flank_elements", "solver.harmonics", "solver.samples"};
+  const Laws laws{.mesh = 0.05, .modes = 2e-4};
+  const SettingsChoice choice = choose_settings(Scene{}, goal, laws.probe());
+  EXPECT_EQ(choice.status, Status::iteration_limit);
+  EXPECT_LE(choice.settings.modes, Scene{}.solver.modes);
+  ASSERT_TRUE(choice.tried.by);
+  EXPECT_NEAR(choice.tried.by->whole - choice.tried.by->relative, laws.history, 1e-12);
+}
+
 TEST(Accuracy, OfOneResponseMayBeAnother) {
   AccuracyGoal goal = kGoal;
   goal.of[kVolume] = 0.005;

@@ -313,8 +313,7 @@ TEST(SectionEvaluation, RoughFlanksAreSofterAndRigidInTheLimit) {
   const auto resonance = [](double stiffness) {
     Scene scene = coarse_scene();
     scene.contact.normal_stiffness = scene.contact.tangential_stiffness = stiffness;
-    const Evaluation found =
-        evaluator().evaluate(scene, {.bars = false, .until = Stage::unworn, .to_worn_zones = true}).evaluation;
+    const Evaluation found = evaluator().evaluate(scene, {.bars = false, .until = Stage::unworn}).evaluation;
     EXPECT_TRUE(found.converged()) << found.status;
     return std::pair{found.responses.at("resonance_hz"), found.responses.at("blade_fillet_stress_pa")};
   };
