@@ -1,8 +1,11 @@
 #include "reduction/massless_boundary.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "numerics/dense_product.hpp"
 #include "numerics/dense_symmetric.hpp"
@@ -55,9 +58,18 @@ TraceModel failed(TraceModel result, Status status, const char* message) {
 }
 
 using Sparse = Eigen::SparseMatrix<double>;
+using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 Eigen::MatrixXd symmetric(const Eigen::MatrixXd& matrix) {
   return 0.5 * (matrix + matrix.transpose());
+}
+
+/// A x for many columns: each entry of A meets a row of x that is contiguous.
+Eigen::MatrixXd row_by_row(const SparseRows& a, const Eigen::MatrixXd& x) {
+  const Rows rows = x;
+  const Rows product = a * rows;
+  return product;
 }
 
 /// The stiffness of a trace in displacements u of contact nodes, whose flexibility is G, and coordinates q of the
@@ -75,14 +87,21 @@ struct Blocks {
   }
 
   /// Adds Psi^T D Psi, with the fields of unit coordinates Psi = [X A^T, Phi] [[G^-1, -G^-1 Phi_r], [0, I]].
-  void add(const Sparse& change, const ResidualFlexibility& structure, const Sparse& average) {
-    const Eigen::MatrixXd& phi = structure.basis().vectors;
-    const Eigen::Index nc = contact.rows(), m = phi.cols();
-    Eigen::MatrixXd fields(phi.rows(), nc + m);
-    fields << structure.field(Eigen::MatrixXd::Zero(m, nc), Eigen::MatrixXd(average.transpose())), phi;
+  void add(const StiffnessChange& change, const ResidualFlexibility& structure, const Sparse& average) {
+    const Eigen::Index nc = contact.rows(), m = coupling.cols();
+    Eigen::MatrixXd forced;
+    if (change.forced.size() > 0)
+      forced = change.forced * average.transpose();
+    else
+      forced =
+          structure.field(Eigen::MatrixXd::Zero(m, nc), Eigen::MatrixXd(average.transpose()))(change.rows, Eigen::all);
+    Eigen::MatrixXd of_fields(nc + m, nc + m);
+    of_fields.topLeftCorner(nc, nc) = numerics::transposed_product(forced, row_by_row(change.near, forced));
+    of_fields.topRightCorner(nc, m) = numerics::transposed_product(forced, change.basis);
+    of_fields.bottomLeftCorner(m, nc) = of_fields.topRightCorner(nc, m).transpose();
+    of_fields.bottomRightCorner(m, m) = change.on_basis;
     Eigen::MatrixXd coordinates = Eigen::MatrixXd::Identity(nc + m, nc + m);
     coordinates.topRows(nc) << contact, coupling;
-    const Eigen::MatrixXd of_fields = numerics::transposed_product(fields, change * fields);
     const Eigen::MatrixXd added =
         symmetric(numerics::transposed_product(coordinates, numerics::product(of_fields, coordinates)));
     contact += added.topLeftCorner(nc, nc);
@@ -123,7 +142,7 @@ Eigen::VectorXd glued_frequencies(const TraceModel& trace) {
   glued.diagonal() += basis.eigenvalues;
   if (trace.change) {
     const Eigen::MatrixXd fields = structure.field(Eigen::MatrixXd::Identity(m, m), forces);
-    glued += symmetric(numerics::transposed_product(fields, *trace.change * fields));
+    glued += symmetric(numerics::transposed_product(fields, trace.change->whole * fields));
   }
   const numerics::SymmetricPairs pairs = numerics::all_values<double>(glued);
   if (pairs.status != Status::converged) return unknown;
@@ -176,6 +195,39 @@ TraceModel trace_model(const FullModel& full, const ReductionOptions& options) {
   return result;
 }
 
+StiffnessChange stiffness_change(const TraceModel& trace, Sparse change, const Eigen::MatrixXd& forced) {
+  StiffnessChange result;
+  Eigen::VectorXd largest = Eigen::VectorXd::Zero(change.cols());
+  for (Eigen::Index column = 0; column < change.outerSize(); ++column)
+    for (Sparse::InnerIterator entry(change, column); entry; ++entry)
+      largest(column) = std::max(largest(column), std::abs(entry.value()));
+  const double negligible = ChangeParams{}.negligible * largest.maxCoeff();
+  std::vector<int> place(static_cast<std::size_t>(change.cols()), -1);
+  for (Eigen::Index column = 0; column < change.cols(); ++column)
+    if (largest(column) > negligible) {
+      place[static_cast<std::size_t>(column)] = static_cast<int>(result.rows.size());
+      result.rows.push_back(static_cast<int>(column));
+    }
+  const auto r = static_cast<Eigen::Index>(result.rows.size());
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const int column : result.rows)
+    for (Sparse::InnerIterator entry(change, column); entry; ++entry) {
+      // Of a row left out, on the diagonal: a stress does nothing where bodies only move along.
+      const int row = place[static_cast<std::size_t>(entry.row())], here = place[static_cast<std::size_t>(column)];
+      entries.emplace_back(row >= 0 ? row : here, here, entry.value());
+    }
+  result.near.resize(r, r);
+  result.near.setFromTriplets(entries.begin(), entries.end());
+
+  const Eigen::MatrixXd& phi = trace.structure->basis().vectors;
+  const Eigen::MatrixXd on_phi = row_by_row(change, phi);
+  result.on_basis = symmetric(numerics::transposed_product(phi, on_phi));
+  result.basis = on_phi(result.rows, Eigen::all);
+  if (forced.size() > 0) result.forced = forced(result.rows, Eigen::all);
+  result.whole = std::move(change);
+  return result;
+}
+
 Reduction reduce(const TraceModel& trace, const Sparse& average, ContactNodes contact, double damping_ratio) {
   Reduction result;
   static_cast<ModesRecord&>(result) = trace;
@@ -206,7 +258,7 @@ Reduction reduce(const TraceModel& trace, const Sparse& average, ContactNodes co
                                                                                              const Columns& lambda) {
     const Eigen::MatrixXd force = lambda.size() > 0 ? Eigen::MatrixXd(-a.transpose() * lambda) : Eigen::MatrixXd();
     Eigen::MatrixXd field = structure->field(numerics::product(rotation, q.bottomRows(rotation.rows())), force);
-    if (change) field -= structure->response(*change * field);
+    if (change) field -= structure->response(change->whole * field);
     return field;
   };
   result.model = in_glued_modes(blocks, glued, damping_ratio);

@@ -45,6 +45,17 @@ struct Reduction : ModesRecord {
   Eigen::VectorXd glued_frequencies;  ///< [m] angular frequencies of the glued modes, rad/s, ascending
 };
 
+/// A small change D of the stiffness since a structure was reduced, as reduced models take it to first order.
+struct StiffnessChange {
+  Eigen::SparseMatrix<double> whole;  ///< D [n, n]
+  Eigen::MatrixXd on_basis;           ///< Phi^T D Phi [m, m]
+  // Fields of contact forces decay: for them the rows count where D is not negligible.
+  std::vector<int> rows;                              ///< [r]
+  Eigen::SparseMatrix<double, Eigen::RowMajor> near;  ///< of D [r, r]
+  Eigen::MatrixXd forced;                             ///< X [r, nt]; empty: too large to be kept
+  Eigen::MatrixXd basis;                              ///< D Phi [r, m]
+};
+
 /// What a structure is at the trace of its contact, before contact nodes are laid on it: free-interface modes and the
 /// flexibility they leave. To lay other contact nodes on the same trace takes dense algebra of their number only.
 /// Holds the factors of the stiffness, for fields to come.
@@ -53,20 +64,23 @@ struct TraceModel : ModesRecord {
   Eigen::MatrixXd static_force, cosine_force, sine_force;  ///< Phi^T f [m, 1], [m, H_f], [m, H_f]
   Eigen::MatrixXd outputs;                                 ///< Phi^T c [m, n_out]
   std::vector<std::string> output_names;
-  ContactNodes contact;  ///< the trace's own nodes
-  /// A small change of the stiffness [n, n] since, which reduced models have to first order; null: none.
-  std::shared_ptr<const Eigen::SparseMatrix<double>> change;
+  ContactNodes contact;                           ///< the trace's own nodes
+  std::shared_ptr<const StiffnessChange> change;  ///< null: none
 };
 
 /// First half of `reduce`, for `full` with its trace as contact. Cost and statuses as there.
 [[nodiscard]] TraceModel trace_model(const FullModel& full, const ReductionOptions& options = {});
 
+/// @param forced  displacements to unit forces on the trace, X [n, nt], or empty: back-solves for every grid of contact
+///                nodes instead
+[[nodiscard]] StiffnessChange stiffness_change(const TraceModel& trace, Eigen::SparseMatrix<double> change,
+                                               const Eigen::MatrixXd& forced);
+
 /// Second half, with other contact nodes on the trace: their relative displacements are u = A v, v the trace's and A
 /// `average` [nodes, trace nodes] for each direction, and their forces act on the trace as A^T lambda. Between them
 /// the trace is free to deform. `contact`: what the nodes are like; its dof numbers are set here. Glued modes, and with
 /// them the damping, are those of u = 0. A change D of the stiffness adds Psi^T D Psi, Psi the fields of unit
-/// coordinates, and costs a back-solve for every contact dof: displacements, frequencies and fields err like its
-/// square.
+/// coordinates: displacements, frequencies and fields err like its square.
 [[nodiscard]] Reduction reduce(const TraceModel& trace, const Eigen::SparseMatrix<double>& average,
                                ContactNodes contact, double damping_ratio);
 

@@ -37,6 +37,13 @@ struct FlexibilityParams {
   double singular = 1e-14;
 };
 
+/// A small change of the stiffness after a reduction.
+struct ChangeParams {
+  /// Entry, over the largest, up to which it does not act on fields of contact forces. Larger: less work; what is left
+  /// out is that part of a change whose square is left out anyway.
+  double negligible = 3e-4;
+};
+
 /// What models from files must keep.
 struct ModelFileParams {
   double asymmetry = 1e-9;       ///< of a matrix, over its largest entry: what exporters that print few digits leave

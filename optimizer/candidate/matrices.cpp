@@ -5,6 +5,7 @@
 
 #include "fem/stress.hpp"
 #include "optimizer/candidate/contact_nodes.hpp"
+#include "optimizer/candidate/params.hpp"
 #include "optimizer/candidate/stopwatch.hpp"
 #include "optimizer/scene/scene_kind.hpp"
 #include "reduction/static_condensation.hpp"
@@ -83,6 +84,14 @@ Eigen::SparseMatrix<double> geometric_stiffness(const Scene& scene, const fem::S
                                        fem::quadrature_stress(sector.mesh, materials(scene), displacement));
 }
 
+/// Displacements to unit forces on the trace, unless they are too large to be kept.
+Eigen::MatrixXd forced(const reduction::ResidualFlexibility& structure) {
+  const Eigen::Index n = structure.basis().vectors.rows(), m = structure.basis().vectors.cols();
+  const Eigen::Index trace = structure.on_contact().rows();
+  if (static_cast<double>(n) * static_cast<double>(trace) > MatricesParams{}.largest_fields) return {};
+  return structure.field(Eigen::MatrixXd::Zero(m, trace), Eigen::MatrixXd::Identity(trace, trace));
+}
+
 Matrices computed(const Scene& scene, const fem::SectorMesh& sector, const fem::ContactCells& cells,
                   const Preloaded& by, const Order& order, std::map<std::string, double>& timings_s) {
   Matrices result;
@@ -105,9 +114,11 @@ Matrices computed(const Scene& scene, const fem::SectorMesh& sector, const fem::
 
   result.trace = reduction::trace_model(full_model(scene, result.system, result.stiffness, order),
                                         {.modes = scene.solver.modes, .damping_ratio = scene.loading.damping_ratio});
-  timings_s["reduction"] = watch.lap();
   if (result.trace.status != Status::converged)
     result.status = failed_at("reduction", result.trace.status) + " " + result.trace.message;
+  else if (scene.solver.prestress == Prestress::shared)
+    result.forced = forced(*result.trace.structure);
+  timings_s["reduction"] = watch.lap();
   return result;
 }
 
@@ -120,8 +131,8 @@ Status add_own_preload(const Scene& scene, const fem::SectorMesh& sector, const 
   if (status != Status::converged) return status;
   const fem::Assembler assembler(sector.mesh);
   result.change = geometric_stiffness(scene, sector, assembler, displacement - result.shared->preloaded);
-  result.trace.change = std::make_shared<const Eigen::SparseMatrix<double>>(
-      fem::constrain(result.change, result.shared->system.constraints));
+  result.trace.change = std::make_shared<const reduction::StiffnessChange>(reduction::stiffness_change(
+      result.shared->trace, fem::constrain(result.change, result.shared->system.constraints), result.shared->forced));
   return Status::converged;
 }
 

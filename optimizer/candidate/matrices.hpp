@@ -26,6 +26,7 @@ struct Matrices {
   // To add what the preload of another design changes:
   reduction::StaticCondensation at_rest;  ///< of K; its factors are kept for designs that share the matrices alone
   Eigen::VectorXd preloaded;              ///< displacement of all nodes
+  Eigen::MatrixXd forced;                 ///< to unit forces on the trace [n, nt]; empty where it is too large
 };
 
 /// The matrices of a candidate, of its own or shared by designs that differ in the form of their flanks, friction, wear

@@ -2,8 +2,8 @@
 
 namespace dovetail::optimizer {
 
-// The numbers that steer where contact nodes are laid. They were tuned on dovetail sections of 16 to 48 edges per
-// flank.
+// The numbers that steer where contact nodes are laid, tuned on dovetail sections of 16 to 48 edges per flank, and what
+// a model is made of.
 
 /// How a piece of a flank is divided into contact cells.
 struct CellGridParams {
@@ -24,6 +24,11 @@ struct EdgeSearchParams {
 /// When rough flanks are too soft for nodes that stay matched.
 struct AsperityParams {
   double large = 0.1;  ///< way that asperities give or flanks slide under the pull of the blade, of a flank's length
+};
+
+/// What is kept of matrices for designs that share them.
+struct MatricesParams {
+  double largest_fields = 4e7;  ///< numbers: 320 MB
 };
 
 /// At which instants a stress is looked at.
