@@ -58,17 +58,16 @@ TraceModel failed(TraceModel result, Status status, const char* message) {
 }
 
 using Sparse = Eigen::SparseMatrix<double>;
-using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 Eigen::MatrixXd symmetric(const Eigen::MatrixXd& matrix) {
   return 0.5 * (matrix + matrix.transpose());
 }
 
 /// A x for many columns: each entry of A meets a row of x that is contiguous.
-Eigen::MatrixXd row_by_row(const SparseRows& a, const Eigen::MatrixXd& x) {
-  const Rows rows = x;
-  const Rows product = a * rows;
+Eigen::MatrixXd row_by_row(const Eigen::SparseMatrix<double, Eigen::RowMajor>& a, const Eigen::MatrixXd& x) {
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const RowMajor rows = x;
+  const RowMajor product = a * rows;
   return product;
 }
 

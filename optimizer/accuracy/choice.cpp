@@ -150,7 +150,8 @@ class Forecast {
         std::ranges::find(evaluation.unbounded, name) != evaluation.unbounded.end())
       return;
     double whole = 0;
-    for (const auto& [source, bar] : bars->second) whole += bar;
+    for (const auto& [source, bar] : bars->second)
+      if (source != "history") whole += bar;  // no round asks a history: what it would settle is not known here
     whole_[name] = whole / std::abs(value->second);
     for (const auto& [source, bar] : bars->second)
       if (const Knob knob = knob_of(source); knob != Knob::none)
@@ -183,8 +184,8 @@ class Forecast {
   Settings at_;
   double dofs_ = 0;                          // unknowns of the mesh
   double factorisations_ = 0, marches_ = 0;  // operations of all that follows the matrices
-  std::map<std::string, double> whole_;      // bars over values, with what no setting buys
-  std::vector<Part> parts_;                  // those of a response one after the other
+  std::map<std::string, double> whole_;  // bars over values, with what no setting buys but what a history would settle
+  std::vector<Part> parts_;              // those of a response one after the other
 };
 
 constexpr std::array kKnobs{Knob::mesh, Knob::harmonics, Knob::samples, Knob::modes};

@@ -29,7 +29,7 @@ struct AccuracyGoal {
 struct Dominant {
   std::string response = {}, source = {};
   double relative = 0;  ///< what settings buy of the bar of the response, over its value
-  double whole = 0;     ///< the same of the whole bar
+  double whole = 0;     ///< the same with what no setting buys, but what a history would settle
   double asked = 0;     ///< the same that was asked for
 };
 
