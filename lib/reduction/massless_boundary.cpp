@@ -71,6 +71,14 @@ Eigen::MatrixXd row_by_row(const Eigen::SparseMatrix<double, Eigen::RowMajor>& a
   return product;
 }
 
+/// Lambda + Phi_r^T G^-1 Phi_r [m, m]; `forces` = -G^-1 Phi_r hold the contact where it is.
+Eigen::MatrixXd glued_stiffness(const RitzBasis& basis, const Eigen::MatrixXd& on_contact,
+                                const Eigen::MatrixXd& forces) {
+  Eigen::MatrixXd glued = -symmetric(numerics::transposed_product(on_contact, forces));
+  glued.diagonal() += basis.eigenvalues;
+  return glued;
+}
+
 /// The stiffness of a trace in displacements u of contact nodes, whose flexibility is G, and coordinates q of the
 /// basis, which moves them by Phi_r in a free structure.
 struct Blocks {
@@ -81,9 +89,7 @@ struct Blocks {
   Blocks(const RitzBasis& basis, const numerics::DenseCholesky& flexibility, const Eigen::MatrixXd& on_contact)
       : contact(symmetric(flexibility.solve(Eigen::MatrixXd::Identity(on_contact.rows(), on_contact.rows())))),
         coupling(-flexibility.solve(on_contact)),
-        glued(symmetric(numerics::transposed_product(on_contact, -coupling))) {
-    glued.diagonal() += basis.eigenvalues;
-  }
+        glued(glued_stiffness(basis, on_contact, coupling)) {}
 
   /// Adds Psi^T D Psi, with the fields of unit coordinates Psi = [X A^T, Phi] [[G^-1, -G^-1 Phi_r], [0, I]].
   void add(const StiffnessChange& change, const ResidualFlexibility& structure, const Sparse& average) {
@@ -137,8 +143,7 @@ Eigen::VectorXd glued_frequencies(const TraceModel& trace) {
   if (g.status() != Status::converged) return unknown;
   const Eigen::MatrixXd on_contact = basis.vectors.bottomRows(contact);
   const Eigen::MatrixXd forces = -g.solve(on_contact);
-  Eigen::MatrixXd glued = symmetric(numerics::transposed_product(on_contact, -forces));
-  glued.diagonal() += basis.eigenvalues;
+  Eigen::MatrixXd glued = glued_stiffness(basis, on_contact, forces);
   if (trace.change) {
     const Eigen::MatrixXd fields = structure.field(Eigen::MatrixXd::Identity(m, m), forces);
     glued += symmetric(numerics::transposed_product(fields, trace.change->whole * fields));

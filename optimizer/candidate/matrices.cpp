@@ -180,10 +180,10 @@ DesignMatrices MatricesStore::matrices(const Scene& scene, const fem::SectorMesh
   if (outcome_of(result.status) != Outcome::converged) return result;
   result.trace = result.shared->trace;
   result.trace.cosine_force *= scene.loading.tip_force;
-  if (scene.solver.prestress == Prestress::own) return result;
-  Stopwatch watch;
   result.trace.contact =
       contact_nodes(fem::contact_surface(sector), result.shared->system.internal_size(), scene.contact);
+  if (scene.solver.prestress == Prestress::own) return result;
+  Stopwatch watch;
   if (const Status status = add_own_preload(scene, sector, cells, result); status != Status::converged)
     result.status = failed_at("prestress", status);
   timings_s["prestress"] += watch.lap();

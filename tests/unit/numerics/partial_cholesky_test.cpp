@@ -51,6 +51,25 @@ constexpr double kSmall = 1e-12;
 class PartialCholeskyOf : public testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(HeldFloatingAndIndefinite, PartialCholeskyOf, testing::Values(0.5, 0.0, -0.01));
 
+// The same to the last bit in an order that is kept, also after a matrix with another pattern.
+TEST(EliminationOrder, IsKeptForAPatternAndFoundAnewForAnother) {
+  EliminationOrder kept;
+  for (const int side : {16, 16, 12, 16}) {
+    const Eigen::SparseMatrix<double> a = grid(side, 0.5);
+    PartialCholesky with, without;
+    ASSERT_EQ(with.factorise(a, side, &kept), Status::converged);
+    ASSERT_EQ(without.factorise(a, side), Status::converged);
+    EXPECT_EQ(with.schur(), without.schur()) << side;
+  }
+  // One entry more is another pattern.
+  const Eigen::SparseMatrix<double> a = grid(8, 0.5).triangularView<Eigen::Lower>();
+  Eigen::SparseMatrix<double> b = a;
+  EXPECT_EQ(kept.of(a), EliminationOrder{}.of(a));
+  b.coeffRef(40, 3) = 0.1;
+  b.makeCompressed();
+  EXPECT_EQ(kept.of(b), EliminationOrder{}.of(b));
+}
+
 TEST_P(PartialCholeskyOf, LeavesTheSchurComplementOfTheDenseFormula) {
   const Eigen::SparseMatrix<double> a = grid(16, GetParam());
   for (const Eigen::Index border : {16, 37, 250, 256}) {
