@@ -1,37 +1,14 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
-#include "optimizer/accuracy/settings.hpp"
+#include "optimizer/accuracy/forecast.hpp"
 #include "optimizer/evaluator.hpp"
 
 namespace dovetail::optimizer {
-
-/// How accurate which responses have to be: bar over value.
-struct AccuracyGoal {
-  double relative = 0.02;                   ///< > 0, of all that are held to it
-  std::map<std::string, double> of = {};    ///< > 0, of single responses instead
-  std::vector<std::string> responses = {};  ///< held to it; empty: all with a value, a bar and a limit
-  std::set<std::string> fixed = {};         ///< keys that stay as they are
-
-  [[nodiscard]] double asked(const std::string& response) const {
-    const auto own = of.find(response);
-    return own == of.end() ? relative : own->second;
-  }
-};
-
-/// The part of a bar that counts most.
-struct Dominant {
-  std::string response = {}, source = {};
-  double relative = 0;  ///< what settings buy of the bar of the response, over its value
-  double whole = 0;     ///< the same with what no setting buys, but what a history would settle
-  double asked = 0;     ///< the same that was asked for
-};
 
 /// One evaluation on the way.
 struct SettingsTried {
@@ -67,8 +44,8 @@ using AccuracyProbe = std::function<Evaluation(const Settings&)>;
 using AccuracyListener = std::function<void(const SettingsTried&)>;
 
 /// Rounds of an evaluation with bars, from whose parts the next settings follow: of all there are, the cheapest that
-/// should be accurate enough. What no setting buys (doubts of the worn state, the edges of zones, the search of the
-/// resonance) is left out of what is asked for.
+/// should be accurate enough. What no setting buys (doubts of the worn state, the edges of zones) is left out of
+/// what is asked for.
 [[nodiscard]] SettingsChoice choose_settings(const Scene& scene, const AccuracyGoal& goal, const AccuracyProbe& probe,
                                              const AccuracyListener& told = {});
 

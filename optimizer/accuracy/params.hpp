@@ -14,6 +14,9 @@ struct SettingLadders {
   std::array<int, 9> harmonics{3, 5, 7, 9, 11, 15, 19, 23, 31};  ///< even ones hardly move of flanks under pressure
   std::array<int, 9> samples{64, 96, 128, 192, 256, 384, 512, 768, 1024};
   std::array<int, 9> modes{4, 6, 8, 12, 16, 20, 30, 45, 60};
+  std::array<double, 3> resonance_tolerance{1e-7, 1e-6, 1e-5};
+  /// Of the half width of a peak, that the tolerance may be at most: amplitudes there err by half the square of it.
+  double of_half_width = 1e-2;
 };
 
 /// How settings are foreseen from an evaluation with bars. Powers in the plane are of sections with 34 to 208 contact
@@ -29,7 +32,10 @@ struct SettingsParams {
   double matrices_in_plane = 1.2, matrices_in_space = 1.6;
   double dofs = 1.8, dofs_in_space = 2.5;
   double modes_share = 0.4;
-  double modes = 20;      ///< with which it was measured
+  double modes = 20;  ///< with which it was measured
+  /// Steady states of the searches of resonances grow by so much with each digit of their tolerance, of their number at
+  /// 1e-5.
+  double by_digit = 0.2, coarsest_tolerance = 1e-5;
   double contact = 2.4;   ///< power of contact nodes times 2H+1, of the operations of factorisations
   double aim = 0.95;      ///< of the accuracy: what is foreseen is a little off
   double as_good = 1.02;  ///< bars over the least ones that settings reach: for less no knob is turned

@@ -1,7 +1,9 @@
 #include "optimizer/accuracy/settings.hpp"
 
 #include <algorithm>
+#include <array>
 #include <span>
+#include <string_view>
 
 #include "optimizer/accuracy/params.hpp"
 #include "optimizer/bars/other_meshes.hpp"
@@ -13,6 +15,10 @@ namespace dovetail::optimizer {
 namespace {
 
 constexpr SettingLadders kLadders;
+
+/// Those of [solver] that buy accuracy.
+constexpr std::array<std::string_view, 4> kSolverKeys{"solver.harmonics", "solver.samples", "solver.modes",
+                                                      "solver.resonance_tolerance"};
 
 std::vector<std::string_view> mesh_keys(const Scene& scene) {
   std::vector<std::string_view> keys(scene.kind->counts.begin(), scene.kind->counts.end());
@@ -33,7 +39,11 @@ std::vector<T> rungs(std::span<const T> ladder, T own, bool fixed) {
 }  // namespace
 
 Settings settings_of(const Scene& scene) {
-  return {.mesh = 1, .harmonics = scene.solver.harmonics, .samples = scene.solver.samples, .modes = scene.solver.modes};
+  return {.mesh = 1,
+          .harmonics = scene.solver.harmonics,
+          .samples = scene.solver.samples,
+          .modes = scene.solver.modes,
+          .resonance_tolerance = scene.solver.resonance_tolerance};
 }
 
 Scene with_settings(Scene scene, const Settings& settings) {
@@ -41,13 +51,14 @@ Scene with_settings(Scene scene, const Settings& settings) {
   scene.solver.harmonics = settings.harmonics;
   scene.solver.samples = settings.samples;
   scene.solver.modes = settings.modes;
+  scene.solver.resonance_tolerance = settings.resonance_tolerance;
   return scene;
 }
 
 std::map<std::string, double> settings_by_key(const Scene& scene, const Settings& settings) {
   const Scene there = with_settings(scene, settings);
   std::vector<std::string_view> keys = mesh_keys(scene);
-  for (const char* key : {"solver.harmonics", "solver.samples", "solver.modes"}) keys.emplace_back(key);
+  keys.insert(keys.end(), kSolverKeys.begin(), kSolverKeys.end());
   std::map<std::string, double> values;
   for (const std::string_view key : keys) values[std::string(key)] = parameter(there, key);
   return values;
@@ -56,6 +67,11 @@ std::map<std::string, double> settings_by_key(const Scene& scene, const Settings
 std::vector<Settings> all_settings(const Scene& scene, const std::set<std::string>& fixed) {
   const auto given = [&](std::string_view key) { return fixed.contains(std::string(key)); };
   const bool mesh_given = std::ranges::any_of(mesh_keys(scene), given);
+  std::vector<double> tolerances = rungs<double>(kLadders.resonance_tolerance, scene.solver.resonance_tolerance,
+                                                 given("solver.resonance_tolerance"));
+  std::erase_if(tolerances, [&](double tolerance) {
+    return tolerance > std::max(scene.solver.resonance_tolerance, kLadders.of_half_width * scene.loading.damping_ratio);
+  });
   std::vector<Settings> result;
   for (const double mesh : rungs<double>(kLadders.mesh, 1, mesh_given))
     for (const int harmonics : rungs<int>(kLadders.harmonics, scene.solver.harmonics, given("solver.harmonics")))
@@ -65,7 +81,12 @@ std::vector<Settings> all_settings(const Scene& scene, const std::set<std::strin
         if (!both_given && quality::samples_for(harmonics, samples) != samples) continue;
         for (const int modes : rungs<int>(kLadders.modes, scene.solver.modes, given("solver.modes")))
           if (modes >= scene.loading.mode || given("solver.modes"))
-            result.push_back({.mesh = mesh, .harmonics = harmonics, .samples = samples, .modes = modes});
+            for (const double tolerance : tolerances)
+              result.push_back({.mesh = mesh,
+                                .harmonics = harmonics,
+                                .samples = samples,
+                                .modes = modes,
+                                .resonance_tolerance = tolerance});
       }
   // Samples that are too few for any harmonics on the ladder: there is nothing to choose.
   if (result.empty()) result.push_back(settings_of(scene));
@@ -73,8 +94,7 @@ std::vector<Settings> all_settings(const Scene& scene, const std::set<std::strin
 }
 
 bool buys_accuracy(const Scene& scene, const std::string& key) {
-  return std::ranges::count(mesh_keys(scene), key) > 0 || key == "solver.harmonics" || key == "solver.samples" ||
-         key == "solver.modes";
+  return std::ranges::count(mesh_keys(scene), key) > 0 || std::ranges::count(kSolverKeys, key) > 0;
 }
 
 }  // namespace dovetail::optimizer

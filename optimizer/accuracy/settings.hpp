@@ -13,6 +13,7 @@ namespace dovetail::optimizer {
 struct Settings {
   double mesh = 1;  ///< edges of the mesh over those of the scene
   int harmonics = 0, samples = 0, modes = 0;
+  double resonance_tolerance = 0;  ///< of the frequency of a resonance, relative
   bool operator==(const Settings&) const = default;
 };
 

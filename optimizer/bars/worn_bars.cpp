@@ -6,6 +6,7 @@
 
 #include "optimizer/bars/params.hpp"
 #include "optimizer/candidate/node_lines.hpp"
+#include "paths/amplitude.hpp"
 #include "wear/asymptote/drift.hpp"
 #include "wear/asymptote/worn_zones.hpp"
 #include "wear/measures.hpp"
@@ -61,8 +62,23 @@ LeftOpen worn_otherwise(const CandidateResult& result, const wear::WornChange& d
 
 }  // namespace
 
+namespace {
+
+/// What the tolerance of the unworn resonance, at which the joint wears, leaves open: off a peak the amplitude changes
+/// by at most half of what the frequency changes over the half width of the peak, and friction makes that wider.
+wear::WornChange by_resonance(const Scene& scene, const CandidateResult& result) {
+  const double width = scene.loading.damping_ratio > 0
+                           ? scene.loading.damping_ratio
+                           : paths::amplitude_slope(result.unworn->state, 0).width / result.unworn->omega;
+  const double share = std::min(1.0, scene.solver.resonance_tolerance / (2 * width));
+  return {.volume = share * result.asymptote->worn_volume, .depth = share * result.asymptote->largest_depth};
+}
+
+}  // namespace
+
 void add_worn_bars(const Scene& scene, const CandidateResult& result, Bars& bars) {
   const wear::Asymptote& asymptote = *result.asymptote;
+  bars.add("search", worn_otherwise(result, by_resonance(scene, result), false));
   if (const double moved = result.evaluation.model.at("contact_edges_moved_share"); moved > 0)
     bars.add("edge", worn_otherwise(result,
                                     wear::width_changed_by(

@@ -105,9 +105,10 @@ std::string dynamics(const Scene& scene, const Computation& how, const ContactFi
   if (how.until <= Stage::worn_state) return ended("asymptote", model);
 
   // A joint that does not wear stays as it is.
-  result.worn = asymptote.largest_depth == 0
-                    ? *result.unworn
-                    : wear::resonance_drift(joint.worn(asymptote.depth), *result.unworn, resonance_options(scene)).worn;
+  result.worn = asymptote.largest_depth == 0 ? *result.unworn
+                                             : wear::resonance_drift(joint.worn(asymptote.depth), *result.unworn,
+                                                                     resonance_options(scene), &asymptote.steady)
+                                                   .worn;
   evaluation.timings_s["worn_resonance"] = watch.lap();
   if (result.worn->status != Status::converged) return failed_at("worn_resonance", result.worn->status);
   result.stage = Stage::worn_resonance;

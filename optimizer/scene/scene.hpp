@@ -68,7 +68,8 @@ struct SolverSettings {
   steady::Solver solver = steady::Solver::automatic;
   double pseudo_penalty = 0;         ///< eps of all contact nodes, N/m; 0: from the model
   double pseudo_penalty_normal = 0;  ///< eps in the normal direction, N/m; 0: pseudo_penalty
-  /// Bar over value of the responses asked for, for which mesh, harmonics, samples and modes are chosen; 0: they stay.
+  /// Bar over value of the responses asked for, for which mesh, harmonics, samples, modes and resonance_tolerance are
+  /// chosen; 0: they stay.
   double accuracy = 0;
   int max_jacobians = 500;  ///< work of one evaluation, in Jacobians in which all contact nodes take part; 0: no limit
   double time_limit = 0;    ///< of one evaluation from the preload on, s; 0: none

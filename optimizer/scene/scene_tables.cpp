@@ -144,7 +144,8 @@ std::span<const Field<optimizer::SolverSettings>> option_table<optimizer::Solver
                          .upper = optimizer::kAccuracyRange.upper,
                          .zero = "as given"},
                .help = "bar over value of every response that objective and limits name, for which those of mesh, "
-                       "harmonics, samples and modes are chosen that the file does not give; 0: all stay as given"},
+                       "harmonics, samples, modes and resonance_tolerance are chosen that the file does not give; "
+                       "0: all stay as given"},
       Field<S>{.key = "max_jacobians",
                .member = &S::max_jacobians,
                .range = kNonNegative,

@@ -11,8 +11,9 @@ struct Drift {
   double drift = 0.0;
 };
 
-/// Resonance of the worn joint found by the same criterion as `unworn`, starting from it.
+/// Resonance of the worn joint found by the same criterion as `unworn`, starting from it, or from `known`, a state of
+/// the worn joint near by.
 [[nodiscard]] Drift resonance_drift(const steady::Joint& worn, const paths::Resonance& unworn,
-                                    const paths::ResonanceOptions& options);
+                                    const paths::ResonanceOptions& options, const steady::State* known = nullptr);
 
 }  // namespace dovetail::wear

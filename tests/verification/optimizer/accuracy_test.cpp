@@ -14,14 +14,17 @@ namespace {
 
 constexpr const char* kVolume = "asymptotic_wear_volume_m3";
 
-/// In units of those in which all nodes take part: the more there are, the fewer of them do.
+/// In units of those in which all nodes take part: the more there are, the fewer of them do. Coarser tolerances of
+/// resonances spare some.
 double jacobians(const Settings& s) {
-  return 8 * std::pow(s.mesh * (2.0 * s.harmonics + 1) / 11, -0.6);
+  return 8 * std::pow(s.mesh * (2.0 * s.harmonics + 1) / 11, -0.6) *
+         (1 - 0.15 * std::log10(s.resonance_tolerance / 1e-7));
 }
 
 /// A design whose bars fall with powers of the settings, not quite those that are expected of it.
 struct Laws {
   double mesh = 0.03, harmonics = 0.03, samples = 0.01, modes = 0.002, history = 0.1;  ///< at the scene's own
+  double search = 5e-5;
   double by_mesh = 1.7, by_harmonics = 2.5, by_samples = 1.5;
 
   [[nodiscard]] std::map<std::string, double> at(const Settings& s) const {
@@ -29,6 +32,7 @@ struct Laws {
             {"harmonics", harmonics * std::pow((2.0 * s.harmonics + 1) / 11, -by_harmonics)},
             {"samples", samples * std::pow(s.samples / 128.0, -by_samples)},
             {"modes", modes * std::pow(s.modes / 20.0, -2.0)},
+            {"search", search * s.resonance_tolerance / 1e-7},
             {"history", history}};
   }
   [[nodiscard]] double sum(const Settings& s) const {
@@ -73,6 +77,21 @@ TEST(Accuracy, IsReachedAtHardlyMoreThanTheLeastCost) {
     EXPECT_LE(own, 1.5 * least) << choice.settings.mesh << " " << choice.settings.harmonics << " "
                                 << choice.settings.samples << " " << choice.settings.modes;
   }
+}
+
+// Of a peak that is narrow, or whose width nothing is known of, the height is kept.
+TEST(Accuracy, KeepsTheToleranceOfAResonanceBelowItsWidth) {
+  Scene scene;
+  scene.loading.damping_ratio = 1e-5;
+  const Laws laws{.search = 1e-12};
+  EXPECT_EQ(choose_settings(scene, kGoal, laws.probe()).settings.resonance_tolerance, 1e-7);
+  scene.loading.damping_ratio = 0;
+  EXPECT_EQ(choose_settings(scene, kGoal, laws.probe()).settings.resonance_tolerance, 1e-7);
+  scene.loading.damping_ratio = 1e-3;
+  EXPECT_EQ(choose_settings(scene, kGoal, laws.probe()).settings.resonance_tolerance, 1e-5);
+  AccuracyGoal goal = kGoal;
+  goal.fixed = {"solver.resonance_tolerance"};
+  EXPECT_EQ(choose_settings(scene, goal, laws.probe()).settings.resonance_tolerance, 1e-7);
 }
 
 TEST(Accuracy, LeavesWhatIsGivenAsItIs) {

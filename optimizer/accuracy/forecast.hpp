@@ -1,0 +1,82 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "optimizer/accuracy/settings.hpp"
+#include "optimizer/problem/evaluation.hpp"
+#include "optimizer/responses/response.hpp"
+
+namespace dovetail::optimizer {
+
+/// How accurate which responses have to be: bar over value.
+struct AccuracyGoal {
+  double relative = 0.02;                   ///< > 0, of all that are held to it
+  std::map<std::string, double> of = {};    ///< > 0, of single responses instead
+  std::vector<std::string> responses = {};  ///< held to it; empty: all with a value, a bar and a limit
+  std::set<std::string> fixed = {};         ///< keys that stay as they are
+
+  [[nodiscard]] double asked(const std::string& response) const {
+    const auto own = of.find(response);
+    return own == of.end() ? relative : own->second;
+  }
+};
+
+/// The part of a bar that counts most.
+struct Dominant {
+  std::string response = {}, source = {};
+  double relative = 0;  ///< what settings buy of the bar of the response, over its value
+  double whole = 0;     ///< the same with what no setting buys, but what a history would settle
+  double asked = 0;     ///< the same that was asked for
+};
+
+/// Which of the settings a part of a bar falls with.
+enum class Knob { none, mesh, harmonics, samples, modes, resonance };
+
+/// Of every knob, over what it is elsewhere: larger is finer.
+[[nodiscard]] double finer(Knob knob, const Settings& there, const Settings& here);
+
+/// What evaluations with bars foresee of other settings: bars by the orders in which their parts fall, operations by
+/// the powers in which theirs grow.
+class Forecast {
+ public:
+  /// @param goal  outlives it
+  Forecast(const Scene& scene, const AccuracyGoal& goal);
+
+  /// The last one is what others are foreseen from. Where one before it differs in a knob the two say the order of a
+  /// part.
+  void add(const Settings& at, const Evaluation& evaluation);
+
+  /// Responses asked for by name of which nothing is known.
+  [[nodiscard]] std::vector<std::string> not_held() const;
+  /// Largest bar over what is allowed of it.
+  [[nodiscard]] double excess(const Settings& there) const;
+  [[nodiscard]] std::optional<Dominant> dominant() const;
+  /// Of an evaluation without bars. Counted and not timed, so that the same is chosen on every machine.
+  [[nodiscard]] double operations(const Settings& there) const;
+
+ private:
+  struct Part {
+    const Response* response;
+    std::string source;
+    Knob knob;
+    double order;
+    double share;  ///< of the bar that is allowed
+  };
+
+  void add(const Response& response, const Evaluation& evaluation);
+  [[nodiscard]] double order(const Response& response, const std::string& source, Knob knob) const;
+
+  const AccuracyGoal* goal_;
+  bool in_space_;
+  Settings at_;
+  double dofs_ = 0;                          // unknowns of the mesh
+  double factorisations_ = 0, marches_ = 0;  // operations of all that follows the matrices
+  std::map<std::string, double> whole_;  // bars over values, with what no setting buys but what a history would settle
+  std::vector<Part> parts_;              // those of a response one after the other
+};
+
+}  // namespace dovetail::optimizer
