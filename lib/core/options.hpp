@@ -40,6 +40,7 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 inline constexpr Range kAnyNumber{};
 inline constexpr Range kPositive{.lower = 0, .lower_open = true};
 inline constexpr Range kNonNegative{.lower = 0};
+inline constexpr Range kAccuracyRange{.lower = 1e-6, .upper = 0.5};  ///< that is asked for: bar over value
 
 /// A member of S that is an enumeration with names, or an optional one, set and read by these names.
 template <class S>

@@ -42,7 +42,8 @@ std::string fingerprint(const Problem& problem, const OptimizerOptions& options,
   }
   text += ";options";
   for (const Field<OptimizerOptions>& field : option_table<OptimizerOptions>()) {
-    if (field.key == "max_evaluations" || field.key == "restarts" || field.key == "threads" || field.key == "verify")
+    if (field.key == "max_evaluations" || field.key == "restarts" || field.key == "threads" ||
+        field.key.starts_with("verify"))
       continue;
     word(field.key);
     if (const std::optional<std::string> choice = text_in(options, field))

@@ -78,6 +78,7 @@ struct OptimizerOptions {
   int finer_meshes =
       2;           ///< >= 0; meshes, each twice as fine as the last, on which the best design must keep its limits
   int verify = 3;  ///< >= 0; best designs verified by the full wear history after the search
+  double verify_accuracy = 0;  ///< bar over value of what is handed over; 0: at the settings of the search
 };
 
 /// Noise where it is not given.

@@ -54,9 +54,6 @@ constexpr EnumNames<Prestress, 2> enum_names(Prestress) {
   return name_of(prestress);
 }
 
-/// Of an accuracy that is asked for.
-inline constexpr Range kAccuracyRange{.lower = 1e-6, .upper = 0.5};
-
 /// Sizes and tolerances of the contact computation.
 struct SolverSettings {
   int harmonics = 5;

@@ -49,19 +49,22 @@ void take_over(const Study& study, optimizer::Evaluation seen, optimizer::Candid
   }
   if (now.objective != before)
     seen.messages.push_back(
-        fmt::format("The search, which takes the direct worn state, had an objective of {:.4g}, now {:.4g}.", before,
-                    now.objective));
+        fmt::format("The search, which takes the direct worn state and its own settings, had an objective of {:.4g}, "
+                    "now {:.4g}.",
+                    before, now.objective));
   candidate.evaluation = std::move(seen);
   candidate.judgement = now;
 }
 
-report::RunRecord record_of(const Study& study, OptimizationResult result, const RunEngine& engine, double seconds) {
+report::RunRecord record_of(const RunSite& site, OptimizationResult result, double seconds) {
+  const auto& [study, engine, directory, err, settings] = site;
   std::optional<report::DesignRecord> best, baseline;
   const auto look = [&](std::size_t index, std::optional<report::DesignRecord>& design) {
     optimizer::Candidate& candidate = result.evaluations[index];
     DescribedDesign seen = engine.describe(scene_of(study, candidate));
     const auto known = static_cast<std::ptrdiff_t>(seen.evaluation.messages.size());
     take_over(study, std::move(seen.evaluation), candidate);
+    if (!settings.empty()) candidate.evaluation.messages.push_back(settings);
     design = std::move(seen.record);
     const std::vector<std::string>& messages = candidate.evaluation.messages;
     design->notes.insert(design->notes.begin() + known, messages.begin() + known, messages.end());
@@ -88,14 +91,14 @@ report::RunRecord record_of(const Study& study, OptimizationResult result, const
 
 report::RunRecord write_run(const RunSite& site, const OptimizationResult& result, double seconds,
                             const std::vector<report::VerificationRecord>& verifications) {
-  const auto& [study, engine, directory, err] = site;
+  const auto& [study, engine, directory, err, settings] = site;
   // The design first: it costs nothing and must not be lost when describing it is cut short.
   if (result.best) {
     const optimizer::Candidate& best = result.evaluations[*result.best];
     replace_file(directory / "best.toml",
                  with_values(parse_document(study.text, study.file), variable_values(study, best)));
   }
-  report::RunRecord record = record_of(study, result, engine, seconds);
+  report::RunRecord record = record_of(site, result, seconds);
   record.verifications = verifications;
   report::write_results(directory / "results.h5", record);
   report::write_report(directory / "report.html", record);

@@ -16,6 +16,7 @@ struct RunSite {
   const RunEngine& engine;
   std::filesystem::path directory;
   std::ostream& err;
+  std::string settings = {};  ///< a sentence on those of start and best design where they are not the search's
 };
 
 /// Writes what a run came to into its directory, finished or interrupted: best.toml and the exports the study asks for

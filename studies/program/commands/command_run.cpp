@@ -119,6 +119,24 @@ std::string shortcoming(const Study& study, const OptimizationResult& result, co
   return {};
 }
 
+std::string fingerprint_of(const Study& study) {
+  return optimizer::fingerprint(study.problem, study.optimizer,
+                                std::string("dovetail ") + version() + "\n" + physics_text(study.scene));
+}
+
+/// On settings of start and best design that are not the search's; empty where they are.
+std::string settings_words(const Study& searched, const Study& handed) {
+  if (physics_text(searched.scene) == physics_text(handed.scene)) return {};
+  const optimizer::SolverSettings& solver = handed.scene.solver;
+  return fmt::format(
+      "Computed for an accuracy of {:.2g} %: {} edges per flank, {} harmonics, {} samples, {} modes; the search had "
+      "{}, "
+      "{}, {} and {}.",
+      100 * handed.optimizer.verify_accuracy, handed.scene.mesh.flank_elements, solver.harmonics, solver.samples,
+      solver.modes, searched.scene.mesh.flank_elements, searched.scene.solver.harmonics, searched.scene.solver.samples,
+      searched.scene.solver.modes);
+}
+
 /// The search, with its journals in the directory.
 OptimizationResult searched(const RunSite& site, bool resume, const std::string& fingerprint,
                             const OrderlyInterrupt& interrupt) {
@@ -156,19 +174,26 @@ int run_study(const RunOptions& options, const Streams& streams, const RunEngine
   const fs::path directory = prepare_directory(options, asked, streams.err);
   const Study study = settled_run(asked, directory, options.resume, make_engine, streams.err);
   const RunEngine engine = make_engine(study);
-  const std::string fingerprint = optimizer::fingerprint(
-      study.problem, study.optimizer, std::string("dovetail ") + version() + "\n" + physics_text(study.scene));
-  const RunSite site{.study = study, .engine = engine, .directory = directory, .err = streams.err};
+  const RunSite site{.study = study, .engine = engine, .directory = directory, .err = streams.err, .settings = {}};
   const OrderlyInterrupt interrupt;
-  const OptimizationResult result = searched(site, options.resume, fingerprint, interrupt);
+  const OptimizationResult result = searched(site, options.resume, fingerprint_of(study), interrupt);
 
+  // What is handed over may ask for more than the search.
+  const bool settles = result.best && !interrupt.requested();
+  const Study handed =
+      settles ? settled_best(asked, study, result.evaluations[*result.best], directory, options.resume, streams.err)
+              : study;
+  const std::string settings = settings_words(study, handed);
+  const RunEngine closer = settings.empty() ? engine : make_engine(handed);
+  const RunSite end{
+      .study = handed, .engine = closer, .directory = directory, .err = streams.err, .settings = settings};
   std::vector<report::VerificationRecord> verifications;
-  if (!interrupt.requested()) verifications = verify_best(site, result, fingerprint, interrupt);
+  if (!interrupt.requested()) verifications = verify_best(end, result, fingerprint_of(handed), interrupt);
 
   if (interrupt.requested())
     streams.err << "dovetail: interrupted; writing what is finished (Ctrl-C again ends at once)" << std::endl;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  const report::RunRecord record = write_run(site, result, seconds, verifications);
+  const report::RunRecord record = write_run(end, result, seconds, verifications);
   streams.out << conclusion(study, result, record, site.directory) << verified(verifications);
   if (interrupt.requested()) {
     streams.err << "dovetail: everything finished is kept; go on with --resume\n";

@@ -13,6 +13,7 @@
 #include "core/replace_file.hpp"
 #include "optimizer/journal/fingerprint.hpp"
 #include "studies/program/answers/accuracy_json.hpp"
+#include "studies/program/answers/run_output.hpp"
 #include "studies/program/answers/version.hpp"
 #include "studies/program/engine/engine.hpp"
 #include "studies/program/engine/settled_study.hpp"
@@ -25,6 +26,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kFile = "settings.json";
+constexpr const char* kBestFile = "best_settings.json";
 
 /// What a run searches with and its study file does not give.
 struct Chosen {
@@ -48,6 +50,12 @@ std::optional<double> noise_of(const Study& study, const optimizer::Evaluation& 
   return std::clamp(bar / std::abs(objective), optimizer::NoiseParams{}.unknown, 0.5);
 }
 
+void keep(const std::filesystem::path& file, const std::string& question, const Chosen& chosen) {
+  const Json json{
+      {"question", question}, {"settings", chosen.settings}, {"noise", chosen.noise}, {"accuracy", chosen.accuracy}};
+  replace_file(file, json.dump(1) + "\n");
+}
+
 /// What was chosen before for the same question; nothing where none was. Throws InputError for a damaged file.
 std::optional<Chosen> kept(const std::filesystem::path& file, const std::string& question) {
   std::ifstream stream(file);
@@ -66,19 +74,47 @@ std::optional<Chosen> kept(const std::filesystem::path& file, const std::string&
   }
 }
 
+/// Settings for the accuracy that the study asks for at its own design; nothing where it asks for none.
+std::optional<optimizer::SettingsChoice> choose(const Study& there, std::ostream& err, Chosen& result) {
+  Study settled = there;
+  const std::optional<optimizer::SettingsChoice> choice = settle(settled, [&](const optimizer::SettingsTried& tried) {
+    err << "dovetail: " << round_words(there, tried) << "\n";
+  });
+  if (!choice) return choice;
+  for (const auto& [key, value] : settings_by_key(there.scene, choice->settings))
+    if (!there.given.contains(key)) result.settings[key] = value;
+  result.accuracy = accuracy_json(there.scene, *choice);
+  if (const std::string open = accuracy_complaint(there, *choice); !open.empty()) err << "dovetail: " << open << "\n";
+  return choice;
+}
+
+/// The study that asks for the accuracy of what is handed over, and of single responses for none that is coarser.
+Study verified(Study study) {
+  study.scene.solver.accuracy = study.optimizer.verify_accuracy;
+  const auto refine = [&](auto& terms) {
+    for (auto& term : terms)
+      if (term.accuracy > study.optimizer.verify_accuracy) term.accuracy = 0;
+  };
+  refine(study.problem.objective);
+  refine(study.problem.constraints);
+  return study;
+}
+
+/// The study as if what was chosen stood in its file.
+Study with_chosen(const Study& study, const Chosen& chosen) {
+  Study result = study;
+  if (!chosen.settings.empty())
+    result =
+        read_study(parse_document(with_values(parse_document(study.text, study.file), chosen.settings), study.file));
+  result.optimizer.noise = chosen.noise;
+  return result;
+}
+
 Chosen chosen(const Study& asked, const RunEngineFactory& make_engine, std::ostream& err) {
   Chosen result{.settings = {}, .noise = asked.optimizer.noise};
   Study at_start = asked;
   at_start.scene = start_scene(asked);
-  const std::optional<optimizer::SettingsChoice> choice = settle(at_start, [&](const optimizer::SettingsTried& tried) {
-    err << "dovetail: " << round_words(asked, tried) << "\n";
-  });
-  if (choice) {
-    for (const auto& [key, value] : settings_by_key(asked.scene, choice->settings))
-      if (!asked.given.contains(key)) result.settings[key] = value;
-    result.accuracy = accuracy_json(asked.scene, *choice);
-    if (const std::string open = accuracy_complaint(asked, *choice); !open.empty()) err << "dovetail: " << open << "\n";
-  }
+  const std::optional<optimizer::SettingsChoice> choice = choose(at_start, err, result);
   if (asked.optimizer.noise > 0) return result;
   const RunEngine engine = choice && choice->tried.by ? RunEngine{} : make_engine(asked);
   if (!engine.start && !choice) return result;
@@ -108,17 +144,28 @@ Study settled_run(Study study, const std::filesystem::path& directory, bool resu
   std::optional<Chosen> settled = resume ? kept(file, question) : std::nullopt;
   if (!settled) {
     settled = chosen(study, make_engine, err);
-    const Json json{{"question", question},
-                    {"settings", settled->settings},
-                    {"noise", settled->noise},
-                    {"accuracy", settled->accuracy}};
-    replace_file(file, json.dump(1) + "\n");
+    keep(file, question, *settled);
   }
-  if (!settled->settings.empty())
-    study =
-        read_study(parse_document(with_values(parse_document(study.text, study.file), settled->settings), study.file));
-  study.optimizer.noise = settled->noise;
-  return study;
+  return with_chosen(study, *settled);
+}
+
+Study settled_best(const Study& asked, const Study& searched, const optimizer::Candidate& best,
+                   const std::filesystem::path& directory, bool resume, std::ostream& err) {
+  if (asked.optimizer.verify_accuracy == 0) return searched;
+  Study there = searched;
+  there.given = asked.given;
+  there.scene = scene_of(searched, best);
+  std::string question = question_of(there) + shortest(asked.optimizer.verify_accuracy);
+  const std::filesystem::path file = directory / kBestFile;
+  std::optional<Chosen> settled = resume ? kept(file, question) : std::nullopt;
+  if (!settled) {
+    err << "dovetail: settings for the best design\n";
+    settled.emplace();
+    settled->noise = searched.optimizer.noise;
+    choose(verified(there), err, *settled);
+    keep(file, question, *settled);
+  }
+  return with_chosen(searched, *settled);
 }
 
 }  // namespace dovetail::studies

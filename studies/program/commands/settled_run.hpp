@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iosfwd>
 
+#include "optimizer/search/run.hpp"
 #include "studies/program/engine/run_engine.hpp"
 #include "studies/program/study_file/study.hpp"
 
@@ -13,5 +14,11 @@ namespace dovetail::studies {
 /// with `resume` taken from there when the same was asked for.
 [[nodiscard]] Study settled_run(Study study, const std::filesystem::path& directory, bool resume,
                                 const RunEngineFactory& make_engine, std::ostream& err);
+
+/// The study that was searched with settings for `[optimizer] verify_accuracy` at its best design, where that is asked
+/// for. Kept in best_settings.json and resumed as above.
+/// @param asked  the study as its file has it: what stands there stays
+[[nodiscard]] Study settled_best(const Study& asked, const Study& searched, const optimizer::Candidate& best,
+                                 const std::filesystem::path& directory, bool resume, std::ostream& err);
 
 }  // namespace dovetail::studies

@@ -175,7 +175,7 @@ std::string read_response(SectionReader& section, Problems& problems) {
 
 /// Accuracy asked of one response where that of the others is given; 0 where it is not.
 double read_accuracy(SectionReader& section, const optimizer::Scene& scene, Problems& problems) {
-  const std::optional<double> accuracy = section.number("accuracy", optimizer::kAccuracyRange);
+  const std::optional<double> accuracy = section.number("accuracy", kAccuracyRange);
   if (accuracy && scene.solver.accuracy == 0)
     problems.add(*section.node()->find("accuracy"), section.path("accuracy"),
                  "counts only where solver.accuracy is given, for all other responses");

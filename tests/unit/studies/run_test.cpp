@@ -135,6 +135,26 @@ TEST_F(Run, KeepsTheNoiseFromTheBarOfItsStart) {
   EXPECT_EQ(starts, 3);
 }
 
+// Settings for what is handed over are those of the best design: chosen once, told, and in its file, but not in the
+// search's. What the file gives stays.
+TEST_F(Run, HandsOverAtSettingsForTheAccuracyAskedFor) {
+  std::string text = replaced(study_template("sample"), "max_evaluations = 100", "max_evaluations = 3");
+  text = replaced(without(text, "harmonics"), "flank_elements = 24", "flank_elements = 10");
+  replace_file(study(), replaced(text, "verify_accuracy = 0\n", "verify_accuracy = 0.2\n"));
+  const RunEngineFactory factory = [](const Study&) { return RunEngine{.evaluate = bowl, .describe = {}}; };
+  ASSERT_EQ(run(false, factory), kDone) << err_.str();
+  EXPECT_THAT(err_.str(), HasSubstr("settings for the best design"));
+  EXPECT_THAT(err_.str(), HasSubstr("10 edges per flank, 5 harmonics"));
+  EXPECT_TRUE(fs::exists(results() / "best_settings.json"));
+  const Study searched = load_study((results() / "study.toml").string());
+  const Study best = load_study((results() / "best.toml").string());
+  EXPECT_FALSE(searched.given.contains("solver.harmonics"));
+  EXPECT_TRUE(best.given.contains("solver.harmonics"));
+  EXPECT_EQ(best.scene.mesh.flank_elements, 10);
+  ASSERT_EQ(run(true, factory), kDone) << err_.str();
+  EXPECT_THAT(err_.str(), Not(HasSubstr("edges per flank")));
+}
+
 // The wear history may say something else of the best design than the search, which does not ask it.
 TEST_F(Run, RecordsTheBestDesignAsTheCloserLookHasIt) {
   const RunEngineFactory closer = [](const Study& study) {
