@@ -140,9 +140,7 @@ std::span<const Field<optimizer::SolverSettings>> option_table<optimizer::Solver
                    "adds to first order. shared unless given where no variable changes the mesh, else own"},
       Field<S>{.key = "accuracy",
                .member = &S::accuracy,
-               .range = {.lower = kAccuracyRange.lower,
-                         .upper = kAccuracyRange.upper,
-                         .zero = "as given"},
+               .range = {.lower = kAccuracyRange.lower, .upper = kAccuracyRange.upper, .zero = "as given"},
                .help = "bar over value of every response that objective and limits name, for which those of mesh, "
                        "harmonics, samples, modes and resonance_tolerance are chosen that the file does not give; "
                        "0: all stay as given"},
