@@ -1,6 +1,7 @@
 #include "dynamics/extremes.hpp"
 
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <numbers>
 
@@ -15,10 +16,15 @@ struct Value {
   double value = 0, first = 0, second = 0;
 };
 
+// Cosines and sines of the multiples of tau follow from one another: each of their own takes most of the time.
 Value evaluate(const Eigen::Ref<const Eigen::VectorXd>& a, double tau) {
   Value v{.value = a(0)};
+  const std::complex<double> first = std::polar(1.0, tau);
+  std::complex<double> turn = 1;
   for (Eigen::Index j = 1; 2 * j < a.size(); ++j) {
-    const double h = static_cast<double>(j), c = std::cos(h * tau), s = std::sin(h * tau);
+    turn = {turn.real() * first.real() - turn.imag() * first.imag(),
+            turn.real() * first.imag() + turn.imag() * first.real()};
+    const double h = static_cast<double>(j), c = turn.real(), s = turn.imag();
     v.value += a(2 * j - 1) * c + a(2 * j) * s;
     v.first += h * (a(2 * j) * c - a(2 * j - 1) * s);
     v.second -= h * h * (a(2 * j - 1) * c + a(2 * j) * s);
@@ -52,14 +58,16 @@ Extremes extremes(const Eigen::Ref<const Eigen::VectorXd>& coefficients) {
   const double huge = std::numeric_limits<double>::infinity();
   result.minimum = huge;
   result.maximum = -huge;
-  double before = evaluate(coefficients, 0).first;
+  Value before = evaluate(coefficients, 0);
   for (Eigen::Index i = 0; i < grid; ++i) {
     const double lower = width * static_cast<double>(i), upper = width * static_cast<double>(i + 1);
-    const double after = evaluate(coefficients, upper).first;
+    const Value after = evaluate(coefficients, upper);
     // All sign changes are refined: a polynomial of degree H has at most 2H of them.
-    double tau = lower;
-    if (before * after < 0) tau = stationary(coefficients, lower, upper);
-    const double value = evaluate(coefficients, tau).value;
+    double tau = lower, value = before.value;
+    if (before.first * after.first < 0) {
+      tau = stationary(coefficients, lower, upper);
+      value = evaluate(coefficients, tau).value;
+    }
     if (value > result.maximum) {
       result.maximum = value;
       result.tau_maximum = tau;
