@@ -24,13 +24,14 @@ void multiply(CBLAS_TRANSPOSE form, const Matrix& a, const Matrix& b, Matrix& c)
   const bool turned = form != CblasNoTrans;
   const Eigen::Index rows = turned ? a.cols() : a.rows(), inner = turned ? a.rows() : a.cols();
   assert(inner == b.rows());
+  if (inner == 0) {
+    c = Matrix::Zero(rows, b.cols());
+    return;
+  }
   c.resize(rows, b.cols());
   if (c.size() == 0) return;
-  if (inner == 0)
-    c.setZero();
-  else
-    gemm(form, static_cast<int>(rows), static_cast<int>(b.cols()), static_cast<int>(inner), a.data(),
-         static_cast<int>(a.rows()), b.data(), static_cast<int>(inner), c.data(), static_cast<int>(rows));
+  gemm(form, static_cast<int>(rows), static_cast<int>(b.cols()), static_cast<int>(inner), a.data(),
+       static_cast<int>(a.rows()), b.data(), static_cast<int>(inner), c.data(), static_cast<int>(rows));
 }
 
 template <class Matrix>

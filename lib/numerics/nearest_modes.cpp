@@ -9,6 +9,7 @@
 #include "numerics/dense_product.hpp"
 #include "numerics/dense_symmetric.hpp"
 #include "numerics/params.hpp"
+#include "numerics/sparse_product.hpp"
 
 namespace dovetail::numerics {
 
@@ -19,18 +20,13 @@ namespace {
 template <class Scalar>
 class Weight;
 
-using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 template <>
 class Weight<double> {
  public:
   explicit Weight(const Eigen::SparseMatrix<double>& mass) : mass_(mass) { mass_.prune(0.0); }
-  [[nodiscard]] Eigen::MatrixXd operator()(const Eigen::MatrixXd& x) const {
-    const Rows rows = x;
-    const Rows product = mass_ * rows;
-    return product;
-  }
+  [[nodiscard]] Eigen::MatrixXd operator()(const Eigen::MatrixXd& x) const { return product(mass_, Rows(x)); }
 
  private:
   SparseRows mass_;
@@ -50,11 +46,10 @@ class Weight<std::complex<double>> {
     Rows parts(x.rows(), 2 * k), turned(x.rows(), 2 * k);
     parts << x.real(), x.imag();
     turned << -x.imag(), x.real();
-    Rows product = real_ * parts;
-    product += imag_ * turned;
+    const Rows both = product(real_, parts) + product(imag_, turned);
     Eigen::MatrixXcd result(x.rows(), k);
-    result.real() = product.leftCols(k);
-    result.imag() = product.rightCols(k);
+    result.real() = both.leftCols(k);
+    result.imag() = both.rightCols(k);
     return result;
   }
 

@@ -6,6 +6,7 @@
 #include "numerics/dense_general.hpp"
 #include "numerics/dense_product.hpp"
 #include "numerics/dense_symmetric.hpp"
+#include "numerics/sparse_product.hpp"
 #include "reduction/params.hpp"
 
 namespace dovetail::reduction {
@@ -69,8 +70,8 @@ Eigen::MatrixXd static_responses(const FullModel& full, const FloatingInverse& i
 
 RitzBasis rayleigh_ritz(const Eigen::SparseMatrix<double>& stiffness, const Eigen::SparseMatrix<double>& mass,
                         const Eigen::MatrixXd& vectors) {
-  const Eigen::MatrixXd k = numerics::transposed_product(vectors, stiffness * vectors);
-  const Eigen::MatrixXd m = numerics::transposed_product(vectors, mass * vectors);
+  const Eigen::MatrixXd k = numerics::transposed_product(vectors, numerics::symmetric_product(stiffness, vectors));
+  const Eigen::MatrixXd m = numerics::transposed_product(vectors, numerics::symmetric_product(mass, vectors));
   numerics::SymmetricPairs ritz = numerics::all_pairs<double>(k, m);
   return {.eigenvalues = std::move(ritz.values), .vectors = numerics::product(vectors, ritz.vectors)};
 }
