@@ -7,6 +7,7 @@
 #include "studies/report/pages/page.hpp"
 #include "studies/report/plots/plot.hpp"
 #include "studies/report/words/table.hpp"
+#include "studies/work_precision/evaluations/tables.hpp"
 #include "studies/work_precision/figures.hpp"
 #include "studies/work_precision/results.hpp"
 #include "studies/work_precision/texts.hpp"
@@ -164,6 +165,7 @@ std::string page_html(const Results& results) {
 void write(const std::filesystem::path& folder, const Results& results) {
   ready_study::write(folder, {{"table.csv", table_csv(results)},
                               {"growth.csv", growth_csv(results)},
+                              {"evaluations.csv", evaluations_csv(results.evaluations)},
                               {"table.json", table_json(results)},
                               {"index.html", page_html(results)}});
 }
