@@ -3,7 +3,7 @@
 
 #include "studies/ready_study/program.hpp"
 #include "studies/work_precision/diagrams.hpp"
-#include "studies/work_precision/evaluations/compute.hpp"
+#include "studies/work_precision/evaluations/measured_scenes.hpp"
 #include "studies/work_precision/results.hpp"
 
 namespace {

@@ -7,7 +7,6 @@
 #include <set>
 #include <utility>
 
-#include "optimizer/bars/other_meshes.hpp"
 #include "optimizer/responses/response_table.hpp"
 #include "optimizer/search/random_stream.hpp"
 #include "quality/truncation.hpp"
@@ -17,30 +16,26 @@
 namespace dovetail::work_precision {
 namespace {
 
-constexpr int kDesignSeed = 2009;  // of the designs that are drawn
-constexpr int kDesigns = 2;        // of these
 constexpr double kCheaper = 0.98;  // seconds over those before from which a setting of the descent counts as cheaper
-
-studies::Study load(const std::string& file, double coarser) {
-  studies::Study study = studies::load_study(file);
-  if (coarser != 1) study.scene = optimizer::resized(std::move(study.scene), coarser);
-  return study;
-}
 
 /// Samples that alias the harmonics are no setting.
 bool sensible(const WholeSetting& setting) {
   return quality::samples_for(setting.harmonics, setting.samples) == setting.samples;
 }
 
-/// The next coarser value of a ladder; the same where there is none.
+/// The next smaller or larger value of a ladder; the same where there is none.
 template <class T>
-T coarser(const std::vector<T>& ladder, T value, bool falling = false) {
+T neighbour(const std::vector<T>& ladder, T value, bool smaller) {
   T best = value;
   for (const T rung : ladder)
-    if (falling ? rung > value && (best == value || rung < best) : rung < value && (best == value || rung > best))
+    if (smaller ? rung < value && (best == value || rung > best) : rung > value && (best == value || rung < best))
       best = rung;
   return best;
 }
+
+enum class Way { coarser, finer };
+/// Which errors count: those of the setting, or those of known finer ones, too.
+enum class Errors { own, steady };
 
 class Measurement {
  public:
@@ -49,7 +44,7 @@ class Measurement {
       : plan_(plan),
         listener_(listener),
         diagram_(std::move(named)),
-        design_(load(file, plan.coarser), diagram_.variables) {
+        design_(load_coarser(file, plan.coarser), diagram_.variables) {
     const studies::Study& study = design_.study();
     diagram_.edges_of_file = design_.edges_of_file();
     own_ = whole_setting(study.scene);
@@ -64,7 +59,8 @@ class Measurement {
     paper();
     automatic();
     combinations();
-    for (const double asked : plan_.asked) descend(asked);
+    for (const double asked : plan_.asked)
+      for (const Errors errors : {Errors::own, Errors::steady}) descend(asked, errors);
     say("repetitions");
     repeat();
     return std::move(diagram_);
@@ -169,43 +165,59 @@ class Measurement {
     tell();
   }
 
-  [[nodiscard]] std::array<WholeSetting, 6> neighbours(const WholeSetting& at) const {
+  [[nodiscard]] std::array<WholeSetting, 6> neighbours(const WholeSetting& at, Way way) const {
     std::array<WholeSetting, 6> next;
     next.fill(at);
     const Ladders& joint = plan_.joint;
-    next[0].mesh = coarser(joint.mesh, at.mesh);
-    next[1].harmonics = coarser(joint.harmonics, at.harmonics);
-    next[2].samples = coarser(joint.samples, at.samples);
-    next[3].modes = coarser(joint.modes, at.modes);
-    next[4].resonance_tolerance = coarser(joint.resonance_tolerance, at.resonance_tolerance, true);
-    next[5].tolerance = coarser(joint.tolerance, at.tolerance, true);
+    const bool down = way == Way::coarser;
+    next[0].mesh = neighbour(joint.mesh, at.mesh, down);
+    next[1].harmonics = neighbour(joint.harmonics, at.harmonics, down);
+    next[2].samples = neighbour(joint.samples, at.samples, down);
+    next[3].modes = neighbour(joint.modes, at.modes, down);
+    next[4].resonance_tolerance = neighbour(joint.resonance_tolerance, at.resonance_tolerance, !down);
+    next[5].tolerance = neighbour(joint.tolerance, at.tolerance, !down);
     return next;
   }
 
+  /// A point of the descent; null for a setting that is none or was tried.
+  const WholePoint* try_out(const WholeSetting& setting, std::set<WholeSetting>& tried) {
+    if (!sensible(setting) || !tried.insert(setting).second) return nullptr;
+    std::vector<WholePoint>& points = diagram_.lines.back().points;
+    points.push_back(judged_point(diagram_, setting_words(setting, diagram_.edges_of_file), design_(setting)));
+    return &points.back();
+  }
+
   /// From the cheapest setting known that is accurate enough, knob by knob to coarser ones while they are, too: else
-  /// the front would be as good as the luck of the combinations.
-  void descend(double asked) {
-    const WholePoint* start = cheapest(diagram_, kWorst, asked);
-    if (start == nullptr || plan_.descent == 0) return;
-    say(fmt::format("cheaper settings for {:g} %", 100 * asked));
-    WholePoint best = *start;
-    WholeLine line{.key = WholeSweep::descent};
+  /// the front would be as good as the luck of the combinations. Where finer neighbours have to be accurate, too, they
+  /// are computed.
+  void descend(double asked, Errors errors) {
+    const bool steady = errors == Errors::steady;
+    const auto best_known = [&] {
+      return steady ? cheapest_steady(diagram_, asked) : cheapest(diagram_, kWorst, asked);
+    };
+    if (best_known() == nullptr || plan_.descent == 0) return;
+    say(fmt::format("cheaper settings for {:g} %{}", 100 * asked, steady ? ", with finer neighbours" : ""));
+    diagram_.lines.push_back({.key = WholeSweep::descent});
     std::set<WholeSetting> tried;
     int left = plan_.descent;
     for (bool moved = true; moved && left > 0;) {
       moved = false;
-      for (const WholeSetting& setting : neighbours(best.run.setting)) {
-        if (left == 0 || setting == best.run.setting || !sensible(setting) || !tried.insert(setting).second) continue;
-        --left;
-        add(line, setting_words(setting, diagram_.edges_of_file), design_(setting));
-        const WholePoint& point = line.points.back();
-        if (!(point.worst <= asked) || point.run.seconds > kCheaper * best.run.seconds) continue;
-        best = point;
-        moved = true;
-        break;
+      const WholePoint best = *best_known();
+      if (steady) {
+        for (const WholeSetting& finer : neighbours(best.run.setting, Way::finer)) try_out(finer, tried);
+        moved = best_known() == nullptr || best_known()->run.setting != best.run.setting;
+        if (best_known() == nullptr) break;
       }
+      for (const WholeSetting& setting : neighbours(best.run.setting, Way::coarser)) {
+        if (moved || left == 0) break;
+        const WholePoint* point = try_out(setting, tried);
+        if (point == nullptr) continue;
+        --left;
+        const double error = steady ? steady_error(diagram_, *point) : point->worst;
+        moved = error <= asked && point->run.seconds <= kCheaper * best.run.seconds;
+      }
+      --left;
     }
-    diagram_.lines.push_back(std::move(line));
     tell();
   }
 
@@ -217,6 +229,7 @@ class Measurement {
       settings.insert(choice.point.run.setting);
       const Comparison comparison = compare(diagram_, choice);
       if (comparison.for_asked) settings.insert(comparison.for_asked->run.setting);
+      if (comparison.steady) settings.insert(comparison.steady->run.setting);
       if (comparison.for_error) settings.insert(comparison.for_error->run.setting);
     }
     for (int i = 1; i < plan_.repetitions; ++i)
@@ -242,46 +255,6 @@ class Measurement {
 WholeDiagram measure_design(const std::string& study_file, const EvaluationPlan& plan, WholeDiagram named,
                             const EvaluationListener& listener) {
   return Measurement(study_file, plan, std::move(named), listener).run();
-}
-
-std::vector<WholeDiagram> measure_section(const std::string& study_file, bool quick,
-                                          const std::function<void(const std::string&)>& progress,
-                                          const std::function<void(const std::vector<WholeDiagram>&)>& more) {
-  std::vector<WholeDiagram> all;
-  const EvaluationListener listener{.progress = progress, .more = [&](const WholeDiagram& diagram) {
-                                      std::vector<WholeDiagram> so_far = all;
-                                      so_far.push_back(diagram);
-                                      if (more) more(so_far);
-                                    }};
-  const EvaluationPlan own = section_plan(quick, true), other = section_plan(quick, false);
-  all.push_back(measure_design(study_file, own,
-                               {.key = "section",
-                                .title = "Section: the quickstart's design",
-                                .description = "The design of studies/quickstart/study.toml as it stands."},
-                               listener));
-  int number = 0;
-  for (const auto& variables : random_designs(load(study_file, other.coarser), kDesigns, kDesignSeed)) {
-    ++number;
-    all.push_back(measure_design(
-        study_file, other,
-        {.key = fmt::format("section_{}", number + 1),
-         .title = fmt::format("Section: drawn design {}", number),
-         .description = fmt::format("Drawn from the box of the study's variables (seed {}): nothing was tuned on it.",
-                                    kDesignSeed),
-         .variables = variables},
-        listener));
-  }
-  return all;
-}
-
-WholeDiagram measure_sector(const std::string& study_file, bool quick, const EvaluationListener& listener) {
-  return measure_design(study_file, sector_plan(quick),
-                        {.key = "sector",
-                         .title = "Sector in space",
-                         .description = "The sector of studies/bladed_disk_2009/study.toml. In space the finest mesh "
-                                        "that fits is not much finer than the file's: true errors by the mesh are "
-                                        "known to no more than the two references agree to."},
-                        listener);
 }
 
 }  // namespace dovetail::work_precision

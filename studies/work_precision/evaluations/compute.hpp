@@ -18,14 +18,4 @@ struct EvaluationListener {
 [[nodiscard]] WholeDiagram measure_design(const std::string& study_file, const EvaluationPlan& plan, WholeDiagram named,
                                           const EvaluationListener& listener);
 
-/// The section of the study file and two designs from its box that are drawn by a seed; `finished` gets each as it
-/// grows.
-[[nodiscard]] std::vector<WholeDiagram> measure_section(
-    const std::string& study_file, bool quick, const std::function<void(const std::string&)>& progress,
-    const std::function<void(const std::vector<WholeDiagram>&)>& more);
-
-/// The sector of the study file.
-[[nodiscard]] WholeDiagram measure_sector(const std::string& study_file, bool quick,
-                                          const EvaluationListener& listener);
-
 }  // namespace dovetail::work_precision

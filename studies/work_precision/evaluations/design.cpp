@@ -2,7 +2,9 @@
 
 #include <utility>
 
+#include "optimizer/bars/other_meshes.hpp"
 #include "optimizer/evaluator.hpp"
+#include "optimizer/responses/response_table.hpp"
 #include "optimizer/search/space_filling.hpp"
 #include "studies/program/engine/engine.hpp"
 #include "studies/ready_study/processor_time.hpp"
@@ -61,6 +63,12 @@ void MeasuredDesign::repeat(const WholeSetting& setting) {
   kept.run.repetitions = static_cast<int>(kept.seconds.size());
 }
 
+studies::Study load_coarser(const std::string& file, double coarser) {
+  studies::Study study = studies::load_study(file);
+  if (coarser != 1) study.scene = optimizer::resized(std::move(study.scene), coarser);
+  return study;
+}
+
 std::vector<std::map<std::string, double>> random_designs(const studies::Study& study, int count, int seed) {
   const optimizer::DesignSpace& space = study.problem.space;
   std::vector<std::map<std::string, double>> designs;
@@ -72,7 +80,9 @@ std::vector<std::map<std::string, double>> random_designs(const studies::Study& 
     const std::vector<double> values = space.from_unit(unit);
     std::map<std::string, double> design;
     for (std::size_t i = 0; i < values.size(); ++i) design[space.variables()[i].key] = values[i];
-    if (MeasuredDesign(study, design)(setting).converged()) designs.push_back(std::move(design));
+    const WholeRun run = MeasuredDesign(study, design)(setting);
+    if (run.converged() && run.responses.at(std::string(optimizer::kWornVolume.name)) > 0)
+      designs.push_back(std::move(design));
   }
   return designs;
 }

@@ -50,8 +50,11 @@ class MeasuredDesign {
   std::map<WholeSetting, Kept> kept_;
 };
 
-/// Designs from the box of the study's variables at random, by seed: the first `count` of them whose evaluation at the
-/// file's settings converges. Values of the variables by key.
+/// The study of a file with all elements of its mesh so much larger.
+[[nodiscard]] studies::Study load_coarser(const std::string& file, double coarser);
+
+/// Designs from the box of the study's variables at random, by seed: the first `count` of them that wear, by an
+/// evaluation at the file's settings. Values of the variables by key.
 [[nodiscard]] std::vector<std::map<std::string, double>> random_designs(const studies::Study& study, int count,
                                                                         int seed);
 

@@ -26,6 +26,11 @@ void judge(const WholeDiagram& diagram, WholePoint& point) {
   point.worst = worst;
 }
 
+bool as_fine(const WholeSetting& a, const WholeSetting& b) {
+  return a.mesh >= b.mesh && a.harmonics >= b.harmonics && a.samples >= b.samples && a.modes >= b.modes &&
+         a.resonance_tolerance <= b.resonance_tolerance && a.tolerance <= b.tolerance;
+}
+
 }  // namespace
 
 std::vector<const WholePoint*> WholeDiagram::points() const {
@@ -78,11 +83,30 @@ const WholePoint* cheapest(const WholeDiagram& diagram, const std::string& respo
   return nullptr;
 }
 
+double steady_error(const WholeDiagram& diagram, const WholePoint& point) {
+  double largest = point.worst;
+  if (std::isnan(largest)) return largest;
+  for (const WholePoint* other : diagram.points())
+    if (!other->run.in_steps && as_fine(other->run.setting, point.run.setting) && other->worst > largest)
+      largest = other->worst;
+  return largest;
+}
+
+const WholePoint* cheapest_steady(const WholeDiagram& diagram, double error) {
+  const WholePoint* best = nullptr;
+  for (const WholePoint* point : diagram.points())
+    if (steady_error(diagram, *point) <= error && (best == nullptr || point->run.seconds < best->run.seconds))
+      best = point;
+  return best;
+}
+
 Comparison compare(const WholeDiagram& diagram, const AutomaticChoice& choice) {
   Comparison comparison;
   const WholePoint& chosen = choice.point;
   comparison.for_asked = cheapest(diagram, kWorst, choice.asked);
   if (comparison.for_asked) comparison.factor_asked = chosen.run.seconds / comparison.for_asked->run.seconds;
+  comparison.steady = cheapest_steady(diagram, choice.asked);
+  if (comparison.steady) comparison.factor_steady = chosen.run.seconds / comparison.steady->run.seconds;
   if (std::isnan(chosen.worst)) return comparison;
   const double unresolved = std::isnan(diagram.agreement()) ? 0 : diagram.agreement();
   comparison.for_error = cheapest(diagram, kWorst, std::max(chosen.worst, unresolved));

@@ -106,11 +106,19 @@ void judge(WholeDiagram& diagram);
 /// The cheapest point that errs by at most `error`; null: none.
 [[nodiscard]] const WholePoint* cheapest(const WholeDiagram& diagram, const std::string& response, double error);
 
+/// The largest of the worst errors of a point and of all known ones that are as fine or finer in every knob: what is
+/// left when its own errors cancel by chance. NaN where its own error is not known.
+[[nodiscard]] double steady_error(const WholeDiagram& diagram, const WholePoint& point);
+
+/// The cheapest point whose steady error is at most `error`; null: none.
+[[nodiscard]] const WholePoint* cheapest_steady(const WholeDiagram& diagram, double error);
+
 /// A choice beside the cheapest settings known, by the worst response.
 struct Comparison {
   const WholePoint* for_asked = nullptr;  ///< that err by at most what was asked for
   const WholePoint* for_error = nullptr;  ///< that err by at most what the choice errs, or by less than is resolved
-  double factor_asked = kUnknown, factor_error = kUnknown;  ///< seconds of the choice over theirs
+  const WholePoint* steady = nullptr;     ///< that err by at most what was asked for, and known finer ones, too
+  double factor_asked = kUnknown, factor_error = kUnknown, factor_steady = kUnknown;  ///< its seconds over theirs
 };
 [[nodiscard]] Comparison compare(const WholeDiagram& diagram, const AutomaticChoice& choice);
 

@@ -112,6 +112,8 @@ Json json_of(const WholeDiagram& diagram, const AutomaticChoice& choice) {
           {"point", json_of(choice.point)},
           {"cheapest_for_asked", other(comparison.for_asked)},
           {"factor_for_asked", optimizer::json_value<Json>(comparison.factor_asked)},
+          {"cheapest_steady_for_asked", other(comparison.steady)},
+          {"factor_steady", optimizer::json_value<Json>(comparison.factor_steady)},
           {"cheapest_for_its_error", other(comparison.for_error)},
           {"factor_for_its_error", optimizer::json_value<Json>(comparison.factor_error)},
           {"verdict", choice_verdict(diagram, choice)},

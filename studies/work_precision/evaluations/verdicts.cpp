@@ -81,6 +81,13 @@ std::string choice_verdict(const WholeDiagram& diagram, const AutomaticChoice& c
       100 * choice.asked, comparison.for_asked->run.seconds, words_of(diagram, *comparison.for_asked),
       comparison.factor_asked, comparison.factor_asked <= kGoalFactor ? "within" : "beyond", kGoalFactor);
   text += differences(diagram, chosen.run.setting, comparison.for_asked->run.setting);
+  if (comparison.steady != nullptr && comparison.steady->run.setting != comparison.for_asked->run.setting)
+    text += fmt::format(
+        " Where known finer settings have to err by no more, too, so that no errors cancel by chance, the cheapest "
+        "takes "
+        "{:.3g} s ({}): a factor of {:.2f}.{}",
+        comparison.steady->run.seconds, words_of(diagram, *comparison.steady), comparison.factor_steady,
+        differences(diagram, chosen.run.setting, comparison.steady->run.setting));
   return text + fmt::format(" At the choice's own error the factor is {:.2f}.", comparison.factor_error);
 }
 
