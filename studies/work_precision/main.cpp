@@ -10,9 +10,13 @@ namespace {
 
 using namespace dovetail::work_precision;
 
+/// What is measured; none chosen: engine and section.
 struct Parts {
-  bool sector = false;       ///< whole evaluations in space, too
-  bool evaluations = false;  ///< and nothing of the contact engine alone
+  bool engine = false;   ///< the contact engine alone
+  bool section = false;  ///< whole evaluations of the section
+  bool sector = false;   ///< and of the sector in space
+
+  [[nodiscard]] bool none() const { return !engine && !section && !sector; }
 };
 
 class Study {
@@ -24,11 +28,12 @@ class Study {
   }
 
   void run() {
-    if (!parts_.evaluations) engine();
-    results_.evaluations = measure_section(call_.study_file, call_.quick, progress(), [&](const auto& so_far) {
-      results_.evaluations = so_far;
-      keep();
-    });
+    if (parts_.engine || parts_.none()) engine();
+    if (parts_.section || parts_.none())
+      results_.evaluations = measure_section(call_.study_file, call_.quick, progress(), [&](const auto& so_far) {
+        results_.evaluations = so_far;
+        keep();
+      });
     if (parts_.sector) sector();
     keep();
   }
@@ -81,8 +86,10 @@ int main(int argc, char** argv) {
        .about = "Seconds on one core against true error, of the contact engine and of whole evaluations.",
        .files = "table.csv, growth.csv, evaluations.csv, table.json and index.html",
        .quick = "Small models and few settings: a look at the page",
-       .flags = {{"--sector", "Whole evaluations of the sector in space, too", &parts.sector},
-                 {"--evaluations", "Whole evaluations only", &parts.evaluations}},
+       .flags = {{"--engine", "The contact engine alone", &parts.engine},
+                 {"--section", "Whole evaluations of the section; with none of the three, as with the first two",
+                  &parts.section},
+                 {"--sector", "Whole evaluations of the sector in space", &parts.sector}},
        .run = [&](const dovetail::ready_study::Call& call) -> std::vector<std::string> {
          Study(call, parts).run();
          return {};

@@ -33,6 +33,7 @@ Row row_of(const std::string& what, const WholePoint& point) {
 Table times(const WholeDiagram& diagram) {
   Table table = table_of({"", "seconds", "true error", "factor: asked", "steady", "own error", "choice (s)", "rounds"});
   table.columns.push_back({"settings", true});
+  table.style = "times";
   const auto end = [&](Row row, const std::vector<std::string>& between, const WholePoint& point) {
     for (const std::string& text : between) row.cells.emplace_back(text);
     row.cells.emplace_back(words_of(diagram, point));

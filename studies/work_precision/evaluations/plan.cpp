@@ -62,10 +62,10 @@ EvaluationPlan section_plan(bool quick, bool own_design) {
 EvaluationPlan sector_plan(bool quick) {
   EvaluationPlan plan;
   plan.coarser = quick ? 2 : 1;
-  plan.alone = {.mesh = {0.5, 0.667, 0.833, 1, 1.25},
+  plan.alone = {.mesh = {0.5, 0.667, 0.833, 1, 1.2},
                 .harmonics = {1, 3, 5},
                 .samples = {64, 128, 256},
-                .modes = {6, 10, 20},
+                .modes = {6, 20},
                 .resonance_tolerance = {1e-5, 1e-7}};
   plan.joint = {.mesh = {0.5, 0.667, 0.833, 1, 1.25},
                 .harmonics = {1, 3, 5},
@@ -77,8 +77,8 @@ EvaluationPlan sector_plan(bool quick) {
   plan.descent = 4;
   plan.asked = {0.05};
   plan.choice_limit = 600;
-  plan.finest = {.mesh = 1.6, .harmonics = 7, .samples = 256, .modes = 40};
-  plan.check = {.mesh = 1.4, .harmonics = 9, .samples = 192, .modes = 30};
+  plan.finest = {.mesh = 1.5, .harmonics = 5, .samples = 256, .modes = 40};
+  plan.check = {.mesh = 1.3, .harmonics = 7, .samples = 192, .modes = 30};
   plan.repetitions = 1;
   if (!quick) return plan;
   plan.alone = {.mesh = {0.8, 1}, .harmonics = {1, 3}};

@@ -46,7 +46,7 @@ WholePoint made_up(double mesh, int harmonics, double seconds, double worst) {
   return point;
 }
 
-TEST(WholeEvaluations, ReferenceHasNoErrorAgainstItself) {
+void reference_has_no_error_against_itself() {
   for (const WholeDiagram& diagram : quick_designs()) {
     ASSERT_TRUE(diagram.reference.finest.run.converged() && diagram.reference.check.run.converged()) << diagram.key;
     for (const auto& [name, error] : diagram.reference.finest.error) EXPECT_EQ(error, 0) << name;
@@ -55,7 +55,7 @@ TEST(WholeEvaluations, ReferenceHasNoErrorAgainstItself) {
   }
 }
 
-TEST(WholeEvaluations, FrontFallsAndNothingBeatsIt) {
+void front_falls_and_nothing_beats_it() {
   for (const WholeDiagram& diagram : quick_designs())
     for (const std::string& response : responses_and_worst(diagram)) {
       const std::vector<const WholePoint*> best = front(diagram, response);
@@ -74,7 +74,7 @@ TEST(WholeEvaluations, FrontFallsAndNothingBeatsIt) {
     }
 }
 
-TEST(WholeEvaluations, HoldsTheAutomaticChoiceBesideTheFront) {
+void automatic_choice_stands_beside_the_front() {
   for (const WholeDiagram& diagram : quick_designs()) {
     ASSERT_EQ(diagram.automatic.size(), 1U);
     const AutomaticChoice& choice = diagram.automatic.front();
@@ -112,7 +112,7 @@ TEST(WholeEvaluations, CheapestSettingsAreThoseThatErrByNoMore) {
   EXPECT_EQ(comparison.factor_steady, 1.5);
 }
 
-TEST(WholeEvaluations, ThePapersSettingsAreAmongThePoints) {
+void the_papers_settings_are_among_the_points() {
   for (const WholeDiagram& diagram : quick_designs()) {
     const WholePoint* paper = diagram.paper();
     ASSERT_NE(paper, nullptr);
@@ -123,7 +123,7 @@ TEST(WholeEvaluations, ThePapersSettingsAreAmongThePoints) {
   }
 }
 
-TEST(WholeEvaluations, DrawsAndKeepsFailures) {
+void failures_are_drawn_and_kept() {
   WholeDiagram diagram = quick_designs().front();
   const std::size_t failed_before = count_of(evaluations_csv({diagram}), "preload: iteration_limit");
   WholePoint& point = diagram.lines.front().points.front();
@@ -140,7 +140,7 @@ TEST(WholeEvaluations, DrawsAndKeepsFailures) {
   EXPECT_NE(page.find("preload: iteration_limit"), std::string::npos);
 }
 
-TEST(WholeEvaluations, PageShowsEveryResponseThatErrs) {
+void page_shows_every_response_that_errs() {
   const std::string page = evaluations_html(quick_designs());
   EXPECT_EQ(count_of(page, "<section"), quick_designs().size());
   EXPECT_EQ(count_of(page, "<figure"), count_of(page, "</figure>"));
@@ -148,7 +148,7 @@ TEST(WholeEvaluations, PageShowsEveryResponseThatErrs) {
   EXPECT_EQ(count_of(page, "\"nan") + count_of(page, " nan ") + count_of(page, ">nan<"), 0U);
 }
 
-TEST(WholeEvaluations, TablesHoldEveryPoint) {
+void tables_hold_every_point() {
   const std::vector<WholeDiagram>& designs = quick_designs();
   std::size_t points = 0;
   for (const WholeDiagram& diagram : designs) points += diagram.points().size() + 2;
@@ -171,12 +171,24 @@ TEST(WholeEvaluations, TablesHoldEveryPoint) {
   EXPECT_EQ(kept, points);
 }
 
-TEST(WholeEvaluations, DrawnDesignsAreOthersAndHandedOverAsTheyGrow) {
+void drawn_designs_are_others() {
   ASSERT_EQ(quick_designs().size(), 3U);
   EXPECT_TRUE(quick_designs()[0].variables.empty());
   EXPECT_FALSE(quick_designs()[1].variables.empty());
   EXPECT_NE(quick_designs()[1].variables, quick_designs()[2].variables);
   EXPECT_GT(told, 15);
+}
+
+// In one test, as each test is a process of its own, and the quick form takes half a minute.
+TEST(WholeEvaluations, QuickFormHoldsWhatItShows) {
+  reference_has_no_error_against_itself();
+  front_falls_and_nothing_beats_it();
+  automatic_choice_stands_beside_the_front();
+  the_papers_settings_are_among_the_points();
+  failures_are_drawn_and_kept();
+  page_shows_every_response_that_errs();
+  tables_hold_every_point();
+  drawn_designs_are_others();
 }
 
 }  // namespace
