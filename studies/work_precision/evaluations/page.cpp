@@ -24,38 +24,37 @@ std::string words_of(const WholeDiagram& diagram, const WholePoint& point) {
   return setting_words(point.run.setting, diagram.edges_of_file);
 }
 
-/// Cells that every row of the table of times begins with.
-Row row_of(const std::string& what, const WholePoint& point) {
+/// What a row of the table of times begins with: whose seconds, at which settings.
+Row row_of(const WholeDiagram& diagram, const std::string& what, const WholePoint& point) {
+  const report::Html head{escape(what) + "<br><span class=\"soft\">" + escape(words_of(diagram, point)) + "</span>"};
   return {
-      {what, cell(point.run.seconds, "{:.3g}"), point.run.converged() ? error_words(point.worst) : point.run.status}};
+      {head, cell(point.run.seconds, "{:.3g}"), point.run.converged() ? error_words(point.worst) : point.run.status}};
 }
 
 Table times(const WholeDiagram& diagram) {
   Table table = table_of({"", "seconds", "true error", "factor: asked", "steady", "own error", "choice (s)", "rounds"});
-  table.columns.push_back({"settings", true});
   table.style = "times";
-  const auto end = [&](Row row, const std::vector<std::string>& between, const WholePoint& point) {
-    for (const std::string& text : between) row.cells.emplace_back(text);
-    row.cells.emplace_back(words_of(diagram, point));
+  const auto add = [&](const std::string& what, const WholePoint& point, const std::vector<std::string>& after) {
+    Row row = row_of(diagram, what, point);
+    for (const std::string& text : after) row.cells.emplace_back(text);
     table.rows.push_back(std::move(row));
   };
   for (const AutomaticChoice& choice : diagram.automatic) {
     const Comparison comparison = compare(diagram, choice);
     const std::string asked = percent(choice.asked);
     if (comparison.for_asked)
-      end(row_of(asked + ": cheapest known", *comparison.for_asked), {"1", "", "", "", ""}, *comparison.for_asked);
+      add(asked + ": cheapest known", *comparison.for_asked, {"1", "", "", "", ""});
     else
-      table.rows.push_back({{asked + ": cheapest known", "\u2013", "none", "", "", "", "", "", ""}});
-    if (comparison.steady)
-      end(row_of(asked + ": with finer ones", *comparison.steady), {"", "1", "", "", ""}, *comparison.steady);
-    end(row_of(asked + ": automatic choice", choice.point),
+      table.rows.push_back({{asked + ": cheapest known", "\u2013", "none", "", "", "", "", ""}});
+    if (comparison.steady) add(asked + ": with finer ones", *comparison.steady, {"", "1", "", "", ""});
+    add(asked + ": automatic choice", choice.point,
         {cell(comparison.factor_asked, "{:.2f}"), cell(comparison.factor_steady, "{:.2f}"),
-         cell(comparison.factor_error, "{:.2f}"), cell(choice.seconds, "{:.3g}"), std::to_string(choice.rounds.size())},
-        choice.point);
+         cell(comparison.factor_error, "{:.2f}"), cell(choice.seconds, "{:.3g}"),
+         std::to_string(choice.rounds.size())});
   }
   for (const WholeLine& line : diagram.lines)
     if (line.key == WholeSweep::paper)
-      for (const WholePoint& point : line.points) end(row_of(point.label, point), {"", "", "", "", ""}, point);
+      for (const WholePoint& point : line.points) add(point.label, point, {"", "", "", "", ""});
   return table;
 }
 
