@@ -3,9 +3,11 @@
 #include "numerics/dense_lu.hpp"
 #include "paths/steady_state.hpp"
 #include "steady/tangent.hpp"
-#include "studies/work_precision/processor_time.hpp"
+#include "studies/ready_study/processor_time.hpp"
 
 namespace dovetail::work_precision {
+
+using ready_study::median_seconds;
 
 PatchState solve_patch(const PatchOptions& options, int harmonics, int samples) {
   PatchState patch;

@@ -7,6 +7,10 @@
 #include "studies/report/pages/page.hpp"
 #include "studies/report/plots/plot.hpp"
 #include "studies/report/words/table.hpp"
+#include "studies/work_precision/evaluations/drawings.hpp"
+#include "studies/work_precision/evaluations/page.hpp"
+#include "studies/work_precision/evaluations/plan.hpp"
+#include "studies/work_precision/evaluations/tables.hpp"
 #include "studies/work_precision/figures.hpp"
 #include "studies/work_precision/results.hpp"
 #include "studies/work_precision/texts.hpp"
@@ -16,16 +20,6 @@ namespace {
 
 using report::escape;
 using report::Table;
-
-std::string cell(double value, const char* format) {
-  return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : "\u2013";
-}
-
-Table table_of(const std::vector<const char*>& headings) {
-  Table table;
-  for (const char* heading : headings) table.columns.push_back({heading});
-  return table;
-}
 
 Table numbers(const Sweep& sweep) {
   Table table = table_of({"setting", "resonance (s)", "model (s)", "Jacobians", "frequency (rad/s)", "energy (J)",
@@ -75,17 +69,6 @@ std::string reference_table(const Diagram& diagram) {
   return table_html(table);
 }
 
-std::string drawing(const report::Plot& plot) {
-  return "<figure><h4>" + escape(plot.title) + "</h4>" +
-         (report::is_empty(plot) ? "<p>Nothing converged.</p>" : report::plot_svg(plot)) +
-         (plot.description.empty() ? "" : "<figcaption>" + escape(plot.description) + "</figcaption>") + "</figure>\n";
-}
-
-/// Drawings side by side over their numbers.
-std::string three(const std::string& drawings, const Table& table) {
-  return "<div class=\"three\">" + drawings + "</div>\n" + report::folded("numbers", "Numbers", table_html(table));
-}
-
 std::string sweep_section(const Diagram& diagram, const Sweep& sweep) {
   std::string text = "<h3 class=\"sweep\">" + escape(sweep.title) + "</h3>\n<p class=\"verdict\">" +
                      escape(verdict(sweep, kGoal)) + "</p>\n";
@@ -95,7 +78,7 @@ std::string sweep_section(const Diagram& diagram, const Sweep& sweep) {
     if (q == 0) text += report::plot_legend(plot);
     drawings += drawing(plot);
   }
-  return text + three(drawings, numbers(sweep));
+  return text + side_by_side(drawings, numbers(sweep));
 }
 
 std::string diagram_section(const Diagram& diagram) {
@@ -136,7 +119,7 @@ std::string growth_figures(const std::vector<Growth>& growths) {
       table.rows.push_back(std::move(row));
     }
   }
-  return legend + three(drawings, table);
+  return legend + side_by_side(drawings, table);
 }
 
 }  // namespace
@@ -150,8 +133,10 @@ std::string page_html(const Results& results) {
       report::fill(texts::page_html,
                    {{"quick", made.quick ? "yes" : ""},
                     {"diagrams", diagrams},
+                    {"evaluations", evaluations_html(results.evaluations)},
                     {"exponents", exponents(results.growth)},
-                    {"growth", growth_figures(results.growth)},
+                    {"steps", std::to_string(section_plan(made.quick, true).wear_steps)},
+                    {"growth", results.growth.empty() ? "" : growth_figures(results.growth)},
                     {"provenance", report::definition_list({{"Commit", made.commit},
                                                             {"Machine", made.machine},
                                                             {"System", made.system},
@@ -164,6 +149,7 @@ std::string page_html(const Results& results) {
 void write(const std::filesystem::path& folder, const Results& results) {
   ready_study::write(folder, {{"table.csv", table_csv(results)},
                               {"growth.csv", growth_csv(results)},
+                              {"evaluations.csv", evaluations_csv(results.evaluations)},
                               {"table.json", table_json(results)},
                               {"index.html", page_html(results)}});
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "studies/work_precision/evaluations/points.hpp"
 #include "studies/work_precision/growth.hpp"
 #include "studies/work_precision/sweep.hpp"
 
@@ -26,6 +27,7 @@ struct Circumstances {
 struct Results {
   std::vector<Diagram> diagrams;
   std::vector<Growth> growth;
+  std::vector<WholeDiagram> evaluations = {};  ///< of whole evaluations, a design each
   Circumstances made;
 };
 
@@ -40,7 +42,8 @@ inline constexpr double kGoal = 0.01;
 /// The self-contained page.
 [[nodiscard]] std::string page_html(const Results& results);
 
-/// table.csv, growth.csv, table.json and index.html in `folder`, made if needed. Throws InputError when it cannot.
+/// table.csv, growth.csv, evaluations.csv, table.json and index.html in `folder`, made if needed. Throws InputError
+/// when it cannot.
 void write(const std::filesystem::path& folder, const Results& results);
 
 }  // namespace dovetail::work_precision

@@ -2,9 +2,11 @@
 
 #include <cmath>
 
-#include "studies/work_precision/processor_time.hpp"
+#include "studies/ready_study/processor_time.hpp"
 
 namespace dovetail::work_precision {
+
+using ready_study::median, ready_study::processor_seconds;
 
 Run timed_resonance(const std::shared_ptr<const dynamics::CondensedModel>& model, double omega_start,
                     const Setting& setting, double tolerance, double seconds) {

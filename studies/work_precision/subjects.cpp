@@ -7,10 +7,12 @@
 
 #include "optimizer/candidate/candidate_model.hpp"
 #include "studies/program/study_file/study.hpp"
-#include "studies/work_precision/processor_time.hpp"
+#include "studies/ready_study/processor_time.hpp"
 
 namespace dovetail::work_precision {
 namespace {
+
+using ready_study::processor_seconds;
 
 constexpr double kTolerance = 1e-10;  // of the residual: far below every error looked at
 

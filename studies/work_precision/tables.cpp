@@ -2,6 +2,7 @@
 
 #include "optimizer/journal/record_json.hpp"
 #include "studies/ready_study/csv.hpp"
+#include "studies/work_precision/evaluations/tables.hpp"
 #include "studies/work_precision/results.hpp"
 
 namespace dovetail::optimizer {
@@ -140,10 +141,17 @@ std::string table_json(const Results& results) {
         {{"over", growth.key}, {"fixed", growth.fixed}, {"steps", optimizer::json_value<Json>(growth.times)}});
   }
   const Circumstances& made = results.made;
-  return Json{{"commit", made.commit},   {"machine", made.machine},   {"system", made.system},
-              {"blas", made.blas},       {"compiler", made.compiler}, {"date_utc", made.date_utc},
-              {"seconds", made.seconds}, {"quick", made.quick},       {"models", diagrams},
-              {"newton_step", growths}}
+  return Json{{"commit", made.commit},
+              {"machine", made.machine},
+              {"system", made.system},
+              {"blas", made.blas},
+              {"compiler", made.compiler},
+              {"date_utc", made.date_utc},
+              {"seconds", made.seconds},
+              {"quick", made.quick},
+              {"models", diagrams},
+              {"newton_step", growths},
+              {"evaluations", evaluations_json(results.evaluations)}}
              .dump(1) +
          "\n";
 }

@@ -15,8 +15,8 @@
 #include "paths/frequency_response.hpp"
 #include "paths/resonance.hpp"
 #include "studies/program/engine/engine.hpp"
+#include "studies/ready_study/processor_time.hpp"
 #include "studies/work_precision/contact_patch.hpp"
-#include "studies/work_precision/processor_time.hpp"
 #include "tests/verification/wear/verdict_scenes.hpp"
 #include "wear/asymptote/asymptote.hpp"
 #include "wear/history/history.hpp"
@@ -25,8 +25,8 @@
 namespace dovetail {
 namespace {
 
-using work_precision::median_seconds;
-using work_precision::processor_seconds;
+using ready_study::median_seconds;
+using ready_study::processor_seconds;
 
 const steady::Options kSettings{.harmonics = 3, .samples = 128};
 

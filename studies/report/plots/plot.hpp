@@ -6,7 +6,8 @@
 namespace dovetail::report {
 
 /// What a series stands for; the page's style sheet gives each a colour in light and dark.
-enum class Role { before, after, muted, bad };
+/// `one` to `five` tell kinds of one rank from each other.
+enum class Role { before, after, muted, bad, one, two, three, four, five };
 
 enum class Stroke { none, solid, dashed, dotted };
 enum class Mark { none, dot, circle, cross, triangle, star };
@@ -52,6 +53,7 @@ struct Plot {
   PlotAxis x = {}, y = {};
   std::vector<Series> series = {};
   std::vector<PlotLevel> levels = {};
+  double hatched_below = 0;       ///< y, on a logarithmic axis: values below mean nothing; 0: all do
   int width = 520, height = 320;  ///< of the drawing's coordinates; the page scales it
 };
 

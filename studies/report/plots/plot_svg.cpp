@@ -15,7 +15,7 @@ namespace {
 
 /// The class of the style sheet.
 std::string role_of(const Series& series) {
-  constexpr std::array kRoles{"before", "after", "muted", "bad"};
+  constexpr std::array kRoles{"before", "after", "muted", "bad", "one", "two", "three", "four", "five"};
   return kRoles[static_cast<std::size_t>(series.role)];
 }
 
@@ -53,6 +53,7 @@ PlotBounds bounds_of(const Plot& plot) {
   if (bounds.x.empty()) return bounds;
   for (const PlotLevel& level : plot.levels)
     if (drawable(level.y, plot.y)) bounds.y.add(level.y);
+  if (plot.hatched_below > 0) bounds.y.add(plot.hatched_below);
   return bounds;
 }
 
@@ -145,6 +146,20 @@ std::string levels(const Frame& frame) {
   return text;
 }
 
+/// Oblique lines over the part of the plot whose values mean nothing.
+std::string hatching(const Frame& frame) {
+  if (!(frame.plot.hatched_below > 0)) return {};
+  constexpr double kSpacing = 7;
+  const double top = std::max(frame.y(frame.plot.hatched_below), frame.top), height = frame.bottom - top;
+  std::string data;
+  // Each rises to the right from the lower edge, or from the left one where it would begin further left.
+  for (double x = frame.left + kSpacing - height; x < frame.right; x += kSpacing) {
+    const double from = std::max(x, frame.left), to = std::min(x + height, frame.right);
+    data += fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", from, frame.bottom - (from - x), to, frame.bottom - (to - x));
+  }
+  return fmt::format("<path class=\"hatch\" d=\"{}M{:.1f} {:.1f}H{:.1f}\"/>\n", data, frame.left, top, frame.right);
+}
+
 /// Labels of points: above, below or beside, the first place where no other label stands; none when there is no room.
 std::string point_labels(const Frame& frame) {
   struct Box {
@@ -196,7 +211,8 @@ std::string plot_svg(const Plot& plot) {
   frame.x.place(frame.left, frame.right);
   frame.y.place(frame.bottom, frame.top);
 
-  std::string text = svg_begin("plot", plot.title, plot.width, plot.height) + grid(frame) + levels(frame);
+  std::string text =
+      svg_begin("plot", plot.title, plot.width, plot.height) + grid(frame) + hatching(frame) + levels(frame);
   for (const Series& series : plot.series)
     if (series.stroke != Stroke::none) text += line(series, frame);
   text += point_labels(frame);

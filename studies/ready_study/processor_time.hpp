@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace dovetail::work_precision {
+namespace dovetail::ready_study {
 
 /// Processor time of this thread, s: other programs on the machine do not count.
 inline double processor_seconds() {
@@ -34,4 +34,4 @@ double median_seconds(Function&& function, double seconds, int least = 3) {
   return median(std::move(times));
 }
 
-}  // namespace dovetail::work_precision
+}  // namespace dovetail::ready_study

@@ -1,0 +1,64 @@
+#include "studies/work_precision/evaluations/automatic.hpp"
+
+#include <fmt/format.h>
+
+#include "studies/program/engine/settled_study.hpp"
+#include "studies/ready_study/processor_time.hpp"
+
+namespace dovetail::work_precision {
+namespace {
+
+/// Leaves a choice that takes too long.
+struct GivenUp {};
+
+/// The study as if its file gave nothing that an accuracy chooses.
+studies::Study asking(studies::Study study, double accuracy) {
+  study.scene.solver.accuracy = accuracy;
+  const optimizer::Scene scene = study.scene;
+  std::erase_if(study.given, [&](const std::string& key) { return optimizer::buys_accuracy(scene, key); });
+  return study;
+}
+
+/// The best of the rounds, for a choice that was given up: the most accurate one.
+optimizer::Settings most_accurate(const std::vector<optimizer::SettingsTried>& rounds, const optimizer::Scene& scene) {
+  optimizer::Settings best = optimizer::settings_of(scene);
+  double least = kInfinity;
+  for (const optimizer::SettingsTried& tried : rounds)
+    if (tried.excess < least) {
+      least = tried.excess;
+      best = tried.settings;
+    }
+  return best;
+}
+
+}  // namespace
+
+AutomaticChoice choose(MeasuredDesign& design, double accuracy, double limit) {
+  AutomaticChoice choice{.asked = accuracy};
+  studies::Study study = asking(design.study(), accuracy);
+  const WholeSetting own = whole_setting(study.scene);
+  const double begin = ready_study::processor_seconds();
+  optimizer::Settings settings;
+  try {
+    const auto settled = studies::settle(study, [&](const optimizer::SettingsTried& tried) {
+      choice.rounds.push_back(tried);
+      if (limit > 0 && ready_study::processor_seconds() - begin > limit) throw GivenUp{};
+    });
+    settings = settled->settings;
+    choice.status = to_string(settled->status);
+  } catch (const GivenUp&) {
+    settings = most_accurate(choice.rounds, study.scene);
+    choice.status = fmt::format("given up after {:.0f} s", limit);
+  }
+  choice.seconds = ready_study::processor_seconds() - begin;
+  for (const optimizer::SettingsTried& tried : choice.rounds)
+    if (tried.settings == settings && tried.by) {
+      choice.most_by = tried.by->response + " by " + tried.by->source;
+      choice.relative_bar = tried.by->relative;
+    }
+  choice.point.label = fmt::format("{:g} %", 100 * accuracy);
+  choice.point.run = design(with_choice(own, settings));
+  return choice;
+}
+
+}  // namespace dovetail::work_precision

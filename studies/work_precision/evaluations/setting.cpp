@@ -1,0 +1,52 @@
+#include "studies/work_precision/evaluations/setting.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace dovetail::work_precision {
+
+WholeSetting whole_setting(const optimizer::Scene& scene) {
+  return {.mesh = 1,
+          .harmonics = scene.solver.harmonics,
+          .samples = scene.solver.samples,
+          .modes = scene.solver.modes,
+          .resonance_tolerance = scene.solver.resonance_tolerance,
+          .tolerance = scene.solver.tolerance,
+          .solver = scene.solver.solver};
+}
+
+WholeSetting with_choice(WholeSetting setting, const optimizer::Settings& chosen) {
+  setting.mesh = chosen.mesh;
+  setting.harmonics = chosen.harmonics;
+  setting.samples = chosen.samples;
+  setting.modes = chosen.modes;
+  return setting;
+}
+
+optimizer::Scene with_setting(const optimizer::Scene& scene, const WholeSetting& setting) {
+  optimizer::Scene there = optimizer::with_settings(
+      scene,
+      {.mesh = setting.mesh, .harmonics = setting.harmonics, .samples = setting.samples, .modes = setting.modes});
+  there.solver.resonance_tolerance = setting.resonance_tolerance;
+  there.solver.tolerance = setting.tolerance;
+  there.solver.solver = setting.solver;
+  return there;
+}
+
+int edges(const WholeSetting& setting, int edges_of_file) {
+  return static_cast<int>(std::lround(setting.mesh * edges_of_file));
+}
+
+std::string setting_words(const WholeSetting& setting, int edges_of_file) {
+  constexpr WholeSetting kDefaults;
+  std::string text = fmt::format("{} edges, H = {}, N = {}, {} modes", edges(setting, edges_of_file), setting.harmonics,
+                                 setting.samples, setting.modes);
+  if (setting.resonance_tolerance != kDefaults.resonance_tolerance)
+    text += fmt::format(", resonance to {:g}", setting.resonance_tolerance);
+  if (setting.tolerance != kDefaults.tolerance) text += fmt::format(", residual to {:g}", setting.tolerance);
+  if (setting.solver != kDefaults.solver) text += ", " + std::string(to_string(setting.solver));
+  return text;
+}
+
+}  // namespace dovetail::work_precision
