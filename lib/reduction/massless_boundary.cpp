@@ -9,6 +9,7 @@
 
 #include "numerics/dense_product.hpp"
 #include "numerics/dense_symmetric.hpp"
+#include "numerics/sparse_product.hpp"
 #include "reduction/boundary_basis.hpp"
 #include "reduction/contact_order.hpp"
 #include "reduction/free_modes.hpp"
@@ -63,14 +64,6 @@ Eigen::MatrixXd symmetric(const Eigen::MatrixXd& matrix) {
   return 0.5 * (matrix + matrix.transpose());
 }
 
-/// A x for many columns: each entry of A meets a row of x that is contiguous.
-Eigen::MatrixXd row_by_row(const Eigen::SparseMatrix<double, Eigen::RowMajor>& a, const Eigen::MatrixXd& x) {
-  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const RowMajor rows = x;
-  const RowMajor product = a * rows;
-  return product;
-}
-
 /// Lambda + Phi_r^T G^-1 Phi_r [m, m]; `forces` = -G^-1 Phi_r hold the contact where it is.
 Eigen::MatrixXd glued_stiffness(const RitzBasis& basis, const Eigen::MatrixXd& on_contact,
                                 const Eigen::MatrixXd& forces) {
@@ -101,7 +94,8 @@ struct Blocks {
       forced =
           structure.field(Eigen::MatrixXd::Zero(m, nc), Eigen::MatrixXd(average.transpose()))(change.rows, Eigen::all);
     Eigen::MatrixXd of_fields(nc + m, nc + m);
-    of_fields.topLeftCorner(nc, nc) = numerics::transposed_product(forced, row_by_row(change.near, forced));
+    of_fields.topLeftCorner(nc, nc) =
+        numerics::transposed_product(forced, Eigen::MatrixXd(numerics::product(change.near, numerics::Rows(forced))));
     of_fields.topRightCorner(nc, m) = numerics::transposed_product(forced, change.basis);
     of_fields.bottomLeftCorner(m, nc) = of_fields.topRightCorner(nc, m).transpose();
     of_fields.bottomRightCorner(m, m) = change.on_basis;
@@ -138,7 +132,7 @@ Eigen::VectorXd glued_frequencies(const TraceModel& trace) {
   const ResidualFlexibility& structure = *trace.structure;
   const RitzBasis& basis = structure.basis();
   const Eigen::Index contact = structure.on_contact().rows(), m = basis.vectors.cols();
-  const Eigen::VectorXd unknown = Eigen::VectorXd::Constant(m, kUnknown);
+  Eigen::VectorXd unknown = Eigen::VectorXd::Constant(m, kUnknown);
   const numerics::DenseCholesky g(structure.on_contact());
   if (g.status() != Status::converged) return unknown;
   const Eigen::MatrixXd on_contact = basis.vectors.bottomRows(contact);
@@ -224,11 +218,11 @@ StiffnessChange stiffness_change(const TraceModel& trace, Sparse change, const E
   result.near.setFromTriplets(entries.begin(), entries.end());
 
   const Eigen::MatrixXd& phi = trace.structure->basis().vectors;
-  const Eigen::MatrixXd on_phi = row_by_row(change, phi);
+  const Eigen::MatrixXd on_phi = numerics::symmetric_product(change, phi);
   result.on_basis = symmetric(numerics::transposed_product(phi, on_phi));
   result.basis = on_phi(result.rows, Eigen::all);
   if (forced.size() > 0) result.forced = forced(result.rows, Eigen::all);
-  result.whole = std::move(change);
+  result.whole.swap(change);
   return result;
 }
 
