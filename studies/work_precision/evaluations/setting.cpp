@@ -21,14 +21,16 @@ WholeSetting with_choice(WholeSetting setting, const optimizer::Settings& chosen
   setting.harmonics = chosen.harmonics;
   setting.samples = chosen.samples;
   setting.modes = chosen.modes;
+  setting.resonance_tolerance = chosen.resonance_tolerance;
   return setting;
 }
 
 optimizer::Scene with_setting(const optimizer::Scene& scene, const WholeSetting& setting) {
-  optimizer::Scene there = optimizer::with_settings(
-      scene,
-      {.mesh = setting.mesh, .harmonics = setting.harmonics, .samples = setting.samples, .modes = setting.modes});
-  there.solver.resonance_tolerance = setting.resonance_tolerance;
+  optimizer::Scene there = optimizer::with_settings(scene, {.mesh = setting.mesh,
+                                                            .harmonics = setting.harmonics,
+                                                            .samples = setting.samples,
+                                                            .modes = setting.modes,
+                                                            .resonance_tolerance = setting.resonance_tolerance});
   there.solver.tolerance = setting.tolerance;
   there.solver.solver = setting.solver;
   return there;
