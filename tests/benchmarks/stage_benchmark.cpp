@@ -1,6 +1,9 @@
 // The stages of an evaluation one after the other, each alone, beside what they cannot do without: processor times,
 // medians of repetitions. `compare` runs it on two commits, and under valgrind to count instructions.
 //   build/tests/benchmarks/stage_benchmark [--scenes NAME,...] [--stages NAME,...] [--all]
+#include <cblas.h>
+#include <gnu/libc-version.h>
+#include <suitesparse/cholmod.h>
 #include <sys/resource.h>
 
 #include <CLI/CLI.hpp>
@@ -26,6 +29,16 @@ struct Choice {
   bool all = false, no_limits = false, once = false;
   std::string json;
 };
+
+/// Of what counts of instructions hang on.
+nlohmann::json versions() {
+  return {{"compiler", __VERSION__},
+          {"openblas", openblas_get_config()},
+          {"eigen", std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." +
+                        std::to_string(EIGEN_MINOR_VERSION)},
+          {"cholmod", CHOLMOD_MAIN_VERSION * 10000 + CHOLMOD_SUB_VERSION * 100 + CHOLMOD_SUBSUB_VERSION},
+          {"libc", gnu_get_libc_version()}};
+}
 
 double peak_gib() {
   rusage usage{};
@@ -58,7 +71,8 @@ void describe(CLI::App& app, Choice& choice) {
 void measure_scenes(const Choice& choice) {
   const Selection selection{
       .stages = {choice.stages.begin(), choice.stages.end()}, .error_bars = choice.all, .limits = !choice.no_limits};
-  nlohmann::json answer = {{"scenes", nlohmann::json::object()}, {"counted", nlohmann::json::array()}};
+  nlohmann::json answer = {
+      {"scenes", nlohmann::json::object()}, {"counted", nlohmann::json::array()}, {"versions", versions()}};
   for (const BenchmarkScene& scene : benchmark_scenes()) {
     const bool named = std::ranges::find(choice.scenes, scene.name) != choice.scenes.end();
     if (!(choice.scenes.empty() ? choice.all || !scene.slow : named)) continue;
