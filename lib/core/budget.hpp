@@ -20,7 +20,12 @@ class Budget {
       : operations_(operations), seconds_(seconds), begin_(Clock::now()) {}
 
   void spend(double operations) { used_ += operations; }
+  void spend_on_factors(double operations) {
+    spend(operations);
+    on_factors_ += operations;
+  }
   [[nodiscard]] double used() const { return used_; }
+  [[nodiscard]] double on_factors() const { return on_factors_; }  ///< the part of it that was dense factorisations
   [[nodiscard]] bool spent() const {
     if (used_ >= operations_) return true;
     return seconds_ < std::numeric_limits<double>::infinity() &&
@@ -29,7 +34,7 @@ class Budget {
 
  private:
   using Clock = std::chrono::steady_clock;
-  double operations_, seconds_, used_ = 0;
+  double operations_, seconds_, used_ = 0, on_factors_ = 0;
   Clock::time_point begin_;
 };
 

@@ -73,7 +73,7 @@ JacobianBlocks blocks(const Point& point) {
 
 Eigen::MatrixXd jacobian(const Point& point) {
   const Eigen::Index unknowns = point.problem->unknowns();
-  if (point.problem->budget()) point.problem->budget()->spend(factorisation_operations(unknowns));
+  if (point.problem->budget()) point.problem->budget()->spend_on_factors(factorisation_operations(unknowns));
   std::vector<Eigen::Index> rows(static_cast<std::size_t>(unknowns));
   std::iota(rows.begin(), rows.end(), Eigen::Index{0});
   Eigen::MatrixXd matrix(unknowns, unknowns);

@@ -96,7 +96,7 @@ std::shared_ptr<const Tangent::Factors> Tangent::factorise(double regularisation
   for (Eigen::Index j = 0; j < active; ++j)
     columns[static_cast<std::size_t>(factors->active[static_cast<std::size_t>(j)])] = matrix.col(j).data();
   assemble(blocks, factors->active, columns, regularisation);
-  if (problem().budget()) problem().budget()->spend(factorisation_operations(active));
+  if (problem().budget()) problem().budget()->spend_on_factors(factorisation_operations(active));
   factors->lu.factorise(std::move(matrix));
   return factors;
 }

@@ -16,41 +16,8 @@ namespace dovetail::optimizer {
 
 namespace {
 
-/// What the preload that stresses the matrices acts on.
-struct Preloaded {
-  ContactProperties contact;
-  Eigen::VectorXd gap;  ///< of contact nodes
-};
-
-Preloaded own(const Scene& scene, const fem::ContactCells& cells) {
+PreloadedContact own(const Scene& scene, const fem::ContactCells& cells) {
   return {.contact = scene.contact, .gap = cells.gap};
-}
-
-/// Of all designs that share their matrices: without gaps, and with one friction.
-Preloaded stressed(const Scene& scene, const fem::ContactCells& cells, double friction) {
-  Preloaded result = own(scene, cells);
-  if (scene.solver.prestress == Prestress::own) return result;
-  result.contact.friction = friction;
-  result.gap.setZero();
-  return result;
-}
-
-using Order = std::shared_ptr<numerics::EliminationOrder>;
-
-reduction::FullModel full_model(const Scene& scene, const fem::SectorSystem& system,
-                                const Eigen::SparseMatrix<double>& stiffness, const Order& order) {
-  const double speed = scene.loading.speed;
-  reduction::FullModel full;
-  full.stiffness = fem::constrain(stiffness, system.constraints);
-  full.mass = system.mass;
-  full.static_force = speed * speed * system.centrifugal;
-  full.cosine_force = system.tip;
-  full.sine_force = Eigen::MatrixXd::Zero(system.size(), 1);
-  full.outputs = system.tip;
-  full.output_names = {"tip_x"};
-  full.order = order;
-  full.contact = contact_nodes(system.contact, system.internal_size(), scene.contact);
-  return full;
 }
 
 /// As much work as an evaluation may take besides.
@@ -61,8 +28,8 @@ SharedBudget budget(const SolverSettings& solver, Eigen::Index nodes, Eigen::Ind
 }
 
 /// Displacement of all nodes under the pull of the blade, with friction: glued flanks would carry tension.
-Status preloaded(const Scene& scene, const fem::ContactCells& cells, const Preloaded& by, const Matrices& matrices,
-                 Eigen::VectorXd& displacement) {
+Status preloaded(const Scene& scene, const fem::ContactCells& cells, const PreloadedContact& by,
+                 const Matrices& matrices, Eigen::VectorXd& displacement) {
   if (matrices.at_rest.status != Status::converged) return matrices.at_rest.status;
   reduction::ContactNodes nodes = contact_nodes(cells, 0, by.contact);
   nodes.gap = by.gap;
@@ -92,34 +59,75 @@ Eigen::MatrixXd forced(const reduction::ResidualFlexibility& structure) {
   return structure.field(Eigen::MatrixXd::Zero(m, trace), Eigen::MatrixXd::Identity(trace, trace));
 }
 
-Matrices computed(const Scene& scene, const fem::SectorMesh& sector, const fem::ContactCells& cells,
-                  const Preloaded& by, const Order& order, std::map<std::string, double>& timings_s) {
-  Matrices result;
-  Stopwatch watch;
-  const fem::Assembler assembler(sector.mesh);
-  result.system = fem::build_sector_system(sector, materials(scene), assembler);
-  timings_s["assembly"] = watch.lap();
+}  // namespace
 
-  result.at_rest =
-      reduction::condense_statically(full_model(scene, result.system, result.system.full.stiffness, order));
-  const Status prestress = preloaded(scene, cells, by, result, result.preloaded);
-  if (prestress != Status::converged) {
-    result.status = failed_at("prestress", prestress);
-    return result;
-  }
-  result.stiffness = fem::stiffness_at_speed(
-      result.system.full, geometric_stiffness(scene, sector, assembler, result.preloaded), scene.loading.speed);
-  if (scene.solver.prestress == Prestress::own) result.at_rest = {};
-  timings_s["prestress"] = watch.lap();
-
-  result.trace = reduction::trace_model(full_model(scene, result.system, result.stiffness, order),
-                                        {.modes = scene.solver.modes, .damping_ratio = scene.loading.damping_ratio});
-  if (result.trace.status != Status::converged)
-    result.status = failed_at("reduction", result.trace.status) + " " + result.trace.message;
-  else if (scene.solver.prestress == Prestress::shared)
-    result.forced = forced(*result.trace.structure);
-  timings_s["reduction"] = watch.lap();
+PreloadedContact stressed(const Scene& scene, const fem::ContactCells& cells, double friction) {
+  PreloadedContact result = own(scene, cells);
+  if (scene.solver.prestress == Prestress::own) return result;
+  result.contact.friction = friction;
+  result.gap.setZero();
   return result;
+}
+
+MatricesStages::MatricesStages(const Scene& scene, const fem::SectorMesh& sector, const fem::ContactCells& cells,
+                               const PreloadedContact& by, Order order)
+    : scene_(scene), sector_(sector), cells_(cells), by_(by), order_(std::move(order)) {}
+
+reduction::FullModel MatricesStages::full_model(const Eigen::SparseMatrix<double>& stiffness) const {
+  const fem::SectorSystem& system = matrices_.system;
+  const double speed = scene_.loading.speed;
+  reduction::FullModel full;
+  full.stiffness = fem::constrain(stiffness, system.constraints);
+  full.mass = system.mass;
+  full.static_force = speed * speed * system.centrifugal;
+  full.cosine_force = system.tip;
+  full.sine_force = Eigen::MatrixXd::Zero(system.size(), 1);
+  full.outputs = system.tip;
+  full.output_names = {"tip_x"};
+  full.order = order_;
+  full.contact = contact_nodes(system.contact, system.internal_size(), scene_.contact);
+  return full;
+}
+
+void MatricesStages::assemble() {
+  assembler_.emplace(sector_.mesh);
+  matrices_.system = fem::build_sector_system(sector_, materials(scene_), *assembler_);
+}
+
+void MatricesStages::add_prestress() {
+  matrices_.at_rest = reduction::condense_statically(full_model(matrices_.system.full.stiffness));
+  const Status prestress = preloaded(scene_, cells_, by_, matrices_, matrices_.preloaded);
+  if (prestress != Status::converged) {
+    matrices_.status = failed_at("prestress", prestress);
+    return;
+  }
+  matrices_.stiffness = fem::stiffness_at_speed(matrices_.system.full,
+                                                geometric_stiffness(scene_, sector_, *assembler_, matrices_.preloaded),
+                                                scene_.loading.speed);
+  if (scene_.solver.prestress == Prestress::own) matrices_.at_rest = {};
+}
+
+void MatricesStages::reduce() {
+  matrices_.trace = reduction::trace_model(
+      full_model(matrices_.stiffness), {.modes = scene_.solver.modes, .damping_ratio = scene_.loading.damping_ratio});
+  if (matrices_.trace.status != Status::converged)
+    matrices_.status = failed_at("reduction", matrices_.trace.status) + " " + matrices_.trace.message;
+  else if (scene_.solver.prestress == Prestress::shared)
+    matrices_.forced = forced(*matrices_.trace.structure);
+}
+
+namespace {
+
+Matrices computed(MatricesStages stages, std::map<std::string, double>& timings_s) {
+  Stopwatch watch;
+  stages.assemble();
+  timings_s["assembly"] = watch.lap();
+  stages.add_prestress();
+  if (outcome_of(stages.matrices().status) != Outcome::converged) return std::move(stages).matrices();
+  timings_s["prestress"] = watch.lap();
+  stages.reduce();
+  timings_s["reduction"] = watch.lap();
+  return std::move(stages).matrices();
 }
 
 /// Takes the difference to the design's own preload into its matrices. Stress is linear in displacements, and the
@@ -136,7 +144,7 @@ Status add_own_preload(const Scene& scene, const fem::SectorMesh& sector, const 
   return Status::converged;
 }
 
-MatricesOf asked_for(const Scene& scene, const fem::SectorMesh& sector, const Preloaded& by) {
+MatricesOf asked_for(const Scene& scene, const fem::SectorMesh& sector, const PreloadedContact& by) {
   std::vector<double> numbers{scene.loading.speed,
                               static_cast<double>(scene.solver.modes),
                               by.contact.friction,
@@ -172,10 +180,10 @@ Eigen::SparseMatrix<double> DesignMatrices::stiffness() const {
   return shared->stiffness + change;
 }
 
-DesignMatrices MatricesStore::matrices(const Scene& scene, const fem::SectorMesh& sector,
-                                       const fem::ContactCells& cells, std::map<std::string, double>& timings_s) {
+DesignMatrices of_design(const Scene& scene, const fem::SectorMesh& sector, const fem::ContactCells& cells,
+                         std::shared_ptr<const Matrices> shared) {
   DesignMatrices result;
-  result.shared = shared(scene, sector, cells, timings_s);
+  result.shared = std::move(shared);
   result.status = result.shared->status;
   if (outcome_of(result.status) != Outcome::converged) return result;
   result.trace = result.shared->trace;
@@ -183,24 +191,31 @@ DesignMatrices MatricesStore::matrices(const Scene& scene, const fem::SectorMesh
   result.trace.contact =
       contact_nodes(fem::contact_surface(sector), result.shared->system.internal_size(), scene.contact);
   if (scene.solver.prestress == Prestress::own) return result;
-  Stopwatch watch;
   if (const Status status = add_own_preload(scene, sector, cells, result); status != Status::converged)
     result.status = failed_at("prestress", status);
-  timings_s["prestress"] += watch.lap();
+  return result;
+}
+
+DesignMatrices MatricesStore::matrices(const Scene& scene, const fem::SectorMesh& sector,
+                                       const fem::ContactCells& cells, std::map<std::string, double>& timings_s) {
+  std::shared_ptr<const Matrices> same = shared(scene, sector, cells, timings_s);
+  Stopwatch watch;
+  DesignMatrices result = of_design(scene, sector, cells, std::move(same));
+  if (scene.solver.prestress == Prestress::shared) timings_s["prestress"] += watch.lap();
   return result;
 }
 
 std::shared_ptr<const Matrices> MatricesStore::shared(const Scene& scene, const fem::SectorMesh& sector,
                                                       const fem::ContactCells& cells,
                                                       std::map<std::string, double>& timings_s) {
-  const Preloaded by = stressed(scene, cells, friction_);
+  const PreloadedContact by = stressed(scene, cells, friction_);
   MatricesOf asked = asked_for(scene, sector, by);
   {
     const std::lock_guard lock(mutex_);
     if (last_ && of_ == asked) return last_;
     last_.reset();  // before the next ones are there: both need not fit into memory
   }
-  auto result = std::make_shared<const Matrices>(computed(scene, sector, cells, by, order_, timings_s));
+  auto result = std::make_shared<const Matrices>(computed({scene, sector, cells, by, order_}, timings_s));
   const std::lock_guard lock(mutex_);
   of_ = std::move(asked);
   last_ = result;

@@ -3,10 +3,13 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "fem/assembly.hpp"
 #include "fem/contact_cells.hpp"
 #include "fem/sector_system.hpp"
 #include "numerics/partial_cholesky.hpp"
@@ -29,6 +32,45 @@ struct Matrices {
   Eigen::MatrixXd forced;                 ///< to unit forces on the trace [n, nt]; empty where it is too large
 };
 
+/// What the preload that stresses the matrices acts on.
+struct PreloadedContact {
+  ContactProperties contact;
+  Eigen::VectorXd gap;  ///< of contact nodes
+};
+
+/// The design's own; of all designs that share their matrices without gaps, and with one friction.
+[[nodiscard]] PreloadedContact stressed(const Scene& scene, const fem::ContactCells& cells, double friction);
+
+/// The stages in which matrices are computed, in this order: each goes on from what the one before left. What it is
+/// given must outlive it.
+class MatricesStages {
+ public:
+  using Order = std::shared_ptr<numerics::EliminationOrder>;
+
+  /// @param sector  with its trace
+  /// @param cells  the grid of contact nodes to begin with
+  MatricesStages(const Scene& scene, const fem::SectorMesh& sector, const fem::ContactCells& cells,
+                 const PreloadedContact& by, Order order);
+
+  void assemble();
+  void add_prestress();  ///< preload without geometric stiffness, and the stiffness that its stress leaves
+  void reduce();         ///< to the trace
+
+  [[nodiscard]] const Matrices& matrices() const& { return matrices_; }
+  [[nodiscard]] Matrices matrices() && { return std::move(matrices_); }
+  /// What is reduced: a stiffness over all nodes in independent coordinates.
+  [[nodiscard]] reduction::FullModel full_model(const Eigen::SparseMatrix<double>& stiffness) const;
+
+ private:
+  const Scene& scene_;
+  const fem::SectorMesh& sector_;
+  const fem::ContactCells& cells_;
+  const PreloadedContact& by_;
+  Order order_;
+  std::optional<fem::Assembler> assembler_;
+  Matrices matrices_;
+};
+
 /// The matrices of a candidate, of its own or shared by designs that differ in the form of their flanks, friction, wear
 /// and tip force alone. Members after the stage that failed are empty.
 struct DesignMatrices {
@@ -40,6 +82,10 @@ struct DesignMatrices {
   /// At speed, over all nodes.
   [[nodiscard]] Eigen::SparseMatrix<double> stiffness() const;
 };
+
+/// Those of a design from the ones that it shares: with its tip force, and what its own preload changes.
+[[nodiscard]] DesignMatrices of_design(const Scene& scene, const fem::SectorMesh& sector,
+                                       const fem::ContactCells& cells, std::shared_ptr<const Matrices> shared);
 
 /// Whether designs that differ by this key of a study file alone share their matrices.
 [[nodiscard]] bool shares_matrices(std::string_view key);

@@ -1,8 +1,7 @@
-// The bladed disk of the reference in space at full size: one complete evaluation by stage, then the linear stages and
-// the memory on four meshes of the same geometry and contact grid. Each in a process of its own, so that peak memory is
-// its own; `load` is that of the machine before the run, `cpu` the process's time whatever that is. Mesh to model holds
-// the preload without geometric stiffness and the geometric stiffness, not only the reduction.
-//   build/tests/benchmarks/sector_benchmark [evaluation | growth]
+// The linear stages and the memory of the bladed disk of the reference in space on four meshes of the same geometry and
+// contact grid. Each in a process of its own, so that peak memory is its own; `load` is that of the machine before the
+// run, `cpu` the process's time whatever that is. Stages one by one: stage_benchmark.
+//   build/tests/benchmarks/sector_benchmark
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -12,12 +11,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "numerics/blas.hpp"
-#include "optimizer/evaluator.hpp"
+#include "optimizer/candidate/candidate_model.hpp"
 #include "studies/program/study_file/study.hpp"
 
 namespace {
@@ -93,24 +90,6 @@ constexpr std::array<Size, 4> kSizes{
      {.flank = 6, .aerofoil = 6, .slot = 7, .fillet = 1.0, .bulk = 15e-3, .blend = 1, .growth = 0.4},
      {.flank = 8, .aerofoil = 10, .slot = 8, .fillet = 0.7, .bulk = 10e-3, .blend = 0.8, .growth = 0.4},
      {.flank = 8, .aerofoil = 10, .slot = 10, .fillet = 0.5, .bulk = 8e-3, .blend = 0.7, .growth = 0.4}}};
-/// That of the study.
-constexpr Size kFull{.flank = 8, .aerofoil = 10, .slot = 8, .fillet = 0.5, .bulk = 10e-3, .blend = 0.8, .growth = 0.4};
-
-Row evaluate() {
-  const optimizer::Scene scene = scene_of(kFull);
-  const optimizer::Evaluation evaluation = optimizer::SceneEvaluator(scene).evaluate(scene).evaluation;
-  std::printf("complete evaluation: %s\n", evaluation.status.c_str());
-  for (const char* name : {"dofs", "contact_nodes", "reduced_size", "modes", "harmonics", "samples"})
-    std::printf("  %-20s %10.0f\n", name, evaluation.model.at(name));
-  const auto& seconds = evaluation.timings_s;
-  for (const auto& [stage, time] : seconds) std::printf("  %-20s %10.2f s\n", stage.c_str(), time);
-  double model = 0;
-  for (const char* stage : {"mesh", "assembly", "prestress", "reduction"}) model += seconds.at(stage);
-  std::printf("  %-20s %10.2f s\n  %-20s %10.2f s\n  %-20s %10.2f GiB\n", "mesh to model", model, "cpu", cpu_seconds(),
-              "peak memory", peak_gib());
-  return {};
-}
-
 Row linear_stages(const Size& size) {
   const optimizer::Scene scene = scene_of(size);
   const optimizer::CandidateModel model = optimizer::ModelBuilder(scene).build(scene);
@@ -163,11 +142,9 @@ void growth() {
 
 }  // namespace
 
-int main(int count, char** arguments) {
+int main(int, char** arguments) {
   dovetail::numerics::prepare_blas(arguments);
-  const std::string_view part = count > 1 ? arguments[1] : "";
   print_load();
-  if (part != "growth") in_own_process(evaluate);
-  if (part != "evaluation") growth();
+  growth();
   return 0;
 }

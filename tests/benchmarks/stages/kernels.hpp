@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tests/benchmarks/stages/measurement.hpp"
+
+namespace dovetail::benchmarks {
+
+/// Work that no stage can do without, asked of the libraries directly.
+struct Kernel {
+  Work work;
+  double units = 1;   ///< that one run does
+  std::string words;  ///< what `per` units are, for people
+  double per = 0;     ///< 0: those of one run
+};
+
+/// Units of kernels, by name, that a stage cannot do without.
+using Needs = std::map<std::string, double>;
+
+// Names of kernels.
+inline constexpr const char* kFactorisation = "factorisation";  ///< sparse Cholesky factors, analysis kept
+inline constexpr const char* kBackSolve = "back_solve";         ///< one column of many
+inline constexpr const char* kDenseLu = "dense_lu";             ///< one operation of it
+inline constexpr const char* kDenseInverse = "dense_inverse";   ///< at the size of the trace, or one operation of it
+inline constexpr const char* kMarch = "march";                  ///< one operation as budgets count them
+inline constexpr const char* kTraffic = "memory_traffic";       ///< one byte read or written
+
+/// Sizes at which kernels are run.
+struct KernelParams {
+  Eigen::Index columns = 64;        ///< back-solves at once: times are flat from 16 on
+  Eigen::Index streamed = 1 << 22;  ///< numbers in each of two arrays, beyond the caches
+};
+
+/// CHOLMOD on the positive definite `stiffness`: its factorisation in an order that is known, and back-solves.
+[[nodiscard]] std::vector<Kernel> sparse_kernels(const Eigen::SparseMatrix<double>& stiffness);
+/// dgetrf of n unknowns. Its units are operations, 2/3 n^3.
+[[nodiscard]] Kernel dense_lu_kernel(Eigen::Index unknowns);
+/// dpotrf and dpotri of n unknowns. Its units are operations, n^3.
+[[nodiscard]] Kernel dense_inverse_kernel(Eigen::Index unknowns);
+/// One array read, another written.
+[[nodiscard]] Kernel traffic_kernel();
+
+}  // namespace dovetail::benchmarks
