@@ -13,7 +13,7 @@ namespace dovetail::optimizer {
 
 namespace {
 
-constexpr SettingsParams kParams;
+constexpr SettingsParams kForecast;
 
 Knob knob_of(const std::string& source) {
   if (source == "mesh" || source == "contact_grid") return Knob::mesh;
@@ -26,7 +26,7 @@ Knob knob_of(const std::string& source) {
 
 /// To whose number that of steady states is proportional.
 double states_by(const Settings& settings) {
-  return 1 - kParams.by_digit * (std::log10(settings.resonance_tolerance) - std::log10(kParams.coarsest_tolerance));
+  return 1 - kForecast.by_digit * (std::log10(settings.resonance_tolerance) - std::log10(kForecast.coarsest_tolerance));
 }
 
 }  // namespace
@@ -72,8 +72,8 @@ void Forecast::add(const Settings& at, const Evaluation& evaluation) {
       part.order = old.order;
       const double ratio = finer(part.knob, at_, was), expected = order(*part.response, part.source, part.knob);
       if (ratio != 1 && old.share > 0 && part.share > 0)
-        part.order = std::clamp(std::log(old.share / part.share) / std::log(ratio), expected / kParams.order_off,
-                                expected * kParams.order_off);
+        part.order = std::clamp(std::log(old.share / part.share) / std::log(ratio), expected / kForecast.order_off,
+                                expected * kForecast.order_off);
     }
 }
 
@@ -117,13 +117,13 @@ std::optional<Dominant> Forecast::dominant() const {
 
 double Forecast::operations(const Settings& there) const {
   const double mesh = there.mesh / at_.mesh;
-  const double dofs = dofs_ * std::pow(mesh, in_space_ ? kParams.dofs_in_space : kParams.dofs);
-  const double matrices = (in_space_ ? kParams.matrices_by_in_space : kParams.matrices_by) *
-                          std::pow(dofs, in_space_ ? kParams.matrices_in_space : kParams.matrices_in_plane) *
-                          (1 - kParams.modes_share + kParams.modes_share * there.modes / kParams.modes);
+  const double dofs = dofs_ * std::pow(mesh, in_space_ ? kForecast.dofs_in_space : kForecast.dofs);
+  const double matrices = (in_space_ ? kForecast.matrices_by_in_space : kForecast.matrices_by) *
+                          std::pow(dofs, in_space_ ? kForecast.matrices_in_space : kForecast.matrices_in_plane) *
+                          (1 - kForecast.modes_share + kForecast.modes_share * there.modes / kForecast.modes);
   const double unknowns = std::pow(mesh, in_space_ ? 2 : 1) * finer(Knob::harmonics, there, at_);
   const double states = states_by(there) / states_by(at_);
-  return matrices + states * (factorisations_ * std::pow(unknowns, kParams.contact) +
+  return matrices + states * (factorisations_ * std::pow(unknowns, kForecast.contact) +
                               marches_ * unknowns * finer(Knob::samples, there, at_));
 }
 
@@ -154,11 +154,11 @@ double Forecast::order(const Response& response, const std::string& source, Knob
       if (source == "contact_grid") return response.grid_order;
       return in_space_ ? response.mesh_order.in_space : response.mesh_order.in_plane;
     case Knob::harmonics:
-      return kParams.by_harmonics;
+      return kForecast.by_harmonics;
     case Knob::samples:
-      return kParams.by_samples;
+      return kForecast.by_samples;
     case Knob::modes:
-      return kParams.by_modes;
+      return kForecast.by_modes;
     case Knob::resonance:
       return 1;
     case Knob::none:

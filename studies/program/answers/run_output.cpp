@@ -57,14 +57,15 @@ void take_over(const Study& study, optimizer::Evaluation seen, optimizer::Candid
 }
 
 report::RunRecord record_of(const RunSite& site, OptimizationResult result, double seconds) {
-  const auto& [study, engine, directory, err, settings] = site;
+  const Study& study = site.study;
+  const RunEngine& engine = site.engine;
   std::optional<report::DesignRecord> best, baseline;
   const auto look = [&](std::size_t index, std::optional<report::DesignRecord>& design) {
     optimizer::Candidate& candidate = result.evaluations[index];
     DescribedDesign seen = engine.describe(scene_of(study, candidate));
     const auto known = static_cast<std::ptrdiff_t>(seen.evaluation.messages.size());
     take_over(study, std::move(seen.evaluation), candidate);
-    if (!settings.empty()) candidate.evaluation.messages.push_back(settings);
+    if (!site.settings.empty()) candidate.evaluation.messages.push_back(site.settings);
     design = std::move(seen.record);
     const std::vector<std::string>& messages = candidate.evaluation.messages;
     design->notes.insert(design->notes.begin() + known, messages.begin() + known, messages.end());

@@ -32,7 +32,7 @@ constexpr const char* kBestFile = "best_settings.json";
 struct Chosen {
   std::map<std::string, double> settings;  ///< by key
   double noise = 0;
-  Json accuracy = {};  ///< how settings were chosen, see accuracy_json
+  Json accuracy = Json();  ///< how settings were chosen, see accuracy_json
 };
 
 /// What the bars of the start say of differences between designs. No history is asked in a search: a doubt that only
@@ -77,7 +77,7 @@ std::optional<Chosen> kept(const std::filesystem::path& file, const std::string&
 /// Settings for the accuracy that the study asks for at its own design; nothing where it asks for none.
 std::optional<optimizer::SettingsChoice> choose(const Study& there, std::ostream& err, Chosen& result) {
   Study settled = there;
-  const std::optional<optimizer::SettingsChoice> choice = settle(settled, [&](const optimizer::SettingsTried& tried) {
+  std::optional<optimizer::SettingsChoice> choice = settle(settled, [&](const optimizer::SettingsTried& tried) {
     err << "dovetail: " << round_words(there, tried) << "\n";
   });
   if (!choice) return choice;

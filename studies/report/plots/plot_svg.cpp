@@ -153,7 +153,9 @@ std::string hatching(const Frame& frame) {
   const double top = std::max(frame.y(frame.plot.hatched_below), frame.top), height = frame.bottom - top;
   std::string data;
   // Each rises to the right from the lower edge, or from the left one where it would begin further left.
-  for (double x = frame.left + kSpacing - height; x < frame.right; x += kSpacing) {
+  const auto lines = static_cast<int>(std::ceil((frame.right - frame.left + height) / kSpacing));
+  for (int i = 1; i < lines; ++i) {
+    const double x = frame.left - height + kSpacing * i;
     const double from = std::max(x, frame.left), to = std::min(x + height, frame.right);
     data += fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", from, frame.bottom - (from - x), to, frame.bottom - (to - x));
   }
