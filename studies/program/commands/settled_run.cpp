@@ -32,7 +32,7 @@ constexpr const char* kBestFile = "best_settings.json";
 struct Chosen {
   std::map<std::string, double> settings;  ///< by key
   double noise = 0;
-  Json accuracy = Json();  ///< how settings were chosen, see accuracy_json
+  Json accuracy = {};  ///< how settings were chosen, see accuracy_json
 };
 
 /// What the bars of the start say of differences between designs. No history is asked in a search: a doubt that only
@@ -160,8 +160,7 @@ Study settled_best(const Study& asked, const Study& searched, const optimizer::C
   std::optional<Chosen> settled = resume ? kept(file, question) : std::nullopt;
   if (!settled) {
     err << "dovetail: settings for the best design\n";
-    settled.emplace();
-    settled->noise = searched.optimizer.noise;
+    settled = Chosen{.settings = {}, .noise = searched.optimizer.noise};
     choose(verified(there), err, *settled);
     keep(file, question, *settled);
   }
