@@ -107,7 +107,7 @@ def times(program, scenes, stages, repetitions):
     with tempfile.TemporaryDirectory() as folder:
         answer = pathlib.Path(folder) / "answer.json"
         figures = run([program, "--no-limits", "--repetitions", str(repetitions), *options(scenes, stages), "--json",
-                       answer], {"OPENBLAS_NUM_THREADS": "1"}, answer)
+                       answer], {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}, answer)
     return {(scene, stage): of["seconds"] for scene, found in figures["scenes"].items()
             for stage, of in found["stages"].items()}
 
