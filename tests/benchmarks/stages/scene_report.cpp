@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "studies/work_precision/processor_time.hpp"
+#include "studies/ready_study/processor_time.hpp"
 
 namespace dovetail::benchmarks {
 
@@ -52,7 +52,7 @@ double seconds_of(const SceneReport& report, const Needs& needs) {
   double seconds = 0;
   for (const KernelReport& of : report.kernels)
     if (const auto found = needs.find(of.kernel.work.name); found != needs.end())
-      seconds += found->second / of.kernel.units * work_precision::median(of.seconds);
+      seconds += found->second / of.kernel.units * ready_study::median(of.seconds);
   return seconds;
 }
 
@@ -103,7 +103,7 @@ void print(const SceneReport& report) {
               report.unknowns, report.trace, report.contact_nodes);
   std::printf("%-18s %10s %12s %9s  %s\n", "stage", "ms", "unavoidable", "distance", "made of");
   for (const StageReport& stage : report.stages) {
-    const double seconds = work_precision::median(stage.seconds), limit = seconds_of(report, stage.needs);
+    const double seconds = ready_study::median(stage.seconds), limit = seconds_of(report, stage.needs);
     const std::string distance = limit > 0 ? fmt::format("{:.2f}", seconds / limit) : "-";
     std::printf("%-18s %10.3f %12.3f %9s  %s\n", stage.name.c_str(), 1e3 * seconds, 1e3 * limit, distance.c_str(),
                 words(report, stage.needs).c_str());
