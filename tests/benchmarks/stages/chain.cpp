@@ -53,8 +53,7 @@ double Chain::contact_size() const {
 }
 
 std::vector<Kernel> kernels(const Chain& chain) {
-  // Spin softening takes Omega^2 M off: with twice as much put back nothing floats.
-  const double lift = 2 * chain.scene.loading.speed * chain.scene.loading.speed;
+  const double lift = KernelParams{}.lift * chain.scene.loading.speed * chain.scene.loading.speed;
   const optimizer::Matrices& matrices = *chain.candidate.matrices.shared;
   const Eigen::SparseMatrix<double> free =
       fem::constrain(matrices.stiffness, matrices.system.constraints) + lift * matrices.system.mass;

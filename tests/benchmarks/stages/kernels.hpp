@@ -33,6 +33,10 @@ inline constexpr const char* kTraffic = "memory_traffic";       ///< one byte re
 struct KernelParams {
   Eigen::Index columns = 64;        ///< back-solves at once: times are flat from 16 on
   Eigen::Index streamed = 1 << 22;  ///< numbers in each of two arrays, beyond the caches
+  /// Mass that is added to a stiffness, over Omega^2: a blade that floats in its slot is softened by Omega^2 times the
+  /// radius over its own size, and by the stress of its pull as much. Smaller: no positive definite matrix to
+  /// factorise.
+  double lift = 100;
 };
 
 /// CHOLMOD on the positive definite `stiffness`: its factorisation in an order that is known, and back-solves.
