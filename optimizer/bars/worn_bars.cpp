@@ -60,10 +60,6 @@ LeftOpen worn_otherwise(const CandidateResult& result, const wear::WornChange& d
   return open;
 }
 
-}  // namespace
-
-namespace {
-
 /// What the tolerance of the unworn resonance, at which the joint wears, leaves open: off a peak the amplitude changes
 /// by at most half of what the frequency changes over the half width of the peak, and friction makes that wider.
 wear::WornChange by_resonance(const Scene& scene, const CandidateResult& result) {
