@@ -84,7 +84,8 @@ class Verdicts(unittest.TestCase):
         self.assertEqual(compare(a, b, "--pairs", 3).returncode, 0)
 
     def test_wrong_input_is_one_sentence(self):
-        for given, words in ((("no_such_commit", "HEAD"), "no_such_commit is no commit"),
+        no_commit = "no_such_commit is no commit" if shutil.which("git") else "git is not installed"
+        for given, words in ((("no_such_commit", "HEAD"), no_commit),
                              ((self.folder.name, "."), "is no working tree that can be compared")):
             done = compare(*given)
             self.assertEqual(done.returncode, 2)
@@ -93,6 +94,7 @@ class Verdicts(unittest.TestCase):
         self.assertEqual(compare("HEAD").returncode, 2)
         self.assertEqual(compare("--baseline", "--store").returncode, 2)
 
+    @unittest.skipUnless(shutil.which("git"), "git is not installed")
     def test_a_commit_without_the_benchmark_is_refused(self):
         first = stage_runs.git("rev-list", "--max-parents=0", "HEAD").stdout.split()
         if not first or stage_runs.git("cat-file", "-e", f"{first[-1]}:{stage_runs.SOURCE}").returncode == 0:

@@ -33,6 +33,8 @@ class Subject:
 
 
 def git(*arguments):
+    if not shutil.which("git"):
+        raise UsageError("git is not installed; commits are found and built with it (Debian: apt-get install git).")
     return subprocess.run(["git", "-C", ROOT, *arguments], capture_output=True, text=True, check=False)
 
 
@@ -79,10 +81,9 @@ def build(what, jobs, cmake_options):
 
 
 def clean():
-    for source in PLACE.glob("*/source"):
-        git("worktree", "remove", "--force", str(source))
     shutil.rmtree(PLACE, ignore_errors=True)
-    git("worktree", "prune")
+    if shutil.which("git"):
+        git("worktree", "prune")  # those that are no longer there
 
 
 def options(scenes, stages):
