@@ -17,7 +17,7 @@ struct WholeSetting {
   double tolerance = optimizer::SolverSettings{}.tolerance;  ///< of the residual of a steady state
   steady::Solver solver = steady::Solver::automatic;
 
-  auto operator<=>(const WholeSetting&) const = default;  // NOLINT(modernize-use-nullptr): a zero of its own making
+  auto operator<=>(const WholeSetting&) const = default;  // NOLINT(modernize-use-nullptr): there is no pointer here
 };
 
 /// That of a scene on the mesh of its file.
