@@ -9,7 +9,7 @@ namespace dovetail::branches {
 BorderedSystem::BorderedSystem(const steady::Tangent& tangent, Eigen::VectorXd column, Eigen::VectorXd row,
                                double corner)
     : tangent_(tangent), column_(std::move(column)), row_(std::move(row)), corner_(corner) {
-  if (tangent.status() == Status::converged) by_column_ = tangent.solve(column_);
+  if (tangent.factors().status() == Status::converged) by_column_ = tangent.solve(column_);
 }
 
 BorderedSystem::Defect BorderedSystem::defect(const Solution& at, const Eigen::VectorXd& forces,
@@ -30,7 +30,7 @@ void BorderedSystem::eliminate(const Defect& defect, Solution& solution) const {
 }
 
 BorderedSystem::Solution BorderedSystem::solve(const Eigen::VectorXd& forces, double constraint) const {
-  if (tangent_.status() != Status::converged || !by_column_.allFinite()) return solve_densely(forces, constraint);
+  if (tangent_.factors().status() != Status::converged || !by_column_.allFinite()) return solve_densely(forces, constraint);
   Solution solution{.displacement = Eigen::VectorXd::Zero(forces.size())};
   // The size of the terms that cancel in each row decides what counts as zero.
   constexpr BorderedParams kParams;

@@ -60,7 +60,7 @@ class PlaneEquations {
     if (spent(problem_->budget())) return Status::budget_spent;
     steady::differentiate(*at_);
     const steady::Tangent tangent(at_);
-    if (tangent.status() == Status::not_finite) return tangent.status();
+    if (tangent.factors().status() == Status::not_finite) return tangent.factors().status();
     const BorderedSystem bordered(tangent, branch_.slope(*at_), row_.displacement, row_.parameter);
     const BorderedSystem::Solution found = bordered.solve(-at_->residual.reshaped(), -constraint_);
     if (found.status != Status::converged) return found.status;

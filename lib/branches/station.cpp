@@ -34,7 +34,7 @@ std::optional<Station> StationMaker::first(steady::State state, double parameter
   failure_ = found.status;
   if (found.status != Status::converged) return {};
   now.tangent = now.metric.unit(found.direction);
-  now.orientation = state.tangent->determinant_sign() * (now.tangent.parameter > 0 ? 1 : -1);
+  now.orientation = state.tangent->factors().determinant_sign() * (now.tangent.parameter > 0 ? 1 : -1);
   now.state = std::move(state);
   if (!equations_.options().linearise) now.state.tangent.reset();
   return now;
@@ -72,7 +72,7 @@ std::optional<Vector> StationMaker::tangent_ahead(const Station& now, const Vect
   const Direction found = equations_.direction(tangent, direction, now.metric);
   if (found.status != Status::converged) return {};
   Vector result = now.metric.unit(found.direction);
-  const int here = tangent.determinant_sign() * (result.parameter > 0 ? 1 : -1);
+  const int here = tangent.factors().determinant_sign() * (result.parameter > 0 ? 1 : -1);
   if (here != 0 && now.orientation != 0 && here != now.orientation) result = -1 * result;
   return result;
 }
@@ -103,7 +103,7 @@ std::optional<Station> StationMaker::described(const Station& now, const Equatio
   result.iterations = found.iterations;
   result.metric = metric_at(result.state);
   result.tangent = result.metric.unit(next.direction);
-  orient(now, way, point.tangent->determinant_sign(), result);
+  orient(now, way, point.tangent->factors().determinant_sign(), result);
   const double cosine = now.metric.inner(now.tangent, result.tangent) / now.metric.length(result.tangent);
   result.turn_angle = std::acos(std::clamp(cosine, -1.0, 1.0));
   return result;

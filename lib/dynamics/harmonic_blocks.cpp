@@ -25,6 +25,11 @@ Eigen::MatrixXd apply_harmonics(const std::vector<const Eigen::MatrixXcd*>& matr
       amplitude.imag().setZero();
     else
       amplitude.imag() = sign * x.middleRows(sine * in, in);
+    // Harmonics that nothing is in are common: what wear moves directly has a mean alone.
+    if (amplitude.isZero(0)) {
+      result.middleRows(cosine * out, h == 0 ? out : 2 * out).setZero();
+      continue;
+    }
     const Eigen::MatrixXcd applied =
         turned ? numerics::transposed_product(*matrices[h], amplitude) : numerics::product(*matrices[h], amplitude);
     result.middleRows(cosine * out, out) = applied.real();

@@ -1,6 +1,7 @@
 #include "dynamics/harmonic_system.hpp"
 
 #include "dynamics/real_block.hpp"
+#include "numerics/dense_product.hpp"
 
 namespace dovetail::dynamics {
 
@@ -23,10 +24,10 @@ HarmonicSystem harmonic_system(const CondensedModel& model, int harmonics, doubl
 
 Eigen::MatrixXd apply_stiffness(const HarmonicSystem& system, const Eigen::MatrixXd& displacement) {
   Eigen::MatrixXd result(displacement.rows(), displacement.cols());
-  result.col(0).noalias() = system.harmonics[0].stiffness.real() * displacement.col(0);
-  for (std::size_t h = 1; h < system.harmonics.size(); ++h)
-    put_harmonic(system.harmonics[h].stiffness * harmonic_of(displacement, static_cast<Eigen::Index>(h)),
-                 static_cast<Eigen::Index>(h), result);
+  for (std::size_t h = 0; h < system.harmonics.size(); ++h) {
+    const auto j = static_cast<Eigen::Index>(h);
+    put_harmonic(numerics::product(system.harmonics[h].stiffness, harmonic_of(displacement, j)), j, result);
+  }
   return result;
 }
 

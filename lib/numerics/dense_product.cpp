@@ -18,6 +18,15 @@ void gemm(CBLAS_TRANSPOSE form, int rows, int columns, int inner, const std::com
   cblas_zgemm(CblasColMajor, form, CblasNoTrans, rows, columns, inner, &one, a, lda, b, ldb, &zero, c, ldc);
 }
 
+void gemv(CBLAS_TRANSPOSE form, int rows, int columns, const double* a, const double* x, double* y) {
+  cblas_dgemv(CblasColMajor, form, rows, columns, 1.0, a, rows, x, 1, 0.0, y, 1);
+}
+void gemv(CBLAS_TRANSPOSE form, int rows, int columns, const std::complex<double>* a, const std::complex<double>* x,
+          std::complex<double>* y) {
+  const std::complex<double> one = 1, zero = 0;
+  cblas_zgemv(CblasColMajor, form, rows, columns, &one, a, rows, x, 1, &zero, y, 1);
+}
+
 /// C = A B with A in this form.
 template <class Matrix>
 void multiply(CBLAS_TRANSPOSE form, const Matrix& a, const Matrix& b, Matrix& c) {
@@ -30,6 +39,8 @@ void multiply(CBLAS_TRANSPOSE form, const Matrix& a, const Matrix& b, Matrix& c)
   }
   c.resize(rows, b.cols());
   if (c.size() == 0) return;
+  if (b.cols() == 1)
+    return gemv(form, static_cast<int>(a.rows()), static_cast<int>(a.cols()), a.data(), b.data(), c.data());
   gemm(form, static_cast<int>(rows), static_cast<int>(b.cols()), static_cast<int>(inner), a.data(),
        static_cast<int>(a.rows()), b.data(), static_cast<int>(inner), c.data(), static_cast<int>(rows));
 }

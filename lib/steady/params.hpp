@@ -18,6 +18,9 @@ struct SingularityParams {
   double held = 1e-11;  ///< shift of the static stiffness: rounding turns no stiffness into a slightly negative one
   double safe_pivots = 1e-7;  ///< ratio of pivots above which a condition number need not be computed
   double regularised = 1e-6;  ///< shift of a singular Jacobian that gives Newton's method a direction
+  /// Least stretch of a product of a Jacobian with the inverse of one near by from which on the one is as regular as
+  /// the other. Smaller: a body that is about to float passes; larger: more is factorised.
+  double safe_stretch = 1e-6;
   double same = 1e-13;        ///< entries of two Jacobians, or of D and the identity, that differ by less are one
 };
 
@@ -34,6 +37,14 @@ struct WorkParams {
   /// Operations of a march per node, sample and direction that a factorisation must exceed before kept factors are
   /// tried first. Measured: below, a chord step saves less than the residuals that it costs.
   double march_for_chord = 2e3;
+  /// What products with a Jacobian and solves with the factors of one near by may cost, over a factorisation, before it
+  /// is factorised; and how many there may be. Fewer: more is factorised; more: more is tried in vain.
+  double products = 0.7, most_products = 60;
+  double product = 10;  ///< operations per entry of the factors, and of the stiffness, that a product reads; measured
+  /// Residual of a Newton step found in that way, relative, at most; and where the goal is near, that part of it.
+  double loosest_step = 1e-2, of_goal = 0.1;
+  /// Residual of what is solved for in that way, relative. Derivatives inherit it.
+  double product_tolerance = 1e-10;
   double march_step = 200;        ///< operations per sample of a march,
   double march_coefficient = 75;  ///< and per sample and coefficient of its derivative; measured
 };

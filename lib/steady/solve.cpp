@@ -15,7 +15,7 @@ namespace {
 struct Scaled {
   const std::shared_ptr<const Problem>& problem;
   Eigen::VectorXd unit;  // displacement per unit unknown, vec(U)
-  double force = 1;
+  double force = 1, goal = 0;  // a residual is relative to the force
   std::shared_ptr<Point> at = std::make_shared<Point>();
   std::shared_ptr<const Tangent> last = {};  // factorised
 
@@ -33,22 +33,25 @@ struct Scaled {
   Status newton_step(Eigen::VectorXd& step) {
     if (spent(problem->budget())) return Status::budget_spent;
     differentiate(*at);
-    auto tangent = std::make_shared<const Tangent>(at, last.get());
-    if (tangent->status() != Status::converged) return tangent->status();
-    last = std::move(tangent);
-    step = last->solve(-at->residual.reshaped()).cwiseQuotient(unit);
-    return Status::converged;
+    last = std::make_shared<const Tangent>(at, last.get(), Factorise::when_needed);
+    step = last->solve(-at->residual.reshaped(), forcing()).cwiseQuotient(unit);
+    return last->nearest_factors().status();
+  }
+  // As exact as the next step can make use of: quadratic convergence, and no more than the goal.
+  [[nodiscard]] double forcing() const {
+    const double residual = at->error();
+    return std::min(WorkParams{}.loosest_step, std::max(residual, WorkParams{}.of_goal * goal / residual));
   }
   // A factorisation of n unknowns costs n^3 operations, the residual a number of them per node, sample and direction.
   // Kept factors are worth a try where the former dominates.
   [[nodiscard]] bool pays() const {
-    const auto size = static_cast<double>(last->factorised_size());
+    const auto size = static_cast<double>(last->nearest_factors().size());
     const auto marched = static_cast<double>(problem->model().contact_size() * problem->basis().samples());
     return size * size * size > WorkParams{}.march_for_chord * marched;
   }
   bool chord_step(Eigen::VectorXd& step) const {
-    if (!last || last->regularised() || !pays()) return false;
-    step = last->solve(-at->residual.reshaped()).cwiseQuotient(unit);
+    if (!last || last->nearest_factors().regularised() || !pays()) return false;
+    step = last->nearest_factors().solve(-at->residual.reshaped()).cwiseQuotient(unit);
     return true;
   }
   Eigen::MatrixXd jacobian(const Eigen::VectorXd& x) {
@@ -70,7 +73,7 @@ Attempt solve(const std::shared_ptr<const Problem>& problem, const Eigen::Matrix
     scaled.last = reuse;
   Eigen::VectorXd x = Eigen::VectorXd(start.reshaped()).cwiseQuotient(scaled.unit);
   scaled.go_to(x);
-  const double goal = attainable(*scaled.at, problem->options().tolerance);
+  scaled.goal = attainable(*scaled.at, problem->options().tolerance);
   Attempt attempt;
   const auto residual = [&](const Eigen::VectorXd& at) -> Eigen::VectorXd {
     scaled.go_to(at);
@@ -81,7 +84,7 @@ Attempt solve(const std::shared_ptr<const Problem>& problem, const Eigen::Matrix
                                         .newton_step = [&](Eigen::VectorXd& step) { return scaled.newton_step(step); },
                                         .chord_step = [&](Eigen::VectorXd& step) { return scaled.chord_step(step); }};
     const numerics::NewtonStats stats =
-        numerics::newton(system, x, {.tolerance = goal, .max_iterations = max_iterations});
+        numerics::newton(system, x, {.tolerance = scaled.goal, .max_iterations = max_iterations});
     attempt.status = stats.status;
     attempt.iterations = stats.iterations;
     attempt.evaluations = stats.evaluations;
@@ -90,7 +93,7 @@ Attempt solve(const std::shared_ptr<const Problem>& problem, const Eigen::Matrix
     numerics::JacobianFunction jacobian = {};
     if (method == Method::powell) jacobian = [&](const Eigen::VectorXd& at) { return scaled.jacobian(at); };
     const numerics::PowellStats stats =
-        numerics::powell(residual, jacobian, x, {.tolerance = goal, .max_evaluations = 20 * max_iterations});
+        numerics::powell(residual, jacobian, x, {.tolerance = scaled.goal, .max_evaluations = 20 * max_iterations});
     attempt.status = stats.status;
     attempt.iterations = stats.jacobians;
     attempt.evaluations = stats.evaluations;

@@ -117,9 +117,9 @@ State described(Point point, Status status, AtSolution jacobian, const Tangent* 
   if (state.status != Status::converged || jacobian == AtSolution::trust) return state;
   // A body that nothing holds can be moved until its residual is small against rounding. Its Jacobian is singular.
   differentiate(point);
-  auto tangent = std::make_shared<const Tangent>(std::make_shared<const Point>(std::move(point)), previous);
-  if (tangent->status() != Status::converged || tangent->regularised() ||
-      tangent->nearly_singular(SingularityParams{}.floats))
+  auto tangent = std::make_shared<const Tangent>(std::make_shared<const Point>(std::move(point)), previous,
+                                                 Factorise::when_needed);
+  if (!tangent->is_regular())
     state.status = Status::singular;
   else if (jacobian == AtSolution::linearise)
     state.tangent = std::move(tangent);

@@ -9,6 +9,15 @@ double factorisation_operations(Eigen::Index unknowns) {
   return 2.0 / 3.0 * n * n * n;
 }
 
+double condensation_operations(Eigen::Index open, Eigen::Index dofs, int harmonics) {
+  const auto o = static_cast<double>(open), kept = static_cast<double>(dofs - open);
+  return (harmonics + 1) * 8 * o * (o * o / 3 + o * kept + kept * kept);
+}
+
+double product_operations(double entries) {
+  return WorkParams{}.product * entries;
+}
+
 double march_operations(int samples, int periods) {
   return WorkParams{}.march_step * samples * periods;
 }

@@ -10,6 +10,12 @@ namespace dovetail::steady {
 /// A dense factorisation of n unknowns, 2/3 n^3.
 [[nodiscard]] double factorisation_operations(Eigen::Index unknowns);
 
+/// `open` of so many contact dofs condensed in H+1 harmonics.
+[[nodiscard]] double condensation_operations(Eigen::Index open, Eigen::Index dofs, int harmonics);
+
+/// Products with matrices of so many entries together, which are read once for each.
+[[nodiscard]] double product_operations(double entries);
+
 /// One contact node marched over `periods` of `samples`, and the derivative with respect to its m = d (2H+1)
 /// `coefficients`.
 [[nodiscard]] double march_operations(int samples, int periods);

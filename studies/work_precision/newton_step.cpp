@@ -33,7 +33,7 @@ StepTimes measure_step(const PatchOptions& options, int harmonics, int samples, 
   const std::shared_ptr<const steady::Problem>& problem = patch.problem();
   const Eigen::MatrixXd& at = patch.state.displacement;
   times.unknowns = problem->unknowns();
-  times.factorised = patch.state.tangent->factorised_size();
+  times.factorised = patch.state.tangent->factors().size();
 
   const auto point = std::make_shared<steady::Point>();
   times.residual = median_seconds([&] { steady::evaluate(problem, at, *point); }, seconds);

@@ -100,7 +100,7 @@ void newton_step(benchmark::State& state) {
     const steady::Tangent linear(point);
     const Eigen::MatrixXd step = linear.solve(point->residual.reshaped());
     benchmark::DoNotOptimize(step.data());
-    factorised = linear.factorised_size();
+    factorised = linear.factors().size();
   }
   describe(state, at);
   state.counters["factorised"] = static_cast<double>(factorised);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "numerics/dense_lu.hpp"
+#include "numerics/dense_product.hpp"
 #include "numerics/newton.hpp"
 #include "steady/params.hpp"
 #include "wear/params.hpp"
@@ -40,11 +41,10 @@ void ImplicitStage::adopt(const std::shared_ptr<const steady::Tangent>& tangent)
   std::vector<Index> all(static_cast<std::size_t>(nodes));
   std::iota(all.begin(), all.end(), Index{0});
   response_ = tangent->solve(-tangent->residual_to_wear(all));
-  slope_.resize(nodes, nodes);
-  for (Index i = 0; i < nodes; ++i) {
-    const MatrixXd change = response_.col(i).reshaped(problem_.model().contact_size(), problem_.basis().coefficients());
-    slope_.col(i) = tangent->wear_rate_change(change, VectorXd::Unit(nodes, i));
-  }
+  steady::WearRateSlopes slopes = tangent->wear_rate_slopes();
+  to_displacement_ = std::move(slopes.to_displacement);
+  slope_ = numerics::product(to_displacement_, response_);
+  slope_.diagonal() += slopes.to_wear;
 }
 
 void ImplicitStage::factorise_at(const WearPoint& at) {
@@ -52,7 +52,7 @@ void ImplicitStage::factorise_at(const WearPoint& at) {
   steady::evaluate(problem(at.depth), at.displacement, *point);
   steady::differentiate(*point);
   auto tangent = std::make_shared<const steady::Tangent>(std::move(point), tangent_.get());
-  if (tangent->status() != Status::converged) return;
+  if (tangent->factors().status() != Status::converged) return;
   adopt(tangent);
   factored_at_ = at;
 }
@@ -103,7 +103,7 @@ class ImplicitStage::Equations {
     if (spent(stage_.problem_.budget())) return Status::budget_spent;
     steady::differentiate(*at_);
     auto tangent = std::make_shared<const steady::Tangent>(at_, stage_.tangent_.get());
-    if (tangent->status() != Status::converged) return tangent->status();
+    if (tangent->factors().status() != Status::converged) return tangent->factors().status();
     ++stage_.jacobians_;
     stage_.adopt(tangent);
     stage_.factored_at_ = {.displacement = at_->displacement, .depth = depth_, .rate = {}};
@@ -111,7 +111,7 @@ class ImplicitStage::Equations {
   }
 
   bool chord_step(VectorXd& step) {
-    if (stage_.tangent_->regularised()) return false;
+    if (stage_.tangent_->factors().regularised()) return false;
     return direction(step) == Status::converged;
   }
 
@@ -125,7 +125,7 @@ class ImplicitStage::Equations {
   Status direction(VectorXd& step) {
     const Index nodes = base_.size();
     const VectorXd free = stage_.tangent_->solve(-at_->residual.reshaped());
-    const VectorXd driven = stage_.tangent_->wear_rate_change(shaped(free), VectorXd::Zero(nodes));
+    const VectorXd driven = numerics::product(stage_.to_displacement_, free);
     if (factored_ != stage_.tangent_.get()) {
       rates_lu_.factorise(MatrixXd::Identity(nodes, nodes) - cycles_.asDiagonal() * stage_.slope_);
       factored_ = stage_.tangent_.get();

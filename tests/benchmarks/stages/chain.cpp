@@ -19,7 +19,7 @@ optimizer::Scene previous_of(const BenchmarkScene& of, optimizer::Scene scene) {
 
 /// Unknowns of the Jacobian at the unworn resonance that are factorised: many nodes stick or are open.
 Eigen::Index active_size(const Chain& chain) {
-  return std::max<Eigen::Index>(chain.unworn->state.tangent->factorised_size(), 2);
+  return std::max<Eigen::Index>(chain.unworn->state.tangent->factors().size(), 2);
 }
 
 /// All nodes marched for a period with derivative, at the unworn resonance. The product with the dynamic stiffness is

@@ -65,8 +65,8 @@ TEST(Tangent, KnowsTheSignOfItsDeterminant) {
     const Eigen::MatrixXd jacobian = steady::jacobian(linear.point());
     const double scale = jacobian.cwiseAbs().maxCoeff();
     const double determinant = Eigen::PartialPivLU<Eigen::MatrixXd>(jacobian / scale).determinant();
-    EXPECT_EQ(linear.determinant_sign(), determinant > 0 ? 1 : -1) << point.state.omega;
-    EXPECT_EQ(linear.determinant_sign() > 0, point.turns % 2 == 0) << point.state.omega;
+    EXPECT_EQ(linear.factors().determinant_sign(), determinant > 0 ? 1 : -1) << point.state.omega;
+    EXPECT_EQ(linear.factors().determinant_sign() > 0, point.turns % 2 == 0) << point.state.omega;
     EXPECT_EQ(point.direction > 0, point.turns % 2 == 0) << point.state.omega;
   }
 }

@@ -27,9 +27,9 @@ TEST_P(Condensation, OfNodesWithoutForceIsExact) {
     const Eigen::Index nc = model->contact_size();
     const std::shared_ptr<const steady::Point> at = point(of, of->closed_start() + 0.02 * random_matrix(nc, 7, 11));
     const steady::Tangent linear(at);
-    ASSERT_EQ(linear.status(), Status::converged);
+    ASSERT_EQ(linear.factors().status(), Status::converged);
     const auto open = std::count(GetParam().begin(), GetParam().end(), 1);
-    EXPECT_LE(linear.factorised_size(), 7 * (nc - open * (1 + tangential)));
+    EXPECT_LE(linear.factors().size(), 7 * (nc - open * (1 + tangential)));
     const Eigen::MatrixXd jacobian = steady::jacobian(*at), x = random_matrix(7 * nc, 3, 12);
     // Both sides agree to rounding times the condition of J, which is below 1e3 here.
     EXPECT_LT((linear.solve(jacobian * x) - x).norm(), 1e-11 * x.norm());
@@ -72,8 +72,8 @@ TEST(Tangent, FactorisesTheMeanOnlyOfANodeThatSlidInEarlierPeriods) {
           1e-14);
     }
     const steady::Tangent linear(at);
-    ASSERT_EQ(linear.status(), Status::converged);
-    EXPECT_EQ(linear.factorised_size(), 2 * tangential);
+    ASSERT_EQ(linear.factors().status(), Status::converged);
+    EXPECT_EQ(linear.factors().size(), 2 * tangential);
     const Eigen::MatrixXd x = random_matrix(7 * nc, 3, 12);
     EXPECT_LT((linear.solve(steady::jacobian(*at) * x) - x).norm(), 1e-11 * x.norm());
   }
