@@ -30,7 +30,8 @@ void BorderedSystem::eliminate(const Defect& defect, Solution& solution) const {
 }
 
 BorderedSystem::Solution BorderedSystem::solve(const Eigen::VectorXd& forces, double constraint) const {
-  if (tangent_.factors().status() != Status::converged || !by_column_.allFinite()) return solve_densely(forces, constraint);
+  if (tangent_.factors().status() != Status::converged || !by_column_.allFinite())
+    return solve_densely(forces, constraint);
   Solution solution{.displacement = Eigen::VectorXd::Zero(forces.size())};
   // The size of the terms that cancel in each row decides what counts as zero.
   constexpr BorderedParams kParams;

@@ -18,18 +18,18 @@ void gemm(CBLAS_TRANSPOSE form, int rows, int columns, int inner, const std::com
   cblas_zgemm(CblasColMajor, form, CblasNoTrans, rows, columns, inner, &one, a, lda, b, ldb, &zero, c, ldc);
 }
 
-void gemv(CBLAS_TRANSPOSE form, int rows, int columns, const double* a, const double* x, double* y) {
-  cblas_dgemv(CblasColMajor, form, rows, columns, 1.0, a, rows, x, 1, 0.0, y, 1);
+void gemv(CBLAS_TRANSPOSE form, int rows, int columns, const double* a, int lda, const double* x, double* y) {
+  cblas_dgemv(CblasColMajor, form, rows, columns, 1.0, a, lda, x, 1, 0.0, y, 1);
 }
-void gemv(CBLAS_TRANSPOSE form, int rows, int columns, const std::complex<double>* a, const std::complex<double>* x,
-          std::complex<double>* y) {
+void gemv(CBLAS_TRANSPOSE form, int rows, int columns, const std::complex<double>* a, int lda,
+          const std::complex<double>* x, std::complex<double>* y) {
   const std::complex<double> one = 1, zero = 0;
-  cblas_zgemv(CblasColMajor, form, rows, columns, &one, a, rows, x, 1, &zero, y, 1);
+  cblas_zgemv(CblasColMajor, form, rows, columns, &one, a, lda, x, 1, &zero, y, 1);
 }
 
 /// C = A B with A in this form.
 template <class Matrix>
-void multiply(CBLAS_TRANSPOSE form, const Matrix& a, const Matrix& b, Matrix& c) {
+void multiply(CBLAS_TRANSPOSE form, const Eigen::Ref<const Matrix>& a, const Eigen::Ref<const Matrix>& b, Matrix& c) {
   const bool turned = form != CblasNoTrans;
   const Eigen::Index rows = turned ? a.cols() : a.rows(), inner = turned ? a.rows() : a.cols();
   assert(inner == b.rows());
@@ -40,22 +40,24 @@ void multiply(CBLAS_TRANSPOSE form, const Matrix& a, const Matrix& b, Matrix& c)
   c.resize(rows, b.cols());
   if (c.size() == 0) return;
   if (b.cols() == 1)
-    return gemv(form, static_cast<int>(a.rows()), static_cast<int>(a.cols()), a.data(), b.data(), c.data());
+    return gemv(form, static_cast<int>(a.rows()), static_cast<int>(a.cols()), a.data(),
+                static_cast<int>(a.outerStride()), b.data(), c.data());
   gemm(form, static_cast<int>(rows), static_cast<int>(b.cols()), static_cast<int>(inner), a.data(),
-       static_cast<int>(a.rows()), b.data(), static_cast<int>(inner), c.data(), static_cast<int>(rows));
+       static_cast<int>(a.outerStride()), b.data(), static_cast<int>(b.outerStride()), c.data(),
+       static_cast<int>(rows));
 }
 
 template <class Matrix>
-Matrix multiplied(CBLAS_TRANSPOSE form, const Matrix& a, const Matrix& b) {
+Matrix multiplied(CBLAS_TRANSPOSE form, const Eigen::Ref<const Matrix>& a, const Eigen::Ref<const Matrix>& b) {
   Matrix c;
-  multiply(form, a, b, c);
+  multiply<Matrix>(form, a, b, c);
   return c;
 }
 
 }  // namespace
 
 void product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, Eigen::MatrixXd& c) {
-  multiply(CblasNoTrans, a, b, c);
+  multiply<Eigen::MatrixXd>(CblasNoTrans, a, b, c);
 }
 
 void add_product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b,
@@ -72,23 +74,27 @@ void add_product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<co
               static_cast<int>(b.outerStride()), 1.0, c.data(), static_cast<int>(c.outerStride()));
 }
 
-Eigen::MatrixXd product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  return multiplied(CblasNoTrans, a, b);
+Eigen::MatrixXd product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b) {
+  return multiplied<Eigen::MatrixXd>(CblasNoTrans, a, b);
 }
-Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  return multiplied(CblasTrans, a, b);
+Eigen::MatrixXd transposed_product(const Eigen::Ref<const Eigen::MatrixXd>& a,
+                                   const Eigen::Ref<const Eigen::MatrixXd>& b) {
+  return multiplied<Eigen::MatrixXd>(CblasTrans, a, b);
 }
-Eigen::MatrixXd adjoint_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  return multiplied(CblasTrans, a, b);
+Eigen::MatrixXd adjoint_product(const Eigen::Ref<const Eigen::MatrixXd>& a,
+                                const Eigen::Ref<const Eigen::MatrixXd>& b) {
+  return multiplied<Eigen::MatrixXd>(CblasTrans, a, b);
 }
-Eigen::MatrixXcd product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) {
-  return multiplied(CblasNoTrans, a, b);
+Eigen::MatrixXcd product(const Eigen::Ref<const Eigen::MatrixXcd>& a, const Eigen::Ref<const Eigen::MatrixXcd>& b) {
+  return multiplied<Eigen::MatrixXcd>(CblasNoTrans, a, b);
 }
-Eigen::MatrixXcd transposed_product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) {
-  return multiplied(CblasTrans, a, b);
+Eigen::MatrixXcd transposed_product(const Eigen::Ref<const Eigen::MatrixXcd>& a,
+                                    const Eigen::Ref<const Eigen::MatrixXcd>& b) {
+  return multiplied<Eigen::MatrixXcd>(CblasTrans, a, b);
 }
-Eigen::MatrixXcd adjoint_product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) {
-  return multiplied(CblasConjTrans, a, b);
+Eigen::MatrixXcd adjoint_product(const Eigen::Ref<const Eigen::MatrixXcd>& a,
+                                 const Eigen::Ref<const Eigen::MatrixXcd>& b) {
+  return multiplied<Eigen::MatrixXcd>(CblasConjTrans, a, b);
 }
 
 Eigen::MatrixXd congruent(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {

@@ -47,7 +47,10 @@ GmresResult gmres(const NearSystem& system, const Eigen::VectorXd& b, const Gmre
   }
   if (result.products == 0) return result;
   result.x = length * (directions.leftCols(result.products) * combination);
-  result.least_stretch = Eigen::JacobiSVD<Eigen::MatrixXd>(hessenberg.topLeftCorner(result.products + 1, result.products)).singularValues().minCoeff();
+  result.least_stretch =
+      Eigen::JacobiSVD<Eigen::MatrixXd>(hessenberg.topLeftCorner(result.products + 1, result.products))
+          .singularValues()
+          .minCoeff();
   return result;
 }
 

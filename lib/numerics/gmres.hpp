@@ -9,7 +9,7 @@ namespace dovetail::numerics {
 
 /// A x = b where A can only be applied, and P, which is near it, can be solved with.
 struct NearSystem {
-  std::function<Eigen::VectorXd(const Eigen::VectorXd& x)> apply;      ///< A x
+  std::function<Eigen::VectorXd(const Eigen::VectorXd& x)> apply;       ///< A x
   std::function<Eigen::VectorXd(const Eigen::VectorXd& b)> near_solve;  ///< P^-1 b
 };
 

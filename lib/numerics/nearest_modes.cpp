@@ -106,7 +106,7 @@ class Krylov {
         take(found, modes);
         return modes;
       }
-      if (basis_.cols() + block_.vectors.cols() > most_) restart();
+      if (size_ + block_.vectors.cols() > most_) restart();
     }
   }
 
@@ -124,6 +124,7 @@ class Krylov {
     std::vector<Eigen::Index> kept;
     for (Eigen::Index k = 0; k < pairs.values.size(); ++k)
       if (pairs.values(k) > threshold * threshold) kept.push_back(k);
+    smallest_ = pairs.values.size() > 0 ? std::sqrt(std::max(0.0, pairs.values(0))) : 0;
     const Eigen::VectorXd sizes = pairs.values(kept).cwiseSqrt();
     const Dense<Scalar> directions = pairs.vectors(Eigen::all, kept);
     const Dense<Scalar> scaled = directions * sizes.cwiseInverse().asDiagonal();
@@ -147,31 +148,35 @@ class Krylov {
     // Twice: a Gram matrix squares the condition of the block.
     const Orthonormal<Scalar> first = orthonormal(image, weighted, kParams.independent * scale);
     block_ = orthonormal(first.vectors, weight_(first.vectors), kParams.second);
-    basis_.resize(inverse_.rows, 0);
+    space_.resize(inverse_.rows, most_ + block_size_);
     return block_.vectors.cols() > 0;
   }
 
   /// Takes the block into the basis and makes the next one of its image; false when nothing is left.
   bool expand() {
-    const Eigen::Index before = basis_.cols(), added = block_.vectors.cols();
-    basis_.conservativeResize(Eigen::NoChange, before + added);
-    basis_.rightCols(added) = block_.vectors;
+    const Eigen::Index before = size_, added = block_.vectors.cols();
+    space_.middleCols(before, added) = block_.vectors;
+    size_ += added;
     Dense<Scalar> image = inverse_.solve(block_.weighted);
     solves_ += added;
     const Dense<Scalar> weighted = weight_(image);
     const double scale = joint_length<Scalar>(image, weighted);
-    const Dense<Scalar> overlap = adjoint_product(basis_, weighted);
+    const auto basis = space_.leftCols(size_);
+    const Dense<Scalar> overlap = adjoint_product(basis, weighted);
     projected_.conservativeResize(before + added, before + added);
     projected_.rightCols(added) = overlap;
     projected_.bottomRows(added) = overlap.adjoint();
-    image -= product(basis_, overlap);
+    image -= product(basis, overlap);
+    block_ = orthonormal(image, weight_(image), kParams.remainder * scale);
     // Small remainders carry rounding along the basis, which normalising magnifies: again.
-    Orthonormal<Scalar> first = orthonormal(image, weight_(image), kParams.remainder * scale);
-    first.vectors -= product(basis_, adjoint_product(basis_, first.weighted));
-    block_ = orthonormal(first.vectors, weight_(first.vectors), kParams.second);
-    block_.factor = product(block_.factor, first.factor);
+    if (smallest_ < kParams.once * scale) {
+      Orthonormal<Scalar> first = std::move(block_);
+      first.vectors -= product(basis, adjoint_product(basis, first.weighted));
+      block_ = orthonormal(first.vectors, weight_(first.vectors), kParams.second);
+      block_.factor = product(block_.factor, first.factor);
+    }
     last_ = added;
-    return block_.vectors.cols() > 0 && basis_.cols() < inverse_.rows;
+    return block_.vectors.cols() > 0 && size_ < inverse_.rows;
   }
 
   /// Ritz values by decreasing magnitude; whether those wanted have small residuals.
@@ -194,7 +199,9 @@ class Krylov {
   /// Keeps the best Ritz vectors; what couples them to the next block is known.
   void restart() {
     const Eigen::Index kept = std::min<Eigen::Index>(count_ + block_size_, values_.size() - 1);
-    basis_ = product(basis_, Dense<Scalar>(rotation_.leftCols(kept)));
+    const Dense<Scalar> best = product(space_.leftCols(size_), Dense<Scalar>(rotation_.leftCols(kept)));
+    space_.leftCols(kept) = best;
+    size_ = kept;
     projected_ = values_.head(kept).template cast<Scalar>().asDiagonal();
   }
 
@@ -205,16 +212,17 @@ class Krylov {
     std::sort(order.begin(), order.end(),
               [&](Eigen::Index a, Eigen::Index b) { return 1 / values_(a) < 1 / values_(b); });
     modes.eigenvalues = values_(order).cwiseInverse();
-    modes.vectors = product(basis_, rotation_(Eigen::all, order));
+    modes.vectors = product(space_.leftCols(size_), rotation_(Eigen::all, order));
   }
 
   const ShiftInverse<Scalar>& inverse_;
   Weight<Scalar> weight_;
   Eigen::Index count_;
   double tolerance_;
+  double smallest_ = 0;  // length of the last block made orthonormal, in the direction where it is least
   Status status_ = Status::converged;
-  Eigen::Index block_size_, limit_, most_, solves_ = 0, last_ = 0;
-  Dense<Scalar> basis_, projected_;  // V and V^H M (K - sigma M)^{-1} M V
+  Eigen::Index block_size_, limit_, most_, solves_ = 0, last_ = 0, size_ = 0;
+  Dense<Scalar> space_, projected_;  // V, its first size_ columns, and V^H M (K - sigma M)^{-1} M V
   Orthonormal<Scalar> block_;        // the next one
   Eigen::VectorXd values_;
   Dense<Scalar> rotation_, coupling_;

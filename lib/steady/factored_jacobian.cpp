@@ -98,9 +98,9 @@ void FactoredJacobian::factorise(double regularisation) {
   for (Eigen::Index j = 0; j < active; ++j)
     columns[static_cast<std::size_t>(active_[static_cast<std::size_t>(j)])] = matrix.col(j).data();
   assemble(blocks, active_, columns, regularisation);
-  operations_ = factorisation_operations(active) +
-                condensation_operations(static_cast<Eigen::Index>(separated_->open().size()),
-                                        of.model().contact_size(), of.basis().harmonics());
+  operations_ =
+      factorisation_operations(active) + condensation_operations(static_cast<Eigen::Index>(separated_->open().size()),
+                                                                 of.model().contact_size(), of.basis().harmonics());
   if (of.budget()) of.budget()->spend_on_factors(operations_);
   lu_.factorise(std::move(matrix));
 }

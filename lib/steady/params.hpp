@@ -21,7 +21,7 @@ struct SingularityParams {
   /// Least stretch of a product of a Jacobian with the inverse of one near by from which on the one is as regular as
   /// the other. Smaller: a body that is about to float passes; larger: more is factorised.
   double safe_stretch = 1e-6;
-  double same = 1e-13;        ///< entries of two Jacobians, or of D and the identity, that differ by less are one
+  double same = 1e-13;  ///< entries of two Jacobians, or of D and the identity, that differ by less are one
 };
 
 /// The floor that rounding sets under residuals, see rounding_floor.
@@ -40,7 +40,7 @@ struct WorkParams {
   /// What products with a Jacobian and solves with the factors of one near by may cost, over a factorisation, before it
   /// is factorised; and how many there may be. Fewer: more is factorised; more: more is tried in vain.
   double products = 0.7, most_products = 60;
-  double product = 10;  ///< operations per entry of the factors, and of the stiffness, that a product reads; measured
+  double product = 18;  ///< operations per entry of the factors, and of the stiffness, that a product reads; measured
   /// Residual of a Newton step found in that way, relative, at most; and where the goal is near, that part of it.
   double loosest_step = 1e-2, of_goal = 0.1;
   /// Residual of what is solved for in that way, relative. Derivatives inherit it.

@@ -14,7 +14,7 @@ namespace {
 // Residuals are forces relative to the excitation; unknowns are penalty forces eps U relative to it. Both are O(1).
 struct Scaled {
   const std::shared_ptr<const Problem>& problem;
-  Eigen::VectorXd unit;  // displacement per unit unknown, vec(U)
+  Eigen::VectorXd unit;        // displacement per unit unknown, vec(U)
   double force = 1, goal = 0;  // a residual is relative to the force
   std::shared_ptr<Point> at = std::make_shared<Point>();
   std::shared_ptr<const Tangent> last = {};  // factorised

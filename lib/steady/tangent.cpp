@@ -42,8 +42,7 @@ std::optional<numerics::GmresResult> Tangent::solved_nearly(const Eigen::VectorX
       {.apply = [&here](const Eigen::VectorXd& x) -> Eigen::VectorXd { return apply_jacobian(here, x); },
        .near_solve = [this](const Eigen::VectorXd& b) -> Eigen::VectorXd { return near_->solve(b); }},
       rhs, {.tolerance = tolerance, .most = most_products()});
-  if (problem().budget())
-    problem().budget()->spend_on_factors(found.products * near_->product_operations());
+  if (problem().budget()) problem().budget()->spend_on_factors(found.products * near_->product_operations());
   if (found.status != Status::converged) return {};
   return found;
 }

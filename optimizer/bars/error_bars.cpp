@@ -150,7 +150,7 @@ class ErrorBarSources {
   /// has no answer on a finer one.
   void ask_settings() {
     std::vector<Base> bases;
-    for (std::size_t i = 0; i < answers_.size(); ++i)
+    for (std::size_t i = answers_.size(); i-- > 0;)  // the coarsest one stands last
       if (const auto& [ratio, on_it] = others_.meshes()[i];
           ratio > 1 && answers_[i].converged() && scene_.kind->coarse_answers)
         bases.push_back({&on_it, resized(scene_, ratio), &answers_[i], {}});

@@ -37,10 +37,11 @@ Scene resized(Scene scene, double ratio) {
 }
 
 OtherMeshes::OtherMeshes(const Scene& reference) {
-  for (const double ratio : reference.kind->other_meshes)
+  constexpr CompanionParams kParams;
+  for (const double ratio :
+       reference.mesh.flank_elements < reference.kind->finer_below ? kParams.finer : kParams.coarser)
     meshes_.push_back({.ratio = ratio, .builder = ModelBuilder(resized(reference, ratio))});
-  if (reference.kind->lengths.empty())
-    finer_section_.emplace(resized_section(reference, CompanionParams{}.section_ratio));
+  if (reference.kind->lengths.empty()) finer_section_.emplace(resized_section(reference, kParams.section_ratio));
 }
 
 }  // namespace dovetail::optimizer

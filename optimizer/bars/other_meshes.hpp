@@ -23,7 +23,7 @@ class OtherMeshes {
   };
 
   explicit OtherMeshes(const Scene& reference);
-  /// Those of the scene's kind, in the order in which the error by the mesh is asked for.
+  /// Where meshes of the kind are fine, coarser ones alone; in the order in which the error by the mesh is asked for.
   [[nodiscard]] const std::vector<Mesh>& meshes() const { return meshes_; }
   /// Where those do not resize the section beside the flanks: one that has it finer. Else null.
   [[nodiscard]] const ModelBuilder* finer_section() const { return finer_section_ ? &*finer_section_ : nullptr; }

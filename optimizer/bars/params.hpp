@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 namespace dovetail::optimizer {
 
 // The numbers that steer error bars, tuned on random designs against meshes four times as fine (studies/error_bars).
@@ -7,6 +9,8 @@ namespace dovetail::optimizer {
 
 /// The companions that a design is compared with.
 struct CompanionParams {
+  /// Sizes of the elements of other meshes over a design's own, in the order in which they are asked.
+  std::array<double, 2> finer{1 / 1.5, 1.5}, coarser{1.5, 2};
   double longer_nodes = 1.5;        ///< length of contact nodes over the design's own
   double shorter_nodes = 0.5;       ///< the same where nothing wears
   double shorter_factor = 2;        ///< part of what they change, as half of a zone may be missed on them, too

@@ -91,6 +91,47 @@ TEST(Tangent, SharesTheFactorsOfAnEqualJacobianOnly) {
   EXPECT_FALSE(steady::Tangent(point(problem(model, 1.3001, {}), at), &first).shares_factors());
 }
 
+TEST(Tangent, SolvesWithTheFactorsOfAPointNearBy) {
+  const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(60, 1, false));
+  const std::shared_ptr<const steady::Problem> of = problem(model, 1.3, {});
+  const Eigen::MatrixXd at = of->closed_start() + 0.02 * random_matrix(120, 7, 5);
+  const steady::Tangent first(point(of, at));
+  const std::shared_ptr<const steady::Point> near = point(of, at + 2e-4 * random_matrix(120, 7, 7));
+  const steady::Tangent exact(near), kept(near, &first, steady::Factorise::when_needed);
+  ASSERT_FALSE(exact.shares_factors());
+  ASSERT_FALSE(kept.shares_factors());
+  EXPECT_TRUE(kept.is_regular());
+  EXPECT_LT((kept.response_to_frequency() - exact.response_to_frequency()).norm(),
+            1e-8 * exact.response_to_frequency().norm());
+  const Eigen::MatrixXd rhs = random_matrix(840, 2, 8);
+  for (const double tolerance : {1e-2, 1e-10}) {
+    const Eigen::VectorXd x = kept.solve(rhs.col(0), tolerance);
+    EXPECT_LE((steady::jacobian(*near) * x - rhs.col(0)).norm(), 1.001 * tolerance * rhs.col(0).norm());
+    EXPECT_GT((x - exact.solve(rhs.col(0))).norm(), 0) << "solved with factors of its own";
+  }
+  EXPECT_EQ(&kept.nearest_factors(), &first.factors());
+  // Many right-hand sides are worth factors of its own.
+  EXPECT_LT((kept.solve(rhs) - exact.solve(rhs)).norm(), 1e-12 * rhs.norm());
+  EXPECT_NE(&kept.nearest_factors(), &first.factors());
+}
+
+// Where nothing near by helps, or nothing is left to save, the Jacobian is factorised.
+TEST(Tangent, HasFactorsOfItsOwnFarFromTheOthers) {
+  const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(60, 1, false));
+  const std::shared_ptr<const steady::Problem> of = problem(model, 1.3, {});
+  const Eigen::MatrixXd at = of->closed_start() + 0.02 * random_matrix(120, 7, 5);
+  const steady::Tangent first(point(of, at));
+  const std::shared_ptr<const steady::Point> far = point(of, of->closed_start() + 2 * random_matrix(120, 7, 7));
+  const steady::Tangent other(far, &first, steady::Factorise::when_needed);
+  const Eigen::VectorXd x = random_matrix(840, 1, 9);
+  EXPECT_LT((other.solve(steady::jacobian(*far) * x) - x).norm(), 1e-10 * x.norm());
+  EXPECT_NE(&other.nearest_factors(), &first.factors());
+  // Another pseudo-penalty is another problem.
+  const auto soft = std::make_shared<const steady::Problem>(of->with_penalty(0.1));
+  const steady::Tangent elsewhere(point(soft, at), &first, steady::Factorise::when_needed);
+  EXPECT_NE(&elsewhere.nearest_factors(), &first.factors());
+}
+
 TEST(State, IsTheSameWithKeptFactorsAndTakesFewerJacobians) {
   const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(60, 1, false));
   const steady::Options options{.tolerance = 1e-12};
