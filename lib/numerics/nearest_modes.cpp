@@ -124,7 +124,6 @@ class Krylov {
     std::vector<Eigen::Index> kept;
     for (Eigen::Index k = 0; k < pairs.values.size(); ++k)
       if (pairs.values(k) > threshold * threshold) kept.push_back(k);
-    smallest_ = pairs.values.size() > 0 ? std::sqrt(std::max(0.0, pairs.values(0))) : 0;
     const Eigen::VectorXd sizes = pairs.values(kept).cwiseSqrt();
     const Dense<Scalar> directions = pairs.vectors(Eigen::all, kept);
     const Dense<Scalar> scaled = directions * sizes.cwiseInverse().asDiagonal();
@@ -167,14 +166,11 @@ class Krylov {
     projected_.rightCols(added) = overlap;
     projected_.bottomRows(added) = overlap.adjoint();
     image -= product(basis, overlap);
-    block_ = orthonormal(image, weight_(image), kParams.remainder * scale);
     // Small remainders carry rounding along the basis, which normalising magnifies: again.
-    if (smallest_ < kParams.once * scale) {
-      Orthonormal<Scalar> first = std::move(block_);
-      first.vectors -= product(basis, adjoint_product(basis, first.weighted));
-      block_ = orthonormal(first.vectors, weight_(first.vectors), kParams.second);
-      block_.factor = product(block_.factor, first.factor);
-    }
+    Orthonormal<Scalar> first = orthonormal(image, weight_(image), kParams.remainder * scale);
+    first.vectors -= product(basis, adjoint_product(basis, first.weighted));
+    block_ = orthonormal(first.vectors, weight_(first.vectors), kParams.second);
+    block_.factor = product(block_.factor, first.factor);
     last_ = added;
     return block_.vectors.cols() > 0 && size_ < inverse_.rows;
   }
@@ -219,7 +215,6 @@ class Krylov {
   Weight<Scalar> weight_;
   Eigen::Index count_;
   double tolerance_;
-  double smallest_ = 0;  // length of the last block made orthonormal, in the direction where it is least
   Status status_ = Status::converged;
   Eigen::Index block_size_, limit_, most_, solves_ = 0, last_ = 0, size_ = 0;
   Dense<Scalar> space_, projected_;  // V, its first size_ columns, and V^H M (K - sigma M)^{-1} M V

@@ -43,9 +43,6 @@ struct ModesParams {
   /// Length, over that of the block, below which a direction of it is rounding: of a first image, of what is left of
   /// one, and when it is made orthonormal once more, as a Gram matrix squares the condition of a block.
   double independent = 1e-12, remainder = 1e-13, second = 1e-3;
-  /// Length of what is left of an image, over that of the image, above which making it orthogonal once leaves little
-  /// enough rounding: some 1e-16 over it.
-  double once = 1e-3;
   double range = 1e14;  ///< between values of 1/(lambda - sigma): those beyond belong to no finite eigenvalue
 };
 

@@ -180,8 +180,9 @@ TEST(State, OfABodyThatNothingHoldsIsSingular) {
     ASSERT_TRUE(held.tangent);
     const std::vector<char> all(static_cast<std::size_t>(nodes), 1);
     for (const bool linearise : {true, false}) {
-      const steady::State floating = paths::steady_state({model, {.released = all}, {.linearise = linearise}}, 1.3,
-                                                         held.displacement, held.tangent);
+      const steady::State floating =
+          paths::steady_state({model, {.released = all}, {.max_rescue_iterations = 0, .linearise = linearise}}, 1.3,
+                              held.displacement, held.tangent);
       EXPECT_NE(floating.status, Status::converged) << linearise << " " << floating.residual;
       EXPECT_FALSE(floating.tangent);
     }
