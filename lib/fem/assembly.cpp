@@ -105,7 +105,7 @@ class Scatter {
 
 }  // namespace
 
-Assembler::Assembler(const Mesh& mesh) : elements_(mesh.element_count()) {
+Assembler::Assembler(const Mesh& mesh) : connectivity_(mesh.connectivity), elements_(mesh.element_count()) {
   check(mesh);
   const std::size_t n = static_cast<std::size_t>(mesh.node_count());
   const std::size_t d = static_cast<std::size_t>(mesh.dimensions());
@@ -147,6 +147,11 @@ Assembler::Assembler(const Mesh& mesh) : elements_(mesh.element_count()) {
         position_.push_back(start + static_cast<int>(d) *
                                         static_cast<int>(std::lower_bound(list.begin(), list.end(), a) - list.begin()));
     }
+}
+
+bool Assembler::serves(const Mesh& mesh) const {
+  return mesh.dimensions() * mesh.node_count() == pattern_.rows() && mesh.element_count() == elements_ &&
+         mesh.connectivity == connectivity_;
 }
 
 FullMatrices Assembler::stiffness_and_mass(const Mesh& mesh, std::span<const Material> materials) const {

@@ -29,6 +29,9 @@ class Assembler {
  public:
   explicit Assembler(const Mesh& mesh);
 
+  /// Whether a mesh has the topology given to the constructor.
+  [[nodiscard]] bool serves(const Mesh& mesh) const;
+
   /// `mesh` must have the topology given to the constructor.
   [[nodiscard]] FullMatrices stiffness_and_mass(const Mesh& mesh, std::span<const Material> materials) const;
 
@@ -42,6 +45,7 @@ class Assembler {
   /// follow at distances of column_length_.
   std::vector<int> position_;
   std::vector<int> column_length_;  ///< [n]
+  std::vector<int> connectivity_;
   Eigen::SparseMatrix<double> pattern_;
   int elements_ = 0;
 };

@@ -70,14 +70,16 @@ PreloadedContact stressed(const Scene& scene, const fem::ContactCells& cells, do
 }
 
 MatricesStages::MatricesStages(const Scene& scene, const fem::SectorMesh& sector, const fem::ContactCells& cells,
-                               const PreloadedContact& by, Order order)
-    : scene_(scene), sector_(sector), cells_(cells), by_(by), order_(std::move(order)) {}
+                               const PreloadedContact& by, const KeptPatterns& patterns)
+    : scene_(scene), sector_(sector), cells_(cells), by_(by), order_(patterns.order) {
+  matrices_.assembler = patterns.assembler;
+}
 
-reduction::FullModel MatricesStages::full_model(const Eigen::SparseMatrix<double>& stiffness) const {
+reduction::FullModel MatricesStages::full_model(Eigen::SparseMatrix<double> stiffness) const {
   const fem::SectorSystem& system = matrices_.system;
   const double speed = scene_.loading.speed;
   reduction::FullModel full;
-  full.stiffness = fem::constrain(stiffness, system.constraints);
+  full.stiffness = std::move(stiffness);
   full.mass = system.mass;
   full.static_force = speed * speed * system.centrifugal;
   full.cosine_force = system.tip;
@@ -90,26 +92,26 @@ reduction::FullModel MatricesStages::full_model(const Eigen::SparseMatrix<double
 }
 
 void MatricesStages::assemble() {
-  assembler_.emplace(sector_.mesh);
-  matrices_.system = fem::build_sector_system(sector_, materials(scene_), *assembler_);
+  matrices_.system = fem::build_sector_system(sector_, materials(scene_), *matrices_.assembler);
 }
 
 void MatricesStages::add_prestress() {
-  matrices_.at_rest = reduction::condense_statically(full_model(matrices_.system.full.stiffness));
+  matrices_.at_rest = reduction::condense_statically(full_model(matrices_.system.stiffness));
   const Status prestress = preloaded(scene_, cells_, by_, matrices_, matrices_.preloaded);
   if (prestress != Status::converged) {
     matrices_.status = failed_at("prestress", prestress);
     return;
   }
-  matrices_.stiffness = fem::stiffness_at_speed(matrices_.system.full,
-                                                geometric_stiffness(scene_, sector_, *assembler_, matrices_.preloaded),
-                                                scene_.loading.speed);
+  matrices_.stiffness = fem::stiffness_at_speed(
+      matrices_.system.full, geometric_stiffness(scene_, sector_, *matrices_.assembler, matrices_.preloaded),
+      scene_.loading.speed);
   if (scene_.solver.prestress == Prestress::own) matrices_.at_rest = {};
 }
 
 void MatricesStages::reduce() {
-  matrices_.trace = reduction::trace_model(
-      full_model(matrices_.stiffness), {.modes = scene_.solver.modes, .damping_ratio = scene_.loading.damping_ratio});
+  matrices_.trace =
+      reduction::trace_model(full_model(fem::constrain(matrices_.stiffness, matrices_.system.constraints)),
+                             {.modes = scene_.solver.modes, .damping_ratio = scene_.loading.damping_ratio});
   if (matrices_.trace.status != Status::converged)
     matrices_.status = failed_at("reduction", matrices_.trace.status) + " " + matrices_.trace.message;
   else if (scene_.solver.prestress == Prestress::shared)
@@ -137,8 +139,8 @@ Status add_own_preload(const Scene& scene, const fem::SectorMesh& sector, const 
   Eigen::VectorXd displacement;
   const Status status = preloaded(scene, cells, own(scene, cells), *result.shared, displacement);
   if (status != Status::converged) return status;
-  const fem::Assembler assembler(sector.mesh);
-  result.change = geometric_stiffness(scene, sector, assembler, displacement - result.shared->preloaded);
+  result.change =
+      geometric_stiffness(scene, sector, *result.shared->assembler, displacement - result.shared->preloaded);
   result.trace.change = std::make_shared<const reduction::StiffnessChange>(reduction::stiffness_change(
       result.shared->trace, fem::constrain(result.change, result.shared->system.constraints), result.shared->forced));
   return Status::converged;
@@ -205,6 +207,13 @@ DesignMatrices MatricesStore::matrices(const Scene& scene, const fem::SectorMesh
   return result;
 }
 
+KeptPatterns MatricesStore::patterns(const fem::Mesh& mesh) {
+  const std::lock_guard lock(mutex_);
+  if (!patterns_.assembler || !patterns_.assembler->serves(mesh))
+    patterns_.assembler = std::make_shared<const fem::Assembler>(mesh);
+  return patterns_;
+}
+
 std::shared_ptr<const Matrices> MatricesStore::shared(const Scene& scene, const fem::SectorMesh& sector,
                                                       const fem::ContactCells& cells,
                                                       std::map<std::string, double>& timings_s) {
@@ -215,7 +224,8 @@ std::shared_ptr<const Matrices> MatricesStore::shared(const Scene& scene, const 
     if (last_ && of_ == asked) return last_;
     last_.reset();  // before the next ones are there: both need not fit into memory
   }
-  auto result = std::make_shared<const Matrices>(computed({scene, sector, cells, by, order_}, timings_s));
+  auto result =
+      std::make_shared<const Matrices>(computed({scene, sector, cells, by, patterns(sector.mesh)}, timings_s));
   const std::lock_guard lock(mutex_);
   of_ = std::move(asked);
   last_ = result;

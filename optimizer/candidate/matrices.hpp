@@ -3,7 +3,6 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -20,9 +19,16 @@
 
 namespace dovetail::optimizer {
 
+/// What meshes of one topology share: patterns, and orders of elimination.
+struct KeptPatterns {
+  std::shared_ptr<const fem::Assembler> assembler;
+  std::shared_ptr<numerics::EliminationOrder> order;
+};
+
 /// What follows from mesh, materials, speed and the preload that stresses them.
 struct Matrices {
   std::string status = status_of(Outcome::converged);
+  std::shared_ptr<const fem::Assembler> assembler;
   fem::SectorSystem system;               ///< on the trace
   Eigen::SparseMatrix<double> stiffness;  ///< over all nodes, at speed: K + K_g - Omega^2 M
   reduction::TraceModel trace;            ///< of a tip force of 1 N
@@ -45,12 +51,10 @@ struct PreloadedContact {
 /// given must outlive it.
 class MatricesStages {
  public:
-  using Order = std::shared_ptr<numerics::EliminationOrder>;
-
   /// @param sector  with its trace
   /// @param cells  the grid of contact nodes to begin with
   MatricesStages(const Scene& scene, const fem::SectorMesh& sector, const fem::ContactCells& cells,
-                 const PreloadedContact& by, Order order);
+                 const PreloadedContact& by, const KeptPatterns& patterns);
 
   void assemble();
   void add_prestress();  ///< preload without geometric stiffness, and the stiffness that its stress leaves
@@ -58,16 +62,15 @@ class MatricesStages {
 
   [[nodiscard]] const Matrices& matrices() const& { return matrices_; }
   [[nodiscard]] Matrices matrices() && { return std::move(matrices_); }
-  /// What is reduced: a stiffness over all nodes in independent coordinates.
-  [[nodiscard]] reduction::FullModel full_model(const Eigen::SparseMatrix<double>& stiffness) const;
+  /// What is reduced, with a stiffness in independent coordinates.
+  [[nodiscard]] reduction::FullModel full_model(Eigen::SparseMatrix<double> stiffness) const;
 
  private:
   const Scene& scene_;
   const fem::SectorMesh& sector_;
   const fem::ContactCells& cells_;
   const PreloadedContact& by_;
-  Order order_;
-  std::optional<fem::Assembler> assembler_;
+  std::shared_ptr<numerics::EliminationOrder> order_;
   Matrices matrices_;
 };
 
@@ -115,9 +118,11 @@ class MatricesStore {
                                                        const fem::ContactCells& cells,
                                                        std::map<std::string, double>& timings_s);
 
+  [[nodiscard]] KeptPatterns patterns(const fem::Mesh& mesh);
+
   double friction_;
-  std::shared_ptr<numerics::EliminationOrder> order_ = std::make_shared<numerics::EliminationOrder>();
   std::mutex mutex_;
+  KeptPatterns patterns_{.assembler = {}, .order = std::make_shared<numerics::EliminationOrder>()};
   MatricesOf of_;
   std::shared_ptr<const Matrices> last_;
 };

@@ -25,7 +25,7 @@ struct Chain {
   std::vector<fem::FlankCells> grid;    ///< the first one of contact nodes
   optimizer::CandidateModel candidate;  ///< with contact nodes on the first grid
   optimizer::PreloadedContact by;       ///< what stresses the matrices
-  std::shared_ptr<numerics::EliminationOrder> order = std::make_shared<numerics::EliminationOrder>();
+  optimizer::KeptPatterns patterns{.assembler = {}, .order = std::make_shared<numerics::EliminationOrder>()};
   std::optional<optimizer::MatricesStages> matrices;
 
   struct Parts {  ///< of a reduction to the trace

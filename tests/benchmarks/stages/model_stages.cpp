@@ -32,11 +32,11 @@ double assembled_bytes(const fem::SectorSystem& system) {
 
 /// The order of elimination is kept from design to design: found here, it is in no stage.
 void find_order(Chain& chain) {
-  const reduction::FullModel full = chain.matrices->full_model(chain.matrices->matrices().system.full.stiffness);
+  const reduction::FullModel full = chain.matrices->full_model(chain.matrices->matrices().system.stiffness);
   const Sparse lower = full.stiffness.triangularView<Eigen::Lower>();
   Sparse interior = lower.topLeftCorner(full.internal_size(), full.internal_size());
   interior.makeCompressed();
-  (void)chain.order->of(interior);
+  (void)chain.patterns.order->of(interior);
 }
 
 void take_matrices(Chain& chain) {
@@ -101,7 +101,9 @@ std::vector<Stage> matrices_stages(Chain& chain) {
                  {kDenseInverse, cube(chain.trace_size())}};
   };
   const auto full = [&] {
-    if (parts.full.stiffness.size() == 0) parts.full = chain.matrices->full_model(chain.matrices->matrices().stiffness);
+    const optimizer::Matrices& made = chain.matrices->matrices();
+    if (parts.full.stiffness.size() == 0)
+      parts.full = chain.matrices->full_model(fem::constrain(made.stiffness, made.system.constraints));
   };
   const auto flexibility = [&] {
     const reduction::ResidualFlexibility structure(parts.factors, parts.mass, parts.basis, parts.modes.soft());
@@ -172,7 +174,9 @@ std::vector<Stage> model_stages(Chain& chain) {
   const auto begin_matrices = [&] {
     if (chain.matrices) return;
     chain.by = optimizer::stressed(chain.scene, chain.candidate.cells, chain.previous.contact.friction);
-    chain.matrices.emplace(chain.scene, chain.candidate.mesh.sector, chain.candidate.cells, chain.by, chain.order);
+    // What designs share is in no stage.
+    chain.patterns.assembler = std::make_shared<const fem::Assembler>(chain.candidate.mesh.sector.mesh);
+    chain.matrices.emplace(chain.scene, chain.candidate.mesh.sector, chain.candidate.cells, chain.by, chain.patterns);
   };
   std::vector<Stage> stages{{{"feasibility", feasibility}, none}, {{"mesh", [&] { lay_mesh(chain); }}, none}};
   std::vector<Stage> matrices = chain.shares_matrices() ? shared_stages(chain) : matrices_stages(chain);

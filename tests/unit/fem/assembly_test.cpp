@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "core/errors.hpp"
 #include "fem/element.hpp"
 #include "fem/stress.hpp"
@@ -50,6 +52,10 @@ TEST(Assembler, FillsTheSamePatternAfterNodesMoved) {
   const FullMatrices fresh = Assembler(grid.mesh).stiffness_and_mass(grid.mesh, kTitanium);
   EXPECT_EQ(Eigen::MatrixXd(moved.stiffness), Eigen::MatrixXd(fresh.stiffness));
   EXPECT_EQ(moved.stiffness.nonZeros(), moved.mass.nonZeros());
+  EXPECT_TRUE(assembler.serves(grid.mesh));
+  std::swap(grid.mesh.connectivity[0], grid.mesh.connectivity[1]);
+  EXPECT_FALSE(assembler.serves(grid.mesh));
+  EXPECT_FALSE(assembler.serves(testing::make_grid(4, 3, testing::rectangle(0.3, 0.4)).mesh));
 }
 
 TEST(Assembler, ScalesEachRegionByItsThicknessAndMaterial) {
