@@ -1,15 +1,19 @@
 #include "optimizer/evaluator.hpp"
 
+#include <utility>
+
 #include "optimizer/bars/error_bars.hpp"
 #include "optimizer/candidate/stopwatch.hpp"
 #include "optimizer/responses/computed.hpp"
+#include "optimizer/responses/response_table.hpp"
 
 namespace dovetail::optimizer {
 
-SceneEvaluator::SceneEvaluator(const Scene& reference) : reference_(reference), builder_(reference) {}
+SceneEvaluator::SceneEvaluator(const Scene& reference, std::vector<std::string> named)
+    : reference_(reference), named_(std::move(named)), builder_(reference) {}
 
 const OtherMeshes& SceneEvaluator::others() const {
-  std::call_once(once_, [this] { others_.emplace(reference_); });
+  std::call_once(once_, [this] { others_.emplace(reference_, by_finer_mesh(named_)); });
   return *others_;
 }
 

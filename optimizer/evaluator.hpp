@@ -2,6 +2,8 @@
 
 #include <mutex>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "optimizer/bars/other_meshes.hpp"
 #include "optimizer/candidate/candidate_result.hpp"
@@ -24,7 +26,8 @@ inline constexpr Purpose kSearch{.bars = false, .history = false};
 /// Results depend on the reference scene (mesh topology) and the candidate only. May be called from several threads.
 class SceneEvaluator {
  public:
-  explicit SceneEvaluator(const Scene& reference);
+  /// A study is about the responses it names: their bars may need what others can do without.
+  explicit SceneEvaluator(const Scene& reference, std::vector<std::string> named = {});
 
   /// All responses. Never throws for what a candidate is like: an impossible geometry is "infeasible" with its rules in
   /// `constraints`, a stage that did not converge is named in `status`. Throws InputError for a scene that violates the
@@ -39,6 +42,7 @@ class SceneEvaluator {
   [[nodiscard]] const OtherMeshes& others() const;
 
   Scene reference_;
+  std::vector<std::string> named_;
   ModelBuilder builder_;
   mutable std::once_flag once_;
   mutable std::optional<OtherMeshes> others_;

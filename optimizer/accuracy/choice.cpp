@@ -116,7 +116,7 @@ SettingsChoice choose_settings(const Scene& reference, const Scene& scene, const
   return choose_settings(
       scene, goal,
       [&](const Settings& settings) {
-        return SceneEvaluator(with_settings(reference, settings))
+        return SceneEvaluator(with_settings(reference, settings), goal.responses)
             .evaluate(with_settings(scene, settings), purpose)
             .evaluation;
       },

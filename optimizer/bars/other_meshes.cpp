@@ -36,10 +36,10 @@ Scene resized(Scene scene, double ratio) {
   return lengthened(std::move(scene), kind.lengths, ratio);
 }
 
-OtherMeshes::OtherMeshes(const Scene& reference) {
+OtherMeshes::OtherMeshes(const Scene& reference, bool finer) {
   constexpr CompanionParams kParams;
-  for (const double ratio :
-       reference.mesh.flank_elements < reference.kind->finer_below ? kParams.finer : kParams.coarser)
+  const bool ask_finer = finer || reference.mesh.flank_elements < reference.kind->finer_below;
+  for (const double ratio : ask_finer ? kParams.finer : kParams.coarser)
     meshes_.push_back({.ratio = ratio, .builder = ModelBuilder(resized(reference, ratio))});
   if (reference.kind->lengths.empty()) finer_section_.emplace(resized_section(reference, kParams.section_ratio));
 }

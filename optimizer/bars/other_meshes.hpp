@@ -22,8 +22,10 @@ class OtherMeshes {
     ModelBuilder builder;
   };
 
-  explicit OtherMeshes(const Scene& reference);
-  /// Where meshes of the kind are fine, coarser ones alone; in the order in which the error by the mesh is asked for.
+  /// `finer`: one of them is, whatever the mesh of the reference.
+  explicit OtherMeshes(const Scene& reference, bool finer = false);
+  /// Where meshes of the kind are fine, coarser ones alone unless a finer one was asked for; in the order in which the
+  /// error by the mesh is asked for.
   [[nodiscard]] const std::vector<Mesh>& meshes() const { return meshes_; }
   /// Where those do not resize the section beside the flanks: one that has it finer. Else null.
   [[nodiscard]] const ModelBuilder* finer_section() const { return finer_section_ ? &*finer_section_ : nullptr; }

@@ -87,6 +87,7 @@ const Response kContactPressureMax{
     .stage = Stage::model,
     .value = largest_pressure,
     .mesh_order = {1.5},
+    .by_finer_mesh = true,
     .own_error = {"contact_grid", left_by_nodes},
     .limited = limited,
     .largest_bar = kLargestBar,

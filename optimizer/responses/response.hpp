@@ -47,6 +47,8 @@ struct Response {
   /// It hangs on where worn zones end: of what a finer mesh and what longer nodes change the larger counts whole, as
   /// two meshes may by accident agree.
   bool by_zone_ends = false;
+  /// Coarser meshes do not resolve it: the bars of a study that is about it ask a finer one.
+  bool by_finer_mesh = false;
   bool amount = false;  ///< of which there may be nothing: a bar larger than the value says so
   /// Of the worn joint: the same of the unworn one. Of a joint that does not wear it is at least as uncertain.
   const Response* unworn = nullptr;

@@ -31,6 +31,9 @@ inline constexpr std::array kResponses{&kWornVolume,    &kWornDepth,          &k
 /// The last stage that one of these needs; unknown names need none.
 [[nodiscard]] Stage last_stage(const std::vector<std::string>& names);
 
+/// Whether one of these asks for a finer mesh.
+[[nodiscard]] bool by_finer_mesh(const std::vector<std::string>& names);
+
 /// The entry of that name, or nullptr.
 [[nodiscard]] const Response* find_response(std::string_view name);
 

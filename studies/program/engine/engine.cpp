@@ -37,7 +37,7 @@ Scene reference_scene(const Study& study) {
 }
 
 std::shared_ptr<const SceneEvaluator> scene_evaluator(const Study& study) {
-  return std::make_shared<const SceneEvaluator>(reference_scene(study));
+  return std::make_shared<const SceneEvaluator>(reference_scene(study), optimizer::responses_of(study.problem));
 }
 
 namespace {

@@ -14,10 +14,15 @@
 namespace dovetail::studies {
 namespace {
 
-optimizer::CandidateResult evaluated(const std::vector<std::pair<std::string, double>>& changes, bool bars) {
+optimizer::CandidateResult evaluated(const std::vector<std::pair<std::string, double>>& changes,
+                                     const optimizer::Purpose& purpose, const std::vector<std::string>& named = {}) {
   optimizer::Scene scene = load_study(QUICKSTART, {}).scene;
   for (const auto& [key, value] : changes) optimizer::set_parameter(scene, key, value);
-  return optimizer::SceneEvaluator(scene).evaluate(scene, {.bars = bars});
+  return optimizer::SceneEvaluator(scene, named).evaluate(scene, purpose);
+}
+
+optimizer::CandidateResult evaluated(const std::vector<std::pair<std::string, double>>& changes, bool bars) {
+  return evaluated(changes, {.bars = bars});
 }
 
 /// On the mesh that `evaluate` takes for every design of the study.
@@ -93,7 +98,7 @@ TEST(HardDesigns, AHistoryThatHangsOnTheHarmonicsDoesNotDecideUnseen) {
                                                              : "more harmonics and samples, nearer to the first")));
 
   std::vector<std::pair<std::string, double>> hurried = design;
-  hurried.emplace_back("solver.max_jacobians", 10);  // hardly more than the evaluation itself takes
+  hurried.emplace_back("solver.max_jacobians", 12);  // hardly more than the evaluation itself takes
   const optimizer::CandidateResult undecided = evaluated_in_study(hurried);
   ASSERT_TRUE(undecided.evaluation.converged()) << undecided.evaluation.status;
   EXPECT_EQ(undecided.evaluation.model.at("wear_history_may_differ"), 1);
@@ -322,12 +327,20 @@ TEST(HardDesigns, APeakThatTheMeshResolvesHasABarThatHolds) {
                                         {"geometry.flank_angle_deg", 47}}}}) {
     Changes finer = changes;
     finer.emplace_back("mesh.flank_elements", 48);
-    const optimizer::Evaluation evaluation = evaluated(finer, true).evaluation;
+    const optimizer::Purpose pressure{.until = optimizer::Stage::model};
+    const optimizer::Evaluation evaluation = evaluated(finer, pressure, {"contact_pressure_max_pa"}).evaluation;
     ASSERT_TRUE(evaluation.converged()) << evaluation.status;
     EXPECT_TRUE(evaluation.unbounded.empty());
     const double bar = evaluation.error_estimates.at("contact_pressure_max_pa");
     EXPECT_NEAR(evaluation.responses.at("contact_pressure_max_pa"), peak, bar);
     EXPECT_LT(bar, 0.09 * peak);
+    // Coarser meshes, which a study that does not name the peak asks alone, hardly resolve it: a large bar, or none.
+    const optimizer::Evaluation aside = evaluated(finer, pressure).evaluation;
+    const auto large = aside.error_estimates.find("contact_pressure_max_pa");
+    if (large == aside.error_estimates.end())
+      EXPECT_THAT(aside.unbounded, ::testing::Contains("contact_pressure_max_pa"));
+    else
+      EXPECT_NEAR(aside.responses.at("contact_pressure_max_pa"), peak, large->second);
   }
 }
 
