@@ -1,5 +1,6 @@
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "dynamics/condensed_model.hpp"
 #include "dynamics/params.hpp"
@@ -51,8 +52,8 @@ Eigen::MatrixXcd CondensedModel::solve_internal(const Eigen::MatrixXcd& internal
   return lu.solve(rhs);
 }
 
-HarmonicStiffness CondensedModel::harmonic(int h, double omega, double static_scale) const {
-  HarmonicStiffness at;
+CondensedHarmonic CondensedModel::harmonic(int h, double omega, double static_scale) const {
+  CondensedHarmonic at;
   const Dynamic dynamic(h, omega);
   const Eigen::Index nc = contact_size();
   const Eigen::MatrixXcd ci = dynamic.value(stiffness_.ci, damping_.ci, mass_.ci);
@@ -70,18 +71,37 @@ HarmonicStiffness CondensedModel::harmonic(int h, double omega, double static_sc
   const Eigen::MatrixXcd solved = solve_internal(ii, rhs, &at.status);
   at.internal_shape = solved.leftCols(nc);
   at.internal_force = solved.col(nc);
-  at.stiffness = dynamic.value(stiffness_.cc, damping_.cc, mass_.cc);
-  if (ci.cols() > 0) {
-    if (h == 0)
-      at.stiffness.real() -= numerics::product(Eigen::MatrixXd(ci.real()), at.internal_shape.real());
-    else
-      at.stiffness -= numerics::product(ci, at.internal_shape);
-  }
   at.force -= ci * at.internal_force;
   return at;
 }
 
-Eigen::VectorXcd CondensedModel::slope(int h, double omega, const HarmonicStiffness& at,
+Eigen::MatrixXcd CondensedModel::stiffness(int h, double omega, const CondensedHarmonic& at) const {
+  const Dynamic dynamic(h, omega);
+  Eigen::MatrixXcd stiffness = dynamic.value(stiffness_.cc, damping_.cc, mass_.cc);
+  if (stiffness_.ci.cols() == 0) return stiffness;
+  if (h == 0)
+    stiffness.real() -= numerics::product(stiffness_.ci, at.internal_shape.real());
+  else
+    stiffness -= numerics::product(dynamic.value(stiffness_.ci, damping_.ci, mass_.ci), at.internal_shape);
+  return stiffness;
+}
+
+HarmonicMatrices CondensedModel::stiffness(double omega, const std::vector<CondensedHarmonic>& harmonics) const {
+  std::vector<Eigen::MatrixXcd> matrices;
+  for (std::size_t j = 0; j < harmonics.size(); ++j) {
+    const auto h = static_cast<int>(j);
+    if (!shared_) {
+      matrices.push_back(stiffness(h, omega, harmonics[j]));
+      continue;
+    }
+    const Eigen::VectorXcd within = Dynamic(h, omega).value(stiffness_.ii, damping_.ii, mass_.ii).col(0);
+    matrices.emplace_back((-within.cwiseInverse()).asDiagonal());
+  }
+  return shared_ ? HarmonicMatrices(shared_, shared_coupling_, std::move(matrices))
+                 : HarmonicMatrices(std::move(matrices));
+}
+
+Eigen::VectorXcd CondensedModel::slope(int h, double omega, const CondensedHarmonic& at,
                                        const Eigen::VectorXcd& contact) const {
   if (h == 0) return Eigen::VectorXcd::Zero(contact.size());
   const Dynamic dynamic(h, omega);
@@ -95,7 +115,7 @@ Eigen::VectorXcd CondensedModel::slope(int h, double omega, const HarmonicStiffn
   return result;
 }
 
-Eigen::VectorXcd CondensedModel::recover(const HarmonicStiffness& at, const Eigen::VectorXcd& contact) const {
+Eigen::VectorXcd CondensedModel::recover(const CondensedHarmonic& at, const Eigen::VectorXcd& contact) const {
   Eigen::VectorXcd all(n_);
   const Eigen::VectorXcd internal = basis_ * (at.internal_force - at.internal_shape * contact);
   for (std::size_t i = 0; i < contact_dofs_.size(); ++i) all(contact_dofs_[i]) = contact(static_cast<Eigen::Index>(i));
@@ -104,15 +124,15 @@ Eigen::VectorXcd CondensedModel::recover(const HarmonicStiffness& at, const Eige
   return all;
 }
 
-Eigen::VectorXcd CondensedModel::outputs(const HarmonicStiffness& at, const Eigen::VectorXcd& contact) const {
+Eigen::VectorXcd CondensedModel::outputs(const CondensedHarmonic& at, const Eigen::VectorXcd& contact) const {
   return output_contact_ * contact + output_internal_ * (at.internal_force - at.internal_shape * contact);
 }
 
-Eigen::MatrixXcd CondensedModel::output_gradient(const HarmonicStiffness& at) const {
+Eigen::MatrixXcd CondensedModel::output_gradient(const CondensedHarmonic& at) const {
   return output_contact_ - output_internal_ * at.internal_shape;
 }
 
-Eigen::VectorXcd CondensedModel::output_slope(int h, double omega, const HarmonicStiffness& at,
+Eigen::VectorXcd CondensedModel::output_slope(int h, double omega, const CondensedHarmonic& at,
                                               const Eigen::VectorXcd& contact) const {
   const Dynamic dynamic(h, omega);
   const Eigen::VectorXcd internal = at.internal_force - at.internal_shape * contact;
@@ -124,7 +144,7 @@ Eigen::VectorXcd CondensedModel::output_slope(int h, double omega, const Harmoni
   return -(output_internal_ * solve_internal(dynamic.value(stiffness_.ii, damping_.ii, mass_.ii), rhs, &status).col(0));
 }
 
-CondensedModel::HarmonicEnergy CondensedModel::energy(int h, double omega, const HarmonicStiffness& at,
+CondensedModel::HarmonicEnergy CondensedModel::energy(int h, double omega, const CondensedHarmonic& at,
                                                       const Eigen::VectorXcd& contact) const {
   HarmonicEnergy energy;
   if (h == 0) return energy;

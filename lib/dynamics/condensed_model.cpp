@@ -57,6 +57,7 @@ CondensedModel::CondensedModel(const reduction::ReducedModel& model) {
   massless_contact_ = (mass_.cc.size() == 0 || mass_.cc.cwiseAbs().maxCoeff() <= rounding) &&
                       (mass_.ci.size() == 0 || mass_.ci.cwiseAbs().maxCoeff() <= rounding);
   diagonalise();
+  share_static_stiffness();
 
   Eigen::MatrixXcd force = Eigen::MatrixXcd::Zero(n_, model.cosine_force.rows() + 1);
   force.col(0).real() = model.static_force;
@@ -170,6 +171,13 @@ void CondensedModel::subtract_massless_coordinates() {
   if (count == 0 || stiffness.status() != Status::converged) return;
   const Eigen::MatrixXd coupling = numerics::transposed_product(massless, stiffness_.ci.transpose());
   local_stiffness_ -= coupling.cwiseProduct(stiffness.solve(coupling)).colwise().sum().transpose();
+}
+
+void CondensedModel::share_static_stiffness() {
+  const auto none = [](const Partition& part) { return part.cc.isZero(0) && part.ci.isZero(0); };
+  if (!modal_ || !none(mass_) || !none(damping_)) return;
+  shared_ = std::make_shared<const Eigen::MatrixXd>(stiffness_.cc);
+  shared_coupling_ = std::make_shared<const Eigen::MatrixXd>(stiffness_.ci);
 }
 
 void CondensedModel::set_glued_frequencies(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& stiffness) {

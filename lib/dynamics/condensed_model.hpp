@@ -2,22 +2,23 @@
 
 #include <Eigen/Core>
 #include <complex>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "contact/contact_law.hpp"
 #include "contact/wear_law.hpp"
 #include "core/status.hpp"
+#include "dynamics/harmonic_matrices.hpp"
 #include "reduction/reduced_model.hpp"
 
 namespace dovetail::dynamics {
 
-/// The dynamic stiffness of harmonic h seen by the contact displacements at one frequency:
-/// Z_h = S_cc - S_ci S_ii^-1 S_ic with S = K + i h w C - (h w)^2 M [Salles 2009, eq. 10-11], its load and their
-/// derivatives with respect to w. Complex amplitudes stand for c - i s: q = Re(Q e^(i h tau)).
-struct HarmonicStiffness {
-  Eigen::MatrixXcd stiffness;  ///< Z_h [nc, nc] N/m, complex symmetric; real for h = 0
-  Eigen::VectorXcd force;      ///< F_h [nc] N
+/// What the contact displacements see of harmonic h at one frequency beside the dynamic stiffness
+/// Z_h = S_cc - S_ci S_ii^-1 S_ic with S = K + i h w C - (h w)^2 M [Salles 2009, eq. 10-11]: its load, and what follows
+/// within. Complex amplitudes stand for c - i s: q = Re(Q e^(i h tau)).
+struct CondensedHarmonic {
+  Eigen::VectorXcd force;  ///< F_h [nc] N
   // Internal coordinates are q_i = internal_force - internal_shape U_c.
   Eigen::MatrixXcd internal_shape;    ///< S_ii^-1 S_ic [ni, nc]
   Eigen::VectorXcd internal_force;    ///< S_ii^-1 F_i [ni]
@@ -65,10 +66,13 @@ class CondensedModel {
   [[nodiscard]] reduction::ReducedModel reduced() const;
 
   /// omega in rad/s. Loads of harmonic 0 are multiplied by `static_scale` (a loading path).
-  [[nodiscard]] HarmonicStiffness harmonic(int h, double omega, double static_scale = 1) const;
+  [[nodiscard]] CondensedHarmonic harmonic(int h, double omega, double static_scale = 1) const;
+  /// Z_h [nc, nc], N/m, and those of all harmonics 0..H with what harmonic() says of them at that frequency.
+  [[nodiscard]] Eigen::MatrixXcd stiffness(int h, double omega, const CondensedHarmonic& at) const;
+  [[nodiscard]] HarmonicMatrices stiffness(double omega, const std::vector<CondensedHarmonic>& harmonics) const;
   /// dZ_h/dw U_c - dF_h/dw [nc] at constant U_c, without forming dZ_h/dw: with q = (U_c, q_i) and T = (I, -S_ii^-1
   /// S_ic) it is T^T dS/dw q. O(nc ni).
-  [[nodiscard]] Eigen::VectorXcd slope(int h, double omega, const HarmonicStiffness& at,
+  [[nodiscard]] Eigen::VectorXcd slope(int h, double omega, const CondensedHarmonic& at,
                                        const Eigen::VectorXcd& contact) const;
 
   /// Local contact stiffness [nc]: the limit of diag(Z_h) for high harmonics with massless contact.
@@ -77,18 +81,18 @@ class CondensedModel {
   [[nodiscard]] bool massless_contact() const { return massless_contact_; }
 
   /// Complex amplitude of all n dofs of the reduced model for contact amplitude U_c [nc] of this harmonic.
-  [[nodiscard]] Eigen::VectorXcd recover(const HarmonicStiffness& at, const Eigen::VectorXcd& contact) const;
+  [[nodiscard]] Eigen::VectorXcd recover(const CondensedHarmonic& at, const Eigen::VectorXcd& contact) const;
   /// Complex amplitudes of the outputs [n_out].
-  [[nodiscard]] Eigen::VectorXcd outputs(const HarmonicStiffness& at, const Eigen::VectorXcd& contact) const;
+  [[nodiscard]] Eigen::VectorXcd outputs(const CondensedHarmonic& at, const Eigen::VectorXcd& contact) const;
   /// d outputs / d U_c [n_out, nc], and d outputs / d w at constant U_c [n_out].
-  [[nodiscard]] Eigen::MatrixXcd output_gradient(const HarmonicStiffness& at) const;
-  [[nodiscard]] Eigen::VectorXcd output_slope(int h, double omega, const HarmonicStiffness& at,
+  [[nodiscard]] Eigen::MatrixXcd output_gradient(const CondensedHarmonic& at) const;
+  [[nodiscard]] Eigen::VectorXcd output_slope(int h, double omega, const CondensedHarmonic& at,
                                               const Eigen::VectorXcd& contact) const;
   /// Energy put in by the excitation and dissipated by damping in harmonic h over one period, J.
   struct HarmonicEnergy {
     double input = 0, damping = 0;
   };
-  [[nodiscard]] HarmonicEnergy energy(int h, double omega, const HarmonicStiffness& at,
+  [[nodiscard]] HarmonicEnergy energy(int h, double omega, const CondensedHarmonic& at,
                                       const Eigen::VectorXcd& contact) const;
   /// Undamped frequencies of the glued structure (contact displacements zero), rad/s, ascending.
   [[nodiscard]] Eigen::VectorXd glued_frequencies() const;
@@ -99,6 +103,7 @@ class CondensedModel {
                                                 Status* status) const;
   void diagonalise();
   void subtract_massless_coordinates();
+  void share_static_stiffness();
   void set_glued_frequencies(const Eigen::MatrixXd& mass,
                              const Eigen::MatrixXd& stiffness);  // of decoupled coordinates
 
@@ -114,6 +119,9 @@ class CondensedModel {
     Eigen::MatrixXd cc, ci, ii;
   };
   Partition mass_, damping_, stiffness_;
+  // K_cc and K_ci again, where neither mass nor damping acts on or across the contact and the rest is modal: all
+  // harmonics share them.
+  std::shared_ptr<const Eigen::MatrixXd> shared_, shared_coupling_;
   Eigen::MatrixXcd force_contact_, force_internal_;  // column h, complex amplitude c - i s
   Eigen::MatrixXd output_contact_, output_internal_;
   Eigen::VectorXd local_stiffness_, glued_frequencies_;

@@ -10,7 +10,8 @@ namespace dovetail::dynamics {
 /// All harmonics of the dynamic stiffness at one frequency.
 struct HarmonicSystem {
   double omega = 0;                          ///< rad/s
-  std::vector<HarmonicStiffness> harmonics;  ///< [H+1]
+  HarmonicMatrices stiffness;                ///< Z_h
+  std::vector<CondensedHarmonic> harmonics;  ///< [H+1]
   Eigen::MatrixXd force;                     ///< F [nc, 2H+1], N
   double force_scale = 0;  ///< norm of F over harmonics >= 1, or of F_0 when that is zero: residuals are relative to it
   Status status = Status::converged;

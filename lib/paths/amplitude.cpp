@@ -15,7 +15,7 @@ AmplitudeAt amplitude_at(const steady::Point& point, const branches::Vector& dir
   const Eigen::Index k = point.displacement.cols();
   Eigen::MatrixXd value(1, k), change(1, k);
   for (std::size_t h = 0; h < problem.system().harmonics.size(); ++h) {
-    const dynamics::HarmonicStiffness& at = problem.system().harmonics[h];
+    const dynamics::CondensedHarmonic& at = problem.system().harmonics[h];
     const auto j = static_cast<Eigen::Index>(h);
     const Eigen::VectorXcd contact = dynamics::harmonic_of(point.displacement, j);
     const Eigen::VectorXcd moved =

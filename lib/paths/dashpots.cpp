@@ -7,8 +7,8 @@ namespace dovetail::paths {
 std::shared_ptr<const dynamics::HarmonicSystem> Dashpots::system(double alpha) const {
   if (alpha == 0) return problem_.shared_system();
   auto damped = std::make_shared<dynamics::HarmonicSystem>(problem_.system());
-  for (std::size_t h = 1; h < damped->harmonics.size(); ++h)
-    damped->harmonics[h].stiffness.diagonal() += std::complex<double>(0, alpha * static_cast<double>(h)) * strength_;
+  for (int h = 1; h <= damped->stiffness.harmonics(); ++h)
+    damped->stiffness.add_to_diagonal(h, std::complex<double>(0, alpha * h) * strength_);
   return damped;
 }
 

@@ -34,9 +34,9 @@ bool FactoredJacobian::nearly_singular(double limit) const {
 }
 
 double FactoredJacobian::product_operations() const {
-  const auto dense = static_cast<double>(size()), dofs = static_cast<double>(point_->problem->model().contact_size());
-  // Complex stiffnesses, and as many numbers once more for what is eliminated.
-  return steady::product_operations(dense * dense + 4 * dofs * dofs * (point_->problem->basis().harmonics() + 1));
+  const auto dense = static_cast<double>(size());
+  // The stiffnesses are read once more for what is eliminated.
+  return steady::product_operations(dense * dense + 2 * point_->problem->system().stiffness.entries());
 }
 
 bool FactoredJacobian::serve(const Problem& other) const {
@@ -55,7 +55,7 @@ bool FactoredJacobian::belong_to(const Point& other) const {
 
 JacobianBlocks FactoredJacobian::kept_blocks() const {
   JacobianBlocks blocks;
-  blocks.stiffness = separated_->stiffness();
+  blocks.stiffness = &separated_->stiffness();
   for (const Eigen::Index i : nodes_)
     blocks.derivative.push_back(&point_->nodes[static_cast<std::size_t>(i)].force_derivative);
   blocks.penalty.resize(static_cast<Eigen::Index>(separated_->kept().size()));
@@ -98,9 +98,7 @@ void FactoredJacobian::factorise(double regularisation) {
   for (Eigen::Index j = 0; j < active; ++j)
     columns[static_cast<std::size_t>(active_[static_cast<std::size_t>(j)])] = matrix.col(j).data();
   assemble(blocks, active_, columns, regularisation);
-  operations_ =
-      factorisation_operations(active) + condensation_operations(static_cast<Eigen::Index>(separated_->open().size()),
-                                                                 of.model().contact_size(), of.basis().harmonics());
+  operations_ = factorisation_operations(active) + separated_->operations();
   if (of.budget()) of.budget()->spend_on_factors(operations_);
   lu_.factorise(std::move(matrix));
 }

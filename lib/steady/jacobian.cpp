@@ -4,7 +4,6 @@
 #include <cassert>
 #include <span>
 
-#include "dynamics/harmonic_blocks.hpp"
 #include "numerics/dense_product.hpp"
 
 namespace dovetail::steady {
@@ -63,11 +62,10 @@ std::vector<Run> runs_of(std::span<const NodeRows> batch) {
 
 // The rows of `batch` in the columns of harmonic h. Cosine columns are E_c Re - E_s Im and sine columns E_c Im + E_s Re
 // with E = I - D: one product per node gives both.
-void write_harmonic(const JacobianBlocks& blocks, std::span<const NodeRows> batch, std::span<const Run> runs,
-                    std::size_t h, const std::vector<double*>& columns, std::vector<Eigen::MatrixXd>& products) {
+void write_harmonic(const JacobianBlocks& blocks, std::span<const NodeRows> batch, std::span<const Run> runs, int h,
+                    const std::vector<double*>& columns, std::vector<Eigen::MatrixXd>& products) {
   const Eigen::Index n = blocks.size(), d = blocks.directions();
-  const Eigen::Index first = h == 0 ? 0 : 2 * static_cast<Eigen::Index>(h) - 1;
-  const Eigen::MatrixXcd& stiffness = *blocks.stiffness[h];
+  const Eigen::Index first = h == 0 ? 0 : 2 * h - 1;
   std::vector<Eigen::Index> wanted;
   for (Eigen::Index a = 0; a < n; ++a)
     if (columns[static_cast<std::size_t>(first * n + a)] ||
@@ -75,12 +73,15 @@ void write_harmonic(const JacobianBlocks& blocks, std::span<const NodeRows> batc
       wanted.push_back(a);
   if (wanted.empty()) return;
   const bool all = static_cast<Eigen::Index>(wanted.size()) == n;
+  // Nodes of a batch stand together but for those that have no rows.
+  const Eigen::Index begin = batch.front().node * d, end = (batch.back().node + 1) * d;
+  const Eigen::MatrixXcd stiffness = blocks.stiffness->rows(h, begin, end - begin);
   Eigen::MatrixXd left, right;
   for (std::size_t g = 0; g < batch.size(); ++g) {
     const Eigen::MatrixXd& complement = batch[g].complement;
     const Eigen::Index rows = complement.rows(), top = batch[g].node * d;
     const auto on_cosine = complement.middleCols(first * d, d);
-    const auto z = stiffness.middleRows(top, d);
+    const auto z = stiffness.middleRows(top - begin, d);
     if (h == 0) {
       left = on_cosine;
       right = all ? Eigen::MatrixXd(z.real()) : Eigen::MatrixXd(z.real()(Eigen::all, wanted));
@@ -137,7 +138,7 @@ void assemble(const JacobianBlocks& blocks, const std::vector<Eigen::Index>& row
   for (std::size_t start = 0; start < groups.size(); start += kBatch) {
     const std::span<const NodeRows> batch(groups.data() + start, std::min(kBatch, groups.size() - start));
     const std::vector<Run> runs = runs_of(batch);
-    for (std::size_t h = 0; h < blocks.stiffness.size(); ++h) write_harmonic(blocks, batch, runs, h, columns, products);
+    for (int h = 0; h <= blocks.stiffness->harmonics(); ++h) write_harmonic(blocks, batch, runs, h, columns, products);
     for (const NodeRows& group : batch) add_penalty(blocks, group, columns);
   }
 }
@@ -159,15 +160,14 @@ Eigen::MatrixXd apply_derivative(const JacobianBlocks& blocks, const Eigen::Matr
 
 Eigen::MatrixXd apply_jacobian(const JacobianBlocks& blocks, const Eigen::MatrixXd& x) {
   const Eigen::VectorXd penalty = blocks.penalty.replicate(blocks.coefficients(), 1);
-  const Eigen::MatrixXd z = dynamics::apply_harmonics(blocks.stiffness, dynamics::Form::plain, x);
+  const Eigen::MatrixXd z = blocks.stiffness->apply(x);
   return z + apply_derivative(blocks, penalty.asDiagonal() * x - z, false);
 }
 
 Eigen::MatrixXd apply_jacobian_transposed(const JacobianBlocks& blocks, const Eigen::MatrixXd& x) {
   const Eigen::VectorXd penalty = blocks.penalty.replicate(blocks.coefficients(), 1);
   const Eigen::MatrixXd by_force = apply_derivative(blocks, x, true);
-  return dynamics::apply_harmonics(blocks.stiffness, dynamics::Form::adjoint, x - by_force) +
-         penalty.asDiagonal() * by_force;
+  return blocks.stiffness->apply(x - by_force, true) + penalty.asDiagonal() * by_force;
 }
 
 }  // namespace dovetail::steady

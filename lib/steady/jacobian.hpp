@@ -3,18 +3,20 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "dynamics/harmonic_matrices.hpp"
+
 namespace dovetail::steady {
 
 /// J = Z + D (eps I - Z) in its blocks: Z block-diagonal over harmonics, D over contact nodes. Views of matrices that
 /// must outlive it. With n contact dofs, node by node with d directions, vec(U) has index k n + a for Fourier
 /// coefficient k of dof a; a node's block orders its m = d (2H+1) coefficients as k d + r.
 struct JacobianBlocks {
-  std::vector<const Eigen::MatrixXcd*> stiffness;  ///< Z_h [n, n], H+1 of them
+  const dynamics::HarmonicMatrices* stiffness;     ///< Z_h [n, n], H+1 of them
   std::vector<const Eigen::MatrixXd*> derivative;  ///< D [m, m], one per node
   Eigen::VectorXd penalty;                         ///< eps [n]
 
   [[nodiscard]] Eigen::Index size() const { return penalty.size(); }  ///< n
-  [[nodiscard]] Eigen::Index coefficients() const { return 2 * static_cast<Eigen::Index>(stiffness.size()) - 1; }
+  [[nodiscard]] Eigen::Index coefficients() const { return stiffness->coefficients(); }
   [[nodiscard]] Eigen::Index directions() const {
     return derivative.empty() ? 1 : size() / static_cast<Eigen::Index>(derivative.size());
   }

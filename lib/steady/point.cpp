@@ -64,8 +64,7 @@ void differentiate(Point& point) {
 JacobianBlocks blocks(const Point& point) {
   assert(point.has_derivative);
   JacobianBlocks blocks;
-  for (const dynamics::HarmonicStiffness& at : point.problem->system().harmonics)
-    blocks.stiffness.push_back(&at.stiffness);
+  blocks.stiffness = &point.problem->system().stiffness;
   for (const contact::MarchResult& node : point.nodes) blocks.derivative.push_back(&node.force_derivative);
   blocks.penalty = point.problem->dof_penalty();
   return blocks;
@@ -111,7 +110,7 @@ double attainable(const Point& point, double tolerance) {
 
 bool is_held(const Point& point) {
   const Problem& of = *point.problem;
-  Eigen::MatrixXd stiffness = of.system().harmonics.front().stiffness.real();
+  Eigen::MatrixXd stiffness = of.system().stiffness.mean();
   if (stiffness.size() == 0) return true;
   // Rounding may turn a direction without stiffness into a slightly negative one.
   const double shift = SingularityParams{}.held * stiffness.diagonal().cwiseAbs().maxCoeff();

@@ -42,7 +42,7 @@ Attempt solve_level(const Joint& joint, double scale, const Eigen::MatrixXd& sta
   for (const double share : kPreload.springs) {
     const double spring = share * joint.model->local_stiffness().maxCoeff();
     auto leaned = std::make_shared<dynamics::HarmonicSystem>(*system);
-    leaned->harmonics.front().stiffness.diagonal().array() += spring;
+    leaned->stiffness.add_to_diagonal(0, Eigen::VectorXcd::Constant(leaned->stiffness.size(), spring));
     leaned->force.col(0) += spring * anchor.col(0);
     if (attempt(problem.at(leaned), from)) from = level.point.displacement;
   }
@@ -105,7 +105,7 @@ Preload quasi_static(const std::shared_ptr<const dynamics::CondensedModel>& mode
     preload.pressure(i) = normal / contact.area(i);
     if (limit > 0) preload.friction_use(i) = preload.force.segment(i * d + 1, d - 1).norm() / limit;
   }
-  const dynamics::HarmonicStiffness at = model->harmonic(0, 0);
+  const dynamics::CondensedHarmonic at = model->harmonic(0, 0);
   preload.full_displacement = model->recover(at, preload.displacement.cast<std::complex<double>>()).real();
   return preload;
 }

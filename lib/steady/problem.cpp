@@ -109,7 +109,7 @@ Eigen::MatrixXd Problem::closed_start() const {
   // Without contact force, released nodes obey Z U = F next to the held ones.
   const Eigen::MatrixXd rest = system_->force - dynamics::apply_stiffness(*system_, start);
   for (std::size_t h = 0; h < system_->harmonics.size(); ++h) {
-    const Eigen::MatrixXcd block = system_->harmonics[h].stiffness(free, free);
+    const Eigen::MatrixXcd block = system_->stiffness.matrix(static_cast<int>(h))(free, free);
     const auto j = static_cast<Eigen::Index>(h);
     numerics::DenseLu lu(dynamics::real_block(block, j));
     if (lu.status() != Status::converged) continue;

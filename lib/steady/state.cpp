@@ -87,7 +87,7 @@ Summary summarise(const Point& point) {
   summary.outputs = Eigen::MatrixXd::Zero(n_out, point.displacement.cols());
   for (std::size_t h = 0; h < of.system().harmonics.size(); ++h) {
     const auto j = static_cast<Eigen::Index>(h);
-    const dynamics::HarmonicStiffness& at = of.system().harmonics[h];
+    const dynamics::CondensedHarmonic& at = of.system().harmonics[h];
     const Eigen::VectorXcd contact = dynamics::harmonic_of(point.displacement, j);
     dynamics::put_harmonic(model.outputs(at, contact), j, summary.outputs);
     const dynamics::CondensedModel::HarmonicEnergy energy =

@@ -111,40 +111,29 @@ Eigen::MatrixXd Tangent::response_to_frequency() const {
 WearRateSlopes Tangent::wear_rate_slopes() const {
   const dynamics::CondensedModel& model = problem().model();
   const Eigen::Index d = model.directions(), nc = model.contact_size(), k = problem().basis().coefficients();
-  WearRateSlopes slopes{.to_displacement = Eigen::MatrixXd(model.nodes(), unknowns()),
-                        .to_wear = Eigen::VectorXd(model.nodes())};
+  WearRateSlopes slopes{.by_displacement = {}, .by_wear = Eigen::VectorXd(model.nodes())};
+  std::vector<Eigen::MatrixXd> by_prediction;
   for (Eigen::Index i = 0; i < model.nodes(); ++i) {
     const contact::MarchResult& node = point_->nodes[static_cast<std::size_t>(i)];
     const contact::WearRate by = model.wear_rate(i, {.load = node.slip_load, .energy = node.dissipation});
-    // To what the node predicts, which is (eps I - Z) U - eps_N W.
-    const Eigen::MatrixXd slope =
-        (by.by_load * node.slip_load_derivative + by.by_energy * node.dissipation_derivative).reshaped(d, k);
-    slopes.to_wear(i) = -problem().penalty().normal(i) * slope(0, 0);
-    auto row = slopes.to_displacement.row(i);
-    for (Eigen::Index h = 0; 2 * h < k; ++h) {
-      Eigen::RowVectorXcd amplitude(d);  // c + i s
-      amplitude.real() = slope.col(std::max<Eigen::Index>(2 * h - 1, 0)).transpose();
-      if (h == 0)
-        amplitude.imag().setZero();
-      else
-        amplitude.imag() = slope.col(2 * h).transpose();
-      const Eigen::MatrixXcd& stiffness = problem().system().harmonics[static_cast<std::size_t>(h)].stiffness;
-      const Eigen::RowVectorXcd moved = -amplitude * stiffness.middleRows(i * d, d);
-      row.segment(std::max<Eigen::Index>(2 * h - 1, 0) * nc, nc) = moved.real();
-      if (h > 0) row.segment(2 * h * nc, nc) = moved.imag();
-    }
-    for (Eigen::Index j = 0; j < k; ++j)
-      row.segment(j * nc + i * d, d) +=
-          slope.col(j).cwiseProduct(problem().dof_penalty().segment(i * d, d)).transpose();
+    by_prediction.emplace_back(
+        (by.by_load * node.slip_load_derivative + by.by_energy * node.dissipation_derivative).reshaped(d, k));
+    slopes.by_wear(i) = -problem().penalty().normal(i) * by_prediction.back()(0, 0);
   }
+  // A node predicts (eps I - Z) U - eps_N W; the transpose of the real form of Z is that of its conjugate.
+  slopes.by_displacement = -problem().system().stiffness.apply_to_blocks(by_prediction, true);
+  for (Eigen::Index i = 0; i < model.nodes(); ++i)
+    for (Eigen::Index j = 0; j < k; ++j)
+      slopes.by_displacement.col(i).segment(j * nc + i * d, d) +=
+          by_prediction[static_cast<std::size_t>(i)].col(j).cwiseProduct(problem().dof_penalty().segment(i * d, d));
   return slopes;
 }
 
 Eigen::MatrixXd Tangent::wear_rate_to_wear(const std::vector<Eigen::Index>& nodes) const {
   const WearRateSlopes slopes = wear_rate_slopes();
-  Eigen::MatrixXd result = numerics::product(slopes.to_displacement, solve(-residual_to_wear(nodes)));
+  Eigen::MatrixXd result = numerics::transposed_product(slopes.by_displacement, solve(-residual_to_wear(nodes)));
   for (std::size_t p = 0; p < nodes.size(); ++p)
-    result(nodes[p], static_cast<Eigen::Index>(p)) += slopes.to_wear(nodes[p]);
+    result(nodes[p], static_cast<Eigen::Index>(p)) += slopes.by_wear(nodes[p]);
   return result;
 }
 

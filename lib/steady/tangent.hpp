@@ -21,8 +21,8 @@ enum class Factorise {
 
 /// Partial derivatives of the wear per cycle of every node.
 struct WearRateSlopes {
-  Eigen::MatrixXd to_displacement;  ///< [Nc, nc (2H+1)]
-  Eigen::VectorXd to_wear;          ///< of a node by its own depth [Nc]
+  Eigen::MatrixXd by_displacement;  ///< by vec(U), a column per node [nc (2H+1), Nc]
+  Eigen::VectorXd by_wear;          ///< of a node by its own depth [Nc]
 };
 
 /// The Jacobian J = Z + D (eps I - Z) of a point and what follows from it. All vectors over the unknowns are vec(U):

@@ -14,6 +14,11 @@ double condensation_operations(Eigen::Index open, Eigen::Index dofs, int harmoni
   return (harmonics + 1) * 8 * o * (o * o / 3 + o * kept + kept * kept);
 }
 
+double shared_condensation_operations(Eigen::Index open, Eigen::Index kept, Eigen::Index within, int harmonics) {
+  const auto o = static_cast<double>(open), k = static_cast<double>(kept), m = static_cast<double>(within);
+  return 2 * o * (o * o / 3 + (o + k) * (k + m) + m * m) + (harmonics + 1) * 30 * m * m * m;
+}
+
 double product_operations(double entries) {
   return WorkParams{}.product * entries;
 }

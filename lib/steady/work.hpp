@@ -13,6 +13,10 @@ namespace dovetail::steady {
 /// `open` of so many contact dofs condensed in H+1 harmonics.
 [[nodiscard]] double condensation_operations(Eigen::Index open, Eigen::Index dofs, int harmonics);
 
+/// The same where the harmonics share what is static, with so many coordinates within.
+[[nodiscard]] double shared_condensation_operations(Eigen::Index open, Eigen::Index kept, Eigen::Index within,
+                                                    int harmonics);
+
 /// Products with matrices of so many entries together, which are read once for each.
 [[nodiscard]] double product_operations(double entries);
 

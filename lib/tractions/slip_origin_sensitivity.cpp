@@ -53,13 +53,9 @@ Eigen::MatrixXd slip_to_slip_origin(const steady::State& state, const SlipWeight
         (weights.load(i) * node.slip_load_derivative + weights.energy(i) * node.dissipation_derivative).reshaped(d, k);
   }
   // d lambda_u = (eps I - Z) dU; the transpose of the real form of a complex symmetric Z is that of its conjugate.
-  Eigen::MatrixXd gradient(by_prediction.rows(), k);
-  for (std::size_t h = 0; h < problem.system().harmonics.size(); ++h) {
-    const auto j = static_cast<Eigen::Index>(h);
-    dynamics::put_harmonic(
-        -problem.system().harmonics[h].stiffness.conjugate() * dynamics::harmonic_of(by_prediction, j), j, gradient);
-  }
-  gradient += problem.dof_penalty().asDiagonal() * by_prediction;
+  const Eigen::VectorXd by_stiffness = problem.system().stiffness.apply(by_prediction.reshaped(), true);
+  const Eigen::MatrixXd gradient =
+      problem.dof_penalty().asDiagonal() * by_prediction - by_stiffness.reshaped(by_prediction.rows(), k);
   return by_adjoint(tangent, gradient);
 }
 

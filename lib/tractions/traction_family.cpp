@@ -55,7 +55,7 @@ TractionFamily::TractionFamily(const steady::State& nominal) {
     }
   }
   limit_ = Eigen::Map<const Eigen::VectorXd>(limit.data(), static_cast<Eigen::Index>(limit.size()));
-  const Eigen::MatrixXd stiffness = problem.system().harmonics.front().stiffness.real();
+  const Eigen::MatrixXd stiffness = problem.system().stiffness.mean();
   Eigen::MatrixXd seen = stiffness(stuck, stuck);
   if (!free.empty()) {
     const Eigen::MatrixXd across = stiffness(free, stuck);

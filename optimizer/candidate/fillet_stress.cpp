@@ -42,7 +42,7 @@ Eigen::VectorXd largest_von_mises(const Eigen::MatrixXd& coefficients, Eigen::In
 Eigen::MatrixXd reduced_coordinates(const steady::State& state) {
   assert(state.status == Status::converged && state.tangent);
   const steady::Problem& residual = state.tangent->problem();
-  const std::vector<dynamics::HarmonicStiffness>& harmonics = residual.system().harmonics;
+  const std::vector<dynamics::CondensedHarmonic>& harmonics = residual.system().harmonics;
   Eigen::MatrixXd result(residual.model().size(), state.displacement.cols());
   for (std::size_t i = 0; i < harmonics.size(); ++i) {
     const auto h = static_cast<Eigen::Index>(i);

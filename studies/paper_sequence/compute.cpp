@@ -74,7 +74,7 @@ class Study {
 
   [[nodiscard]] double glued_amplitude(double omega) const {
     const dynamics::CondensedModel& model = *candidate_.model.condensed;
-    const dynamics::HarmonicStiffness at = model.harmonic(1, omega);
+    const dynamics::CondensedHarmonic at = model.harmonic(1, omega);
     if (at.status != Status::converged) return kUnknown;
     return std::abs(model.outputs(at, Eigen::VectorXcd::Zero(model.contact_size()))(0));
   }

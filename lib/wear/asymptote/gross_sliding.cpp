@@ -24,7 +24,7 @@ double bearing_area(const dynamics::CondensedModel& model, const steady::State& 
 }
 
 bool held_without_contact(const dynamics::CondensedModel& model, double omega) {
-  Eigen::MatrixXd stiffness = model.harmonic(0, omega).stiffness.real();
+  Eigen::MatrixXd stiffness = model.stiffness(0, omega, model.harmonic(0, omega)).real();
   stiffness.diagonal().array() -= BearingParams{}.nothing * stiffness.diagonal().cwiseAbs().maxCoeff();
   return numerics::DenseCholesky(std::move(stiffness)).status() == Status::converged;
 }

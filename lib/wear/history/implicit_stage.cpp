@@ -42,9 +42,9 @@ void ImplicitStage::adopt(const std::shared_ptr<const steady::Tangent>& tangent)
   std::iota(all.begin(), all.end(), Index{0});
   response_ = tangent->solve(-tangent->residual_to_wear(all));
   steady::WearRateSlopes slopes = tangent->wear_rate_slopes();
-  to_displacement_ = std::move(slopes.to_displacement);
-  slope_ = numerics::product(to_displacement_, response_);
-  slope_.diagonal() += slopes.to_wear;
+  by_displacement_ = std::move(slopes.by_displacement);
+  slope_ = numerics::transposed_product(by_displacement_, response_);
+  slope_.diagonal() += slopes.by_wear;
 }
 
 void ImplicitStage::factorise_at(const WearPoint& at) {
@@ -125,7 +125,7 @@ class ImplicitStage::Equations {
   Status direction(VectorXd& step) {
     const Index nodes = base_.size();
     const VectorXd free = stage_.tangent_->solve(-at_->residual.reshaped());
-    const VectorXd driven = numerics::product(stage_.to_displacement_, free);
+    const VectorXd driven = numerics::transposed_product(stage_.by_displacement_, free);
     if (factored_ != stage_.tangent_.get()) {
       rates_lu_.factorise(MatrixXd::Identity(nodes, nodes) - cycles_.asDiagonal() * stage_.slope_);
       factored_ = stage_.tangent_.get();

@@ -43,7 +43,7 @@ class ImplicitStage {
   steady::Problem problem_;
   std::shared_ptr<const steady::Tangent> tangent_;
   WearPoint factored_at_;            // without its rate
-  Eigen::MatrixXd to_displacement_;  // dr/dU at the same W, [Nc, nc (2H+1)]
+  Eigen::MatrixXd by_displacement_;  // dr/dU at the same W, a column per node [nc (2H+1), Nc]
   Eigen::MatrixXd response_;         // dU/dW along f = 0, [nc (2H+1), Nc]
   Eigen::MatrixXd slope_;            // R = dr/dW along f = 0, [Nc, Nc]
   int solves_ = 0, jacobians_ = 0;

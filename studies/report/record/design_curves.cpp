@@ -25,7 +25,7 @@ struct Band {
 };
 
 double glued_amplitude(const dynamics::CondensedModel& model, double omega, Status& status) {
-  const dynamics::HarmonicStiffness at = model.harmonic(1, omega);
+  const dynamics::CondensedHarmonic at = model.harmonic(1, omega);
   status = at.status;
   return std::abs(model.outputs(at, Eigen::VectorXcd::Zero(model.contact_size()))(0));
 }

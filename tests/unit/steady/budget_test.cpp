@@ -14,7 +14,7 @@ namespace {
 constexpr int kNodes = 3, kHarmonics = 3, kSamples = 64;
 
 std::shared_ptr<const dynamics::CondensedModel> model() {
-  return std::make_shared<const dynamics::CondensedModel>(random_model(kNodes, 2, false));
+  return std::make_shared<const dynamics::CondensedModel>(random_model(kNodes, 2, Damping::proportional));
 }
 
 SharedBudget jacobians(double count) {
@@ -53,7 +53,7 @@ TEST(Budget, CountsTheSameEveryTime) {
 // Powell's method and all rescues are tried. Past its budget a solve may finish the Jacobian at hand and march the
 // start of one more attempt.
 TEST(Budget, EndsAHopelessSolve) {
-  reduction::ReducedModel pulled_off = random_model(kNodes, 2, false);
+  reduction::ReducedModel pulled_off = random_model(kNodes, 2, Damping::proportional);
   for (const int normal : pulled_off.contact.normal) {
     pulled_off.static_force(normal) = -1;
     for (Eigen::MatrixXd* matrix : {&pulled_off.stiffness, &pulled_off.damping}) {

@@ -28,7 +28,8 @@ struct Kind {
 class Jacobian : public testing::TestWithParam<Kind> {};
 
 TEST_P(Jacobian, MatchesFiniteDifferencesAndItsOwnSolver) {
-  const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(5, GetParam().tangential, false));
+  const auto model =
+      std::make_shared<const dynamics::CondensedModel>(random_model(5, GetParam().tangential, Damping::proportional));
   steady::Condition condition;
   condition.released = {0, 0, 1, 0, 0};
   const std::shared_ptr<const steady::Problem> of = problem(model, 1.3, condition, GetParam().slip_return);
@@ -70,10 +71,10 @@ INSTANTIATE_TEST_SUITE_P(Kinds, Jacobian,
                          [](const testing::TestParamInfo<Kind>& kind) { return std::string(kind.param.name); });
 
 TEST(CondensedModel, IsTheSchurComplementWithItsSlope) {
-  for (const bool general : {false, true}) {
-    const reduction::ReducedModel reduced = random_model(3, 2, general);
+  for (const Damping damping : {Damping::proportional, Damping::general, Damping::within}) {
+    const reduction::ReducedModel reduced = random_model(3, 2, damping);
     const dynamics::CondensedModel model(reduced);
-    EXPECT_EQ(model.modal(), !general);
+    EXPECT_EQ(model.modal(), damping != Damping::general);
     const double omega = 1.7, step = 2e-6;  // truncation 4e-12 times the third derivative, rounding 1e-10
     for (const int h : {0, 1, 3}) {
       const Eigen::MatrixXcd s = reduced.stiffness.cast<std::complex<double>>() +
@@ -81,11 +82,17 @@ TEST(CondensedModel, IsTheSchurComplementWithItsSlope) {
                                  h * h * omega * omega * reduced.mass;
       const Eigen::MatrixXcd ii = s.topLeftCorner(6, 6), ci = s.bottomLeftCorner(9, 6);
       const Eigen::MatrixXcd exact = s.bottomRightCorner(9, 9) - ci * ii.inverse() * ci.transpose();
-      const dynamics::HarmonicStiffness at = model.harmonic(h, omega);
-      EXPECT_LT((at.stiffness - exact).norm(), 1e-12 * exact.norm());
-      const dynamics::HarmonicStiffness up = model.harmonic(h, omega + step), down = model.harmonic(h, omega - step);
+      const dynamics::CondensedHarmonic at = model.harmonic(h, omega);
+      EXPECT_LT((model.stiffness(h, omega, at) - exact).norm(), 1e-12 * exact.norm());
+      const dynamics::HarmonicMatrices all = dynamics::harmonic_system(model, 3, omega).stiffness;
+      EXPECT_EQ(all.base() != nullptr, damping == Damping::within);
+      EXPECT_LT((all.matrix(h) - exact).norm(), 1e-12 * exact.norm());
+      const dynamics::CondensedHarmonic up = model.harmonic(h, omega + step), down = model.harmonic(h, omega - step);
       const Eigen::VectorXcd u = Eigen::VectorXcd::Random(9);
-      const Eigen::VectorXcd slope = ((up.stiffness - down.stiffness) * u - (up.force - down.force)) / (2 * step);
+      const Eigen::VectorXcd slope =
+          ((model.stiffness(h, omega + step, up) - model.stiffness(h, omega - step, down)) * u -
+           (up.force - down.force)) /
+          (2 * step);
       EXPECT_LT((model.slope(h, omega, at, u) - slope).norm(), 1e-8 * (1 + slope.norm()));
       // Internal rows of S q = F hold for the recovered displacements.
       Eigen::VectorXcd force = Eigen::VectorXcd::Zero(15);
@@ -102,8 +109,34 @@ TEST(CondensedModel, IsTheSchurComplementWithItsSlope) {
   }
 }
 
+// What harmonics share is applied at once, and what they do not share one by one: with the same result.
+TEST(HarmonicMatrices, ApplyAlikeSharedAndDense) {
+  const dynamics::CondensedModel model(random_model(3, 2, Damping::within));
+  const dynamics::HarmonicMatrices shared = dynamics::harmonic_system(model, 3, 1.7).stiffness;
+  dynamics::HarmonicMatrices dense = shared;
+  dense.add_to_diagonal(2, Eigen::VectorXcd::Zero(9));
+  ASSERT_TRUE(shared.base() && !dense.base());
+  Eigen::MatrixXd x = Eigen::MatrixXd::Random(9 * 7, 4);
+  x.topRows(9 * 2).setZero();  // some coefficients are
+  x.col(1).setZero();
+  std::vector<Eigen::MatrixXd> local(3);
+  for (Eigen::MatrixXd& at : local) at = Eigen::MatrixXd::Random(3, 7);
+  Eigen::MatrixXd blocks = Eigen::MatrixXd::Zero(9 * 7, 3);
+  for (Eigen::Index i = 0; i < 3; ++i)
+    for (Eigen::Index k = 0; k < 7; ++k)
+      blocks.col(i).segment(k * 9 + 3 * i, 3) = local[static_cast<std::size_t>(i)].col(k);
+  for (const bool conjugated : {false, true}) {
+    EXPECT_LT((shared.apply(x, conjugated) - dense.apply(x, conjugated)).norm(), 1e-14 * x.norm() * 50);
+    for (const dynamics::HarmonicMatrices* each : {&shared, &std::as_const(dense)})
+      EXPECT_LT((each->apply_to_blocks(local, conjugated) - shared.apply(blocks, conjugated)).norm(), 1e-12);
+  }
+  EXPECT_GT((shared.apply(x, true) - shared.apply(x)).norm(), 1e-3);  // damped
+  for (int h = 0; h <= 3; ++h) EXPECT_LT((shared.matrix(h) - dense.matrix(h)).norm(), 1e-14);
+  EXPECT_LT((shared.rows(1, 3, 2) - dense.matrix(1).middleRows(3, 2)).norm(), 1e-12);
+}
+
 TEST(CondensedModel, ReportsEverythingWrong) {
-  reduction::ReducedModel model = random_model(3, 1, false);
+  reduction::ReducedModel model = random_model(3, 1, Damping::proportional);
   model.contact.area(1) = 0;
   model.contact.normal(2) = 99;
   model.static_force.resize(2);
@@ -113,7 +146,7 @@ TEST(CondensedModel, ReportsEverythingWrong) {
   } catch (const InputError& error) {
     EXPECT_EQ(error.violations().size(), 3u) << error.what();
   }
-  model = random_model(3, 1, false);
+  model = random_model(3, 1, Damping::proportional);
   model.stiffness(0, 1) += 1;  // the engine would see half of it
   EXPECT_THROW(dynamics::CondensedModel{model}, InputError);
 }
@@ -136,7 +169,7 @@ TEST(Extremes, FindsTheLargestOfSeveral) {
 }
 
 TEST(State, RefusesBadOptions) {
-  const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(2, 1, false));
+  const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(2, 1, Damping::proportional));
   EXPECT_THROW((void)paths::steady_state({model, {}, {.harmonics = 3, .samples = 6}}, 1), InputError);
   EXPECT_THROW((void)paths::steady_state({model, {}, {}}, -1), InputError);
   EXPECT_THROW((void)paths::steady_state({model, {}, {}}, 1, Eigen::MatrixXd::Zero(2, 7)), InputError);
@@ -144,7 +177,7 @@ TEST(State, RefusesBadOptions) {
 }
 
 TEST(State, SolversAgree) {
-  const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(2, 1, false));
+  const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(2, 1, Damping::proportional));
   const steady::State newton = paths::steady_state({model, {}, {.solver = steady::Solver::newton}}, 1.3);
   ASSERT_EQ(newton.status, Status::converged);
   for (const steady::Solver solver : {steady::Solver::powell, steady::Solver::powell_fd}) {
@@ -158,7 +191,7 @@ TEST(State, SolversAgree) {
 // A free body on `nodes` contact nodes, pressed on them: nothing else holds it, and rounding leaves its stiffness
 // against being moved as a whole at about 1e-16 of the others instead of zero.
 reduction::ReducedModel free_body(Eigen::Index nodes) {
-  reduction::ReducedModel model = random_model(nodes, 1, false);
+  reduction::ReducedModel model = random_model(nodes, 1, Damping::proportional);
   const Eigen::Index n = model.stiffness.rows();
   Eigen::MatrixXd rigid = Eigen::MatrixXd::Zero(n, 2);
   for (Eigen::Index i = 0; i < n; ++i) rigid(i, i % 2) = 1;  // contact dofs begin at an even index: N, T, N, T, ...
@@ -210,7 +243,7 @@ TEST(State, OfABodyThatIsFreeToGoNowhereInParticularIsSingular) {
 }
 
 TEST(Tangent, PredictsWearAndFrequency) {
-  const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(4, 2, false));
+  const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(4, 2, Damping::proportional));
   const steady::Options options{.tolerance = 1e-13, .periodic_tolerance = 1e-13};
   const double omega = 1.3, h = 1e-6;
   const steady::State at = paths::steady_state({model, {}, options}, omega);

@@ -8,8 +8,11 @@
 
 namespace dovetail {
 
+/// Proportional, so that coordinates within are modal; not; or of those alone, so that harmonics share what is static.
+enum class Damping { proportional, general, within };
+
 /// A random structure held everywhere, with `nodes` contact nodes under pressure and strong excitation.
-inline reduction::ReducedModel random_model(Eigen::Index nodes, Eigen::Index tangential, bool general_damping) {
+inline reduction::ReducedModel random_model(Eigen::Index nodes, Eigen::Index tangential, Damping damping) {
   const Eigen::Index nc = nodes * (1 + tangential), ni = 6, n = nc + ni;
   std::mt19937 generator(3);
   std::normal_distribution<double> normal;
@@ -20,8 +23,9 @@ inline reduction::ReducedModel random_model(Eigen::Index nodes, Eigen::Index tan
   model.mass = Eigen::MatrixXd::Zero(n, n);
   const Eigen::MatrixXd b = Eigen::MatrixXd::NullaryExpr(ni, ni, draw);
   model.mass.topLeftCorner(ni, ni) = b * b.transpose() + Eigen::MatrixXd::Identity(ni, ni);
-  model.damping = 0.03 * model.stiffness + 0.02 * model.mass;
-  if (general_damping) model.damping(0, 0) += 0.7;
+  model.damping = 0.02 * model.mass;
+  if (damping != Damping::within) model.damping += 0.03 * model.stiffness;
+  if (damping == Damping::general) model.damping(0, 0) += 0.7;
   model.static_force = Eigen::VectorXd::Zero(n);
   model.cosine_force = Eigen::MatrixXd::NullaryExpr(2, n, draw);
   model.sine_force = Eigen::MatrixXd::Zero(2, n);

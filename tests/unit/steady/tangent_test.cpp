@@ -21,10 +21,12 @@ Eigen::MatrixXd random_matrix(Eigen::Index rows, Eigen::Index columns, unsigned 
 class Condensation : public testing::TestWithParam<std::vector<char>> {};
 
 TEST_P(Condensation, OfNodesWithoutForceIsExact) {
-  for (const Eigen::Index tangential : {1, 2}) {
-    const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(5, tangential, false));
+  for (const auto& [tangential, damping] :
+       {std::pair{1, Damping::proportional}, {2, Damping::proportional}, {1, Damping::within}, {2, Damping::within}}) {
+    const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(5, tangential, damping));
     const std::shared_ptr<const steady::Problem> of = problem(model, 1.3, {.released = GetParam()});
     const Eigen::Index nc = model->contact_size();
+    EXPECT_EQ(of->system().stiffness.base() != nullptr, damping == Damping::within);
     const std::shared_ptr<const steady::Point> at = point(of, of->closed_start() + 0.02 * random_matrix(nc, 7, 11));
     const steady::Tangent linear(at);
     ASSERT_EQ(linear.factors().status(), Status::converged);
@@ -47,7 +49,7 @@ INSTANTIATE_TEST_SUITE_P(Nodes, Condensation,
 
 TEST(Tangent, FactorisesTheMeanOnlyOfANodeThatSlidInEarlierPeriods) {
   for (const Eigen::Index tangential : {1, 2}) {
-    reduction::ReducedModel quiet = random_model(5, tangential, false);
+    reduction::ReducedModel quiet = random_model(5, tangential, Damping::proportional);
     quiet.cosine_force.setZero();
     quiet.sine_force.setZero();
     const auto model = std::make_shared<const dynamics::CondensedModel>(quiet);
@@ -80,7 +82,7 @@ TEST(Tangent, FactorisesTheMeanOnlyOfANodeThatSlidInEarlierPeriods) {
 }
 
 TEST(Tangent, SharesTheFactorsOfAnEqualJacobianOnly) {
-  const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(4, 1, false));
+  const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(4, 1, Damping::proportional));
   const std::shared_ptr<const steady::Problem> of = problem(model, 1.3, {});
   const Eigen::MatrixXd at = of->closed_start() + 0.02 * random_matrix(8, 7, 5);
   const steady::Tangent first(point(of, at));
@@ -92,7 +94,7 @@ TEST(Tangent, SharesTheFactorsOfAnEqualJacobianOnly) {
 }
 
 TEST(Tangent, SolvesWithTheFactorsOfAPointNearBy) {
-  const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(60, 1, false));
+  const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(60, 1, Damping::proportional));
   const std::shared_ptr<const steady::Problem> of = problem(model, 1.3, {});
   const Eigen::MatrixXd at = of->closed_start() + 0.02 * random_matrix(120, 7, 5);
   const steady::Tangent first(point(of, at));
@@ -117,7 +119,7 @@ TEST(Tangent, SolvesWithTheFactorsOfAPointNearBy) {
 
 // Where nothing near by helps, or nothing is left to save, the Jacobian is factorised.
 TEST(Tangent, HasFactorsOfItsOwnFarFromTheOthers) {
-  const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(60, 1, false));
+  const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(60, 1, Damping::proportional));
   const std::shared_ptr<const steady::Problem> of = problem(model, 1.3, {});
   const Eigen::MatrixXd at = of->closed_start() + 0.02 * random_matrix(120, 7, 5);
   const steady::Tangent first(point(of, at));
@@ -133,7 +135,7 @@ TEST(Tangent, HasFactorsOfItsOwnFarFromTheOthers) {
 }
 
 TEST(State, IsTheSameWithKeptFactorsAndTakesFewerJacobians) {
-  const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(60, 1, false));
+  const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(60, 1, Damping::proportional));
   const steady::Options options{.tolerance = 1e-12};
   const steady::State from = paths::steady_state({model, {}, options}, 1.30);
   ASSERT_EQ(from.status, Status::converged);
