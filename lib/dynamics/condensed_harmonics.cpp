@@ -95,7 +95,7 @@ HarmonicMatrices CondensedModel::stiffness(double omega, const std::vector<Conde
       continue;
     }
     const Eigen::VectorXcd within = Dynamic(h, omega).value(stiffness_.ii, damping_.ii, mass_.ii).col(0);
-    matrices.emplace_back((-within.cwiseInverse()).asDiagonal());
+    matrices.emplace_back((-within(moving_).cwiseInverse()).asDiagonal());
   }
   return shared_ ? HarmonicMatrices(shared_, shared_coupling_, std::move(matrices))
                  : HarmonicMatrices(std::move(matrices));

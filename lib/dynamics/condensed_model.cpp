@@ -173,11 +173,25 @@ void CondensedModel::subtract_massless_coordinates() {
   local_stiffness_ -= coupling.cwiseProduct(stiffness.solve(coupling)).colwise().sum().transpose();
 }
 
+// Springs within that have neither mass nor damping belong to what is static, too. They may be far stiffer than what
+// they hold, and are taken out once: in every product what is left of the difference would be rounded anew.
 void CondensedModel::share_static_stiffness() {
   const auto none = [](const Partition& part) { return part.cc.isZero(0) && part.ci.isZero(0); };
   if (!modal_ || !none(mass_) || !none(damping_)) return;
-  shared_ = std::make_shared<const Eigen::MatrixXd>(stiffness_.cc);
-  shared_coupling_ = std::make_shared<const Eigen::MatrixXd>(stiffness_.ci);
+  const double limit = kCondensation.massless * (mass_.ii.size() > 0 ? mass_.ii.maxCoeff() : 0);
+  std::vector<Eigen::Index> springs;
+  for (Eigen::Index j = 0; j < mass_.ii.rows(); ++j) {
+    const bool spring = mass_.ii(j, 0) <= limit && damping_.ii(j, 0) == 0 && stiffness_.ii(j, 0) > 0;
+    (spring ? springs : moving_).push_back(j);
+  }
+  Eigen::MatrixXd base = stiffness_.cc;
+  if (!springs.empty()) {
+    const Eigen::MatrixXd across = stiffness_.ci(Eigen::all, springs);
+    const Eigen::VectorXd give = stiffness_.ii.col(0)(springs).cwiseInverse();
+    base -= numerics::product(across, give.asDiagonal() * across.transpose());
+  }
+  shared_ = std::make_shared<const Eigen::MatrixXd>(std::move(base));
+  shared_coupling_ = std::make_shared<const Eigen::MatrixXd>(stiffness_.ci(Eigen::all, moving_));
 }
 
 void CondensedModel::set_glued_frequencies(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& stiffness) {

@@ -119,8 +119,9 @@ class CondensedModel {
     Eigen::MatrixXd cc, ci, ii;
   };
   Partition mass_, damping_, stiffness_;
-  // K_cc and K_ci again, where neither mass nor damping acts on or across the contact and the rest is modal: all
-  // harmonics share them.
+  // Where neither mass nor damping acts on or across the contact and the rest is modal all harmonics share what is
+  // static: K_cc without the springs within, and K_ci of the other coordinates.
+  std::vector<Eigen::Index> moving_;
   std::shared_ptr<const Eigen::MatrixXd> shared_, shared_coupling_;
   Eigen::MatrixXcd force_contact_, force_internal_;  // column h, complex amplitude c - i s
   Eigen::MatrixXd output_contact_, output_internal_;

@@ -92,6 +92,19 @@ Eigen::MatrixXd apply_jacobian(const Point& point, const Eigen::MatrixXd& change
   return linear + apply_force_derivative(point, point.problem->dof_penalty().asDiagonal() * change - linear);
 }
 
+std::vector<Eigen::MatrixXd> wear_rate_by_prediction(const Point& point) {
+  assert(point.has_derivative);
+  const dynamics::CondensedModel& model = point.problem->model();
+  std::vector<Eigen::MatrixXd> derivative;
+  for (Eigen::Index i = 0; i < model.nodes(); ++i) {
+    const contact::MarchResult& node = point.nodes[static_cast<std::size_t>(i)];
+    const contact::WearRate by = model.wear_rate(i, {.load = node.slip_load, .energy = node.dissipation});
+    derivative.emplace_back((by.by_load * node.slip_load_derivative + by.by_energy * node.dissipation_derivative)
+                                .reshaped(model.directions(), point.problem->basis().coefficients()));
+  }
+  return derivative;
+}
+
 Eigen::MatrixXd residual_to_frequency(const Point& point) {
   // lambda_u falls by what the linear part gains, and lambda follows it through D.
   const Eigen::MatrixXd linear =

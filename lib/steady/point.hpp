@@ -39,6 +39,8 @@ void differentiate(Point& point);
 /// D applied to a change of lambda_u, and J to a change of U, both [nc, 2H+1], without forming J. O(nc^2 H).
 [[nodiscard]] Eigen::MatrixXd apply_force_derivative(const Point& point, const Eigen::MatrixXd& change);
 [[nodiscard]] Eigen::MatrixXd apply_jacobian(const Point& point, const Eigen::MatrixXd& change);
+/// Derivative of what each node wears per cycle by what it predicts, lambda_u: [d, 2H+1] per node.
+[[nodiscard]] std::vector<Eigen::MatrixXd> wear_rate_by_prediction(const Point& point);
 /// df/dw = (I - D)(dZ/dw U - dF/dw) [nc, 2H+1], N s.
 [[nodiscard]] Eigen::MatrixXd residual_to_frequency(const Point& point);
 

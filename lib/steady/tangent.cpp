@@ -112,14 +112,9 @@ WearRateSlopes Tangent::wear_rate_slopes() const {
   const dynamics::CondensedModel& model = problem().model();
   const Eigen::Index d = model.directions(), nc = model.contact_size(), k = problem().basis().coefficients();
   WearRateSlopes slopes{.by_displacement = {}, .by_wear = Eigen::VectorXd(model.nodes())};
-  std::vector<Eigen::MatrixXd> by_prediction;
-  for (Eigen::Index i = 0; i < model.nodes(); ++i) {
-    const contact::MarchResult& node = point_->nodes[static_cast<std::size_t>(i)];
-    const contact::WearRate by = model.wear_rate(i, {.load = node.slip_load, .energy = node.dissipation});
-    by_prediction.emplace_back(
-        (by.by_load * node.slip_load_derivative + by.by_energy * node.dissipation_derivative).reshaped(d, k));
-    slopes.by_wear(i) = -problem().penalty().normal(i) * by_prediction.back()(0, 0);
-  }
+  const std::vector<Eigen::MatrixXd> by_prediction = wear_rate_by_prediction(*point_);
+  for (Eigen::Index i = 0; i < model.nodes(); ++i)
+    slopes.by_wear(i) = -problem().penalty().normal(i) * by_prediction[static_cast<std::size_t>(i)](0, 0);
   // A node predicts (eps I - Z) U - eps_N W; the transpose of the real form of Z is that of its conjugate.
   slopes.by_displacement = -problem().system().stiffness.apply_to_blocks(by_prediction, true);
   for (Eigen::Index i = 0; i < model.nodes(); ++i)

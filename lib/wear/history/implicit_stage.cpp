@@ -7,8 +7,10 @@
 
 #include "numerics/dense_lu.hpp"
 #include "numerics/dense_product.hpp"
+#include "numerics/gmres.hpp"
 #include "numerics/newton.hpp"
 #include "steady/params.hpp"
+#include "steady/work.hpp"
 #include "wear/params.hpp"
 
 namespace dovetail::wear {
@@ -37,6 +39,7 @@ VectorXd ImplicitStage::rate(const steady::Point& point) const {
 
 void ImplicitStage::adopt(const std::shared_ptr<const steady::Tangent>& tangent) {
   tangent_ = tangent;
+  spent_on_products_ = 0;
   const Index nodes = problem_.model().nodes();
   std::vector<Index> all(static_cast<std::size_t>(nodes));
   std::iota(all.begin(), all.end(), Index{0});
@@ -57,6 +60,18 @@ void ImplicitStage::factorise_at(const WearPoint& at) {
   factored_at_ = at;
 }
 
+double ImplicitStage::adoption_operations() const {
+  const auto nodes = static_cast<double>(slope_.rows()), unknowns = static_cast<double>(response_.rows());
+  const auto dense = static_cast<double>(tangent_->factors().size()),
+             contact = static_cast<double>(problem_.model().contact_size());
+  return tangent_->factors().operations() + 2 * nodes * (dense * dense + unknowns * (contact + nodes));
+}
+
+double ImplicitStage::product_operations() const {
+  const auto entries = static_cast<double>(response_.size() + by_displacement_.size());
+  return tangent_->factors().product_operations() + steady::product_operations(entries);
+}
+
 VectorXd ImplicitStage::damp(const VectorXd& cycles, const VectorXd& error) const {
   const numerics::DenseLu lu(MatrixXd::Identity(error.size(), error.size()) - cycles.asDiagonal() * slope_);
   if (lu.status() != Status::converged) return error;
@@ -67,11 +82,12 @@ VectorXd ImplicitStage::damp(const VectorXd& cycles, const VectorXd& error) cons
 /// The equations of a stage for Newton's method, in unknowns (U, x) that are forces relative to the excitation.
 class ImplicitStage::Equations {
  public:
-  Equations(ImplicitStage& stage, const VectorXd& base, const VectorXd& cycles, Index rows)
+  Equations(ImplicitStage& stage, const VectorXd& base, const VectorXd& cycles, Index rows, double tolerance)
       : stage_(stage),
         base_(base),
         cycles_(cycles),
         rows_(rows),
+        goal_(tolerance),
         unknowns_(stage.problem_.unknowns()),
         force_(stage.problem_.system().force_scale),
         unit_(unknowns_ + base.size()) {
@@ -93,15 +109,16 @@ class ImplicitStage::Equations {
     if (at_.use_count() > 1) at_ = std::make_shared<steady::Point>();
     steady::evaluate(stage_.problem(depth_), shaped(u.head(unknowns_)), *at_);
     rates_ = stage_.rate(*at_);
-    excess_ = u.tail(nodes) - base_ - cycles_.cwiseProduct(rates_);
-    VectorXd all(unit_.size());
-    all << at_->residual.reshaped() / force_, excess_.cwiseQuotient(unit_.tail(nodes));
-    return all;
+    const VectorXd excess = u.tail(nodes) - base_ - cycles_.cwiseProduct(rates_);
+    residual_.resize(unit_.size());
+    residual_ << at_->residual.reshaped() / force_, excess.cwiseQuotient(unit_.tail(nodes));
+    return residual_;
   }
 
   Status newton_step(VectorXd& step) {
     if (spent(stage_.problem_.budget())) return Status::budget_spent;
     steady::differentiate(*at_);
+    if (nearly(step)) return Status::converged;
     auto tangent = std::make_shared<const steady::Tangent>(at_, stage_.tangent_.get());
     if (tangent->factors().status() != Status::converged) return tangent->factors().status();
     ++stage_.jacobians_;
@@ -121,31 +138,84 @@ class ImplicitStage::Equations {
  private:
   [[nodiscard]] MatrixXd shaped(const VectorXd& u) const { return u.reshaped(rows_, u.size() / rows_); }
 
-  /// With the factors in use.
-  Status direction(VectorXd& step) {
+  /// The step by products with the Jacobian at the point and the factors in use, while that costs less than new ones.
+  bool nearly(VectorXd& step) {
+    const steady::FactoredJacobian& factors = stage_.tangent_->factors();
+    if (factors.regularised()) return false;
+    const double product = stage_.product_operations();
+    const double most =
+        (steady::WorkParams{}.products * stage_.adoption_operations() - stage_.spent_on_products_) / product;
+    if (most < 1) return false;
+    const std::vector<MatrixXd> by_prediction = steady::wear_rate_by_prediction(*at_);
+    const numerics::GmresResult found = numerics::gmres(
+        {.apply = [&](const VectorXd& x) { return applied(by_prediction, x); },
+         .near_solve = [this](const VectorXd& b) { return solved(b); }},
+        -residual_,
+        {.tolerance = forcing(), .most = static_cast<int>(std::min(most, steady::WorkParams{}.most_products))});
+    stage_.spent_on_products_ += found.products * product;
+    if (stage_.problem_.budget()) stage_.problem_.budget()->spend_on_factors(found.products * product);
+    if (found.status != Status::converged) return false;
+    step = found.x;
+    return true;
+  }
+
+  /// As exact as the next step can make use of, see steady::solve.
+  [[nodiscard]] double forcing() const {
+    constexpr steady::WorkParams kParams;
+    const double residual = residual_.norm();
+    return std::min(kParams.loosest_step, std::max(residual, kParams.of_goal * goal_ / residual));
+  }
+
+  /// The Jacobian of both equations at the point.
+  [[nodiscard]] VectorXd applied(const std::vector<MatrixXd>& by_prediction, const VectorXd& x) const {
+    const steady::Problem& of = stage_.problem_;
+    const Index nodes = base_.size(), d = of.model().directions(), k = unknowns_ / rows_;
+    const VectorXd all = x.cwiseProduct(unit_), deeper = all.tail(nodes);
+    const MatrixXd u = shaped(all.head(unknowns_)), linear = dynamics::apply_stiffness(of.system(), u);
+    MatrixXd predicted = of.dof_penalty().asDiagonal() * u - linear;
+    for (Index i = 0; i < nodes; ++i) predicted(i * d, 0) -= of.penalty().normal(i) * deeper(i);
+    const MatrixXd force = linear + steady::apply_force_derivative(*at_, predicted);
+    VectorXd faster(nodes);
+    for (Index i = 0; i < nodes; ++i)
+      faster(i) = by_prediction[static_cast<std::size_t>(i)].cwiseProduct(predicted.block(i * d, 0, d, k)).sum();
+    VectorXd result(unit_.size());
+    result << force.reshaped() / force_, (deeper - cycles_.cwiseProduct(faster)).cwiseQuotient(unit_.tail(nodes));
+    return result;
+  }
+
+  /// Step for a right-hand side of both equations with the factors in use; empty where these are singular.
+  [[nodiscard]] VectorXd solved(const VectorXd& rhs) {
     const Index nodes = base_.size();
-    const VectorXd free = stage_.tangent_->solve(-at_->residual.reshaped());
+    const VectorXd free = stage_.tangent_->solve(force_ * rhs.head(unknowns_));
     const VectorXd driven = numerics::transposed_product(stage_.by_displacement_, free);
     if (factored_ != stage_.tangent_.get()) {
       rates_lu_.factorise(MatrixXd::Identity(nodes, nodes) - cycles_.asDiagonal() * stage_.slope_);
       factored_ = stage_.tangent_.get();
     }
-    if (rates_lu_.status() != Status::converged) return rates_lu_.status();
-    const VectorXd deeper = rates_lu_.solve(cycles_.cwiseProduct(driven) - excess_);
-    step.resize(unit_.size());
+    if (rates_lu_.status() != Status::converged) return {};
+    const VectorXd deeper =
+        rates_lu_.solve(cycles_.cwiseProduct(driven) + rhs.tail(nodes).cwiseProduct(unit_.tail(nodes)));
+    VectorXd step(unit_.size());
     step << free + stage_.response_ * deeper, deeper;
-    step = step.cwiseQuotient(unit_).eval();
-    return Status::converged;
+    return step.cwiseQuotient(unit_);
+  }
+
+  /// With the factors in use.
+  Status direction(VectorXd& step) {
+    step = solved(-residual_);
+    return step.size() > 0 ? Status::converged : rates_lu_.status();
   }
 
   ImplicitStage& stage_;
   const VectorXd &base_, &cycles_;
-  Index rows_, unknowns_;
+  Index rows_;
+  double goal_;  // a start's floor may raise it
+  Index unknowns_;
   double force_;
   VectorXd unit_;  // m per unit unknown
   std::shared_ptr<steady::Point> at_ = std::make_shared<steady::Point>();
-  VectorXd depth_;   // W, never below the base
-  VectorXd excess_;  // g = x - B - c r
+  VectorXd depth_;     // W, never below the base
+  VectorXd residual_;  // of f and of g = x - B - c r
   VectorXd rates_;
   numerics::DenseLu rates_lu_;
   const steady::Tangent* factored_ = nullptr;
@@ -153,7 +223,7 @@ class ImplicitStage::Equations {
 
 Status ImplicitStage::solve(const VectorXd& base, const VectorXd& cycles, int max_iterations, WearPoint& point) {
   ++solves_;
-  Equations equations(*this, base, cycles, point.displacement.rows());
+  Equations equations(*this, base, cycles, point.displacement.rows(), problem_.options().tolerance);
   VectorXd x = equations.start(point);
   equations.residual(x);
   constexpr ImplicitParams kParams;

@@ -38,6 +38,9 @@ class ImplicitStage {
  private:
   class Equations;
   [[nodiscard]] std::shared_ptr<const steady::Problem> problem(const Eigen::VectorXd& depth) const;
+  /// Of new factors with what follows from them, and of a product with a Jacobian and solving once with them.
+  [[nodiscard]] double adoption_operations() const;
+  [[nodiscard]] double product_operations() const;
   [[nodiscard]] Eigen::VectorXd rate(const steady::Point& point) const;
 
   steady::Problem problem_;
@@ -46,6 +49,7 @@ class ImplicitStage {
   Eigen::MatrixXd by_displacement_;  // dr/dU at the same W, a column per node [nc (2H+1), Nc]
   Eigen::MatrixXd response_;         // dU/dW along f = 0, [nc (2H+1), Nc]
   Eigen::MatrixXd slope_;            // R = dr/dW along f = 0, [Nc, Nc]
+  double spent_on_products_ = 0;     // since they were taken, operations
   int solves_ = 0, jacobians_ = 0;
 };
 

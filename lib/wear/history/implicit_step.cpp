@@ -44,7 +44,6 @@ Status implicit_step(ImplicitStage& stage, double jump, int iterations, WearPoin
       past = true;
     }
   if (past) {
-    end = middle;
     if (const Status status = stage.solve(bounded, slowed, iterations, end); status != Status::converged) return status;
   }
   constexpr ErrorWeights kWeights;
