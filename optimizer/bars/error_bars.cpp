@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -147,14 +148,15 @@ class ErrorBarSources {
   }
 
   /// What the other settings leave hardly depends on the mesh: it is asked where a design costs least, and where that
-  /// has no answer on a finer one.
+  /// has no answer on a finer one. Of the contact, where coarser meshes do not resolve it, on the design's own.
   void ask_settings() {
     std::vector<Base> bases;
     for (std::size_t i = answers_.size(); i-- > 0;)  // the coarsest one stands last
-      if (const auto& [ratio, on_it] = others_.meshes()[i];
-          ratio > 1 && answers_[i].converged() && scene_.kind->coarse_answers)
+      if (const auto& [ratio, on_it] = others_.meshes()[i]; ratio > 1 && answers_[i].converged())
         bases.push_back({&on_it, resized(scene_, ratio), &answers_[i], {}});
     bases.push_back({&builder_, scene_, &result_.evaluation, result_.model});
+    const std::span<Base> of_contact =
+        scene_.kind->coarse_answers ? std::span<Base>(bases) : std::span<Base>(bases).last(1);
     // Contact nodes of a study have no mass.
     const quality::TruncationFactors factors = quality::truncation_factors(true);
     ask(bases, "modes", kCompanion.modes_factor, {[](Scene& changed, Computation&) {
@@ -163,18 +165,18 @@ class ErrorBarSources {
     if (scene_.solver.prestress == Prestress::shared)
       ask(bases, "prestress", 1, {[](Scene& changed, Computation&) { changed.solver.prestress = Prestress::own; }});
     if (as_here_.until < Stage::unworn) return;  // nothing moves
-    ask(bases, "harmonics", factors.harmonics, {[](Scene& changed, Computation&) {
+    ask(of_contact, "harmonics", factors.harmonics, {[](Scene& changed, Computation&) {
           changed.solver.harmonics = 2 * changed.solver.harmonics + 1;
           changed.solver.samples = quality::samples_for(changed.solver.harmonics, changed.solver.samples);
         }});
-    ask(bases, "samples", factors.samples, {[](Scene& changed, Computation&) { changed.solver.samples *= 2; }});
-    ask(bases, "pseudo_penalty", factors.penalty,
+    ask(of_contact, "samples", factors.samples, {[](Scene& changed, Computation&) { changed.solver.samples *= 2; }});
+    ask(of_contact, "pseudo_penalty", factors.penalty,
         {[](Scene&, Computation& how) { how.penalty_scale = kCompanion.softer; },
          [](Scene&, Computation& how) { how.penalty_scale = kCompanion.harder; }});
   }
 
   /// Of the first base and the first of `changes` to it that has an answer.
-  void ask(std::vector<Base>& bases, const char* source, double factor, const std::vector<Change>& changes) {
+  void ask(std::span<Base> bases, const char* source, double factor, const std::vector<Change>& changes) {
     Evaluation answer;
     for (Base& base : bases)
       for (const Change& change : changes) {

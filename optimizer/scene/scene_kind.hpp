@@ -34,7 +34,7 @@ struct SceneKind {
   int finer_below;      ///< edges along the flanks from which on coarser meshes say what finer ones would
   bool contact_grid;    ///< mesh.contact_flank_elements and mesh.contact_slot_elements count
   bool rough_peaks;     ///< the mesh is known to resolve the pressure at the ends of rough flanks
-  bool coarse_answers;  ///< a coarser mesh says what harmonics, samples, penalties and modes leave open
+  bool coarse_answers;  ///< a coarser mesh says what harmonics, samples and penalties leave open, as of modes in any
   bool in_space;        ///< there is a closed surface to export, and responses converge as in space
   int finer_meshes = std::numeric_limits<int>::max();  ///< optimizer.finer_meshes by default, at most
 };
