@@ -2,6 +2,7 @@
 
 #include <cblas.h>
 
+#include <algorithm>
 #include <cassert>
 #include <complex>
 
@@ -21,9 +22,16 @@ void gemm(CBLAS_TRANSPOSE form, int rows, int columns, int inner, const std::com
 void gemv(CBLAS_TRANSPOSE form, int rows, int columns, const double* a, int lda, const double* x, double* y) {
   cblas_dgemv(CblasColMajor, form, rows, columns, 1.0, a, lda, x, 1, 0.0, y, 1);
 }
+// OpenBLAS 0.3.21 reads the entry behind the last of x, where memory may end: a zero follows there.
 void gemv(CBLAS_TRANSPOSE form, int rows, int columns, const std::complex<double>* a, int lda,
           const std::complex<double>* x, std::complex<double>* y) {
   const std::complex<double> one = 1, zero = 0;
+  Eigen::VectorXcd longer;
+  if (form == CblasNoTrans) {
+    longer.setZero(columns + 1);
+    std::copy(x, x + columns, longer.data());
+    x = longer.data();
+  }
   cblas_zgemv(CblasColMajor, form, rows, columns, &one, a, lda, x, 1, &zero, y, 1);
 }
 
