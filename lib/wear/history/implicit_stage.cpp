@@ -22,6 +22,10 @@ using Eigen::VectorXd;
 ImplicitStage::ImplicitStage(const steady::Joint& joint, const steady::State& from)
     : problem_(joint, from.tangent->problem().shared_system(), from.penalty_ratio) {
   adopt(from.tangent);
+  const VectorXd& depth = from.tangent->problem().condition().wear_depth;
+  factored_at_ = {.displacement = from.displacement,
+                  .depth = depth.size() > 0 ? depth : VectorXd::Zero(problem_.model().nodes()),
+                  .rate = {}};
 }
 
 std::shared_ptr<const steady::Problem> ImplicitStage::problem(const VectorXd& depth) const {
@@ -141,7 +145,7 @@ class ImplicitStage::Equations {
   /// The step by products with the Jacobian at the point and the factors in use, while that costs less than new ones.
   bool nearly(VectorXd& step) {
     const steady::FactoredJacobian& factors = stage_.tangent_->factors();
-    if (factors.regularised()) return false;
+    if (factors.regularised() || rates_factors().status() != Status::converged) return false;
     const double product = stage_.product_operations();
     const double most =
         (steady::WorkParams{}.products * stage_.adoption_operations() - stage_.spent_on_products_) / product;
@@ -183,16 +187,21 @@ class ImplicitStage::Equations {
     return result;
   }
 
-  /// Step for a right-hand side of both equations with the factors in use; empty where these are singular.
-  [[nodiscard]] VectorXd solved(const VectorXd& rhs) {
-    const Index nodes = base_.size();
-    const VectorXd free = stage_.tangent_->solve(force_ * rhs.head(unknowns_));
-    const VectorXd driven = numerics::transposed_product(stage_.by_displacement_, free);
+  /// Of I - c R with the factors in use.
+  const numerics::DenseLu& rates_factors() {
     if (factored_ != stage_.tangent_.get()) {
+      const Index nodes = base_.size();
       rates_lu_.factorise(MatrixXd::Identity(nodes, nodes) - cycles_.asDiagonal() * stage_.slope_);
       factored_ = stage_.tangent_.get();
     }
-    if (rates_lu_.status() != Status::converged) return {};
+    return rates_lu_;
+  }
+
+  /// Step for a right-hand side of both equations with the factors in use, which must be regular.
+  [[nodiscard]] VectorXd solved(const VectorXd& rhs) const {
+    const Index nodes = base_.size();
+    const VectorXd free = stage_.tangent_->solve(force_ * rhs.head(unknowns_));
+    const VectorXd driven = numerics::transposed_product(stage_.by_displacement_, free);
     const VectorXd deeper =
         rates_lu_.solve(cycles_.cwiseProduct(driven) + rhs.tail(nodes).cwiseProduct(unit_.tail(nodes)));
     VectorXd step(unit_.size());
@@ -202,8 +211,9 @@ class ImplicitStage::Equations {
 
   /// With the factors in use.
   Status direction(VectorXd& step) {
+    if (rates_factors().status() != Status::converged) return rates_lu_.status();
     step = solved(-residual_);
-    return step.size() > 0 ? Status::converged : rates_lu_.status();
+    return Status::converged;
   }
 
   ImplicitStage& stage_;

@@ -29,7 +29,10 @@ class ImplicitStage {
 
   /// Takes the factors at a point, which need not be a solution.
   void factorise_at(const WearPoint& point);
-  /// Where the factors in use were taken; empty when they are those given.
+  /// Of products, what was spent in steps before counts no more: a history that is resumed does the same as one that
+  /// went on.
+  void begin_step() { spent_on_products_ = 0; }
+  /// Where the factors in use were taken.
   [[nodiscard]] const WearPoint& factored_at() const { return factored_at_; }
 
   [[nodiscard]] int solves() const { return solves_; }
@@ -49,7 +52,7 @@ class ImplicitStage {
   Eigen::MatrixXd by_displacement_;  // dr/dU at the same W, a column per node [nc (2H+1), Nc]
   Eigen::MatrixXd response_;         // dU/dW along f = 0, [nc (2H+1), Nc]
   Eigen::MatrixXd slope_;            // R = dr/dW along f = 0, [Nc, Nc]
-  double spent_on_products_ = 0;     // since they were taken, operations
+  double spent_on_products_ = 0;     // in this step since they were taken, operations
   int solves_ = 0, jacobians_ = 0;
 };
 

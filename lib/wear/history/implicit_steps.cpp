@@ -67,6 +67,7 @@ class ImplicitSteps : public Integrator {
 
  private:
   [[nodiscard]] Status stepped(double jump, WearPoint& next, VectorXd& error) {
+    stage_.begin_step();
     const int solves = stage_.solves(), jacobians = stage_.jacobians();
     const Status status = implicit_step(stage_, jump, params_.stage_iterations, next, error);
     joint_.count(stage_.solves() - solves, stage_.jacobians() - jacobians);
