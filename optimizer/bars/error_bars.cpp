@@ -148,7 +148,8 @@ class ErrorBarSources {
   }
 
   /// What the other settings leave hardly depends on the mesh: it is asked where a design costs least, and where that
-  /// has no answer on a finer one. Of the contact, where coarser meshes do not resolve it, on the design's own.
+  /// has no answer on a finer one. What the contact needs is asked on the design's own where coarser ones say nothing
+  /// of it.
   void ask_settings() {
     std::vector<Base> bases;
     for (std::size_t i = answers_.size(); i-- > 0;)  // the coarsest one stands last

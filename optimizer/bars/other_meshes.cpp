@@ -38,7 +38,8 @@ Scene resized(Scene scene, double ratio) {
 
 OtherMeshes::OtherMeshes(const Scene& reference, bool finer) {
   constexpr CompanionParams kParams;
-  const bool ask_finer = finer || reference.mesh.flank_elements < reference.kind->finer_below;
+  const int below = reference.kind->finer_below;  // 0: none is ever asked
+  const bool ask_finer = reference.mesh.flank_elements < below || (finer && below > 0);
   for (const double ratio : ask_finer ? kParams.finer : kParams.coarser)
     meshes_.push_back({.ratio = ratio, .builder = ModelBuilder(resized(reference, ratio))});
   if (reference.kind->lengths.empty()) finer_section_.emplace(resized_section(reference, kParams.section_ratio));

@@ -22,7 +22,7 @@ class OtherMeshes {
     ModelBuilder builder;
   };
 
-  /// `finer`: one of them is, whatever the mesh of the reference.
+  /// `finer`: one of them is, whatever the mesh of the reference, where the kind of scene asks finer ones at all.
   explicit OtherMeshes(const Scene& reference, bool finer = false);
   /// Where meshes of the kind are fine, coarser ones alone unless a finer one was asked for; in the order in which the
   /// error by the mesh is asked for.

@@ -31,10 +31,10 @@ struct SceneKind {
 
   std::span<const std::string_view> counts;   ///< keys of numbers of elements, which another mesh has more or fewer of
   std::span<const std::string_view> lengths;  ///< keys of sizes of elements, which it has larger or smaller
-  int finer_below;      ///< edges along the flanks from which on coarser meshes say what finer ones would
+  int finer_below;      ///< edges along the flanks from which on coarser meshes say what finer ones would; 0: always
   bool contact_grid;    ///< mesh.contact_flank_elements and mesh.contact_slot_elements count
   bool rough_peaks;     ///< the mesh is known to resolve the pressure at the ends of rough flanks
-  bool coarse_answers;  ///< a coarser mesh says what harmonics, samples and penalties leave open, as of modes in any
+  bool coarse_answers;  ///< a coarser mesh says what harmonics, samples and penalties leave open
   bool in_space;        ///< there is a closed surface to export, and responses converge as in space
   int finer_meshes = std::numeric_limits<int>::max();  ///< optimizer.finer_meshes by default, at most
 };

@@ -5,10 +5,12 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "fem/diameter_frequencies.hpp"
 #include "geometry/solid/solid_family.hpp"
+#include "optimizer/bars/other_meshes.hpp"
 #include "optimizer/evaluator.hpp"
 #include "optimizer/responses/computed.hpp"
 #include "tests/verification/optimizer/sector_joint.hpp"
@@ -131,6 +133,23 @@ TEST(SectorAgainstSection, ResonanceAndAsymptoticWearAgree) {
   EXPECT_GT(deepest(1), flat.asymptote->largest_depth);
   EXPECT_NEAR(deepest(1), deepest(2), 1e-6 * deepest(1));
   EXPECT_NEAR((deepest(0) + deepest(1)) / 2, flat.asymptote->largest_depth, 0.2 * flat.asymptote->largest_depth);
+}
+
+// In space none is finer, whatever a study is about.
+TEST(OtherMeshes, AreFinerInThePlaneAlone) {
+  Scene space = joint(kSector), plane = joint(kSection);
+  space.mesh.flank_elements = 4;
+  space.solid_mesh.slot_elements = 2;
+  const auto sizes = [](const Scene& scene, bool finer) {
+    const OtherMeshes others(scene, finer);
+    return std::pair{others.meshes()[0].ratio, others.meshes()[1].ratio};
+  };
+  for (const bool finer : {false, true}) EXPECT_EQ(sizes(space, finer), std::pair(1.5, 2.0));
+  plane.mesh.flank_elements = kSection.finer_below - 1;
+  EXPECT_EQ(sizes(plane, false), std::pair(1 / 1.5, 1.5));
+  plane.mesh.flank_elements = kSection.finer_below;
+  EXPECT_EQ(sizes(plane, false), std::pair(1.5, 2.0));
+  EXPECT_EQ(sizes(plane, true), std::pair(1 / 1.5, 1.5));
 }
 
 TEST(SectorEvaluation, ConvergesWithEveryResponseAndItsErrorBar) {
