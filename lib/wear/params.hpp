@@ -102,18 +102,21 @@ struct ImplicitParams {
   double first_increment = 0.05;  ///< largest increase of depth in the first step, over the largest penetration
   double growth = 3.0;            ///< largest growth of the step from one to the next
   double shrinking = 0.3;         ///< least
-  int stage_iterations = 10;      ///< Jacobians per stage before a step is cut
-  double chord_ratio = 0.4;       ///< contraction by old factors below which no new ones are taken
-  double floors = 4.0;            ///< rounding floor of a stage over that of a state: its second equation adds one
-  double safety = 0.9;            ///< of the step that the error permits
-  double shortest_cut = 0.1;      ///< least and
-  double longest_cut = 0.7;       ///< largest factor of a step that erred too much
-  double unsolved_cut = 0.25;     ///< factor of a step whose equations could not be solved;
-  int recovery = 3;               ///< the next ones grow slowly,
-  double slow_growth = 1.5;       ///< by so much at most
-  double smallest = 1e-5;         ///< shortest step, relative to the depth, before the branch counts as ended;
-  double leap = 100.0;            ///< a jump to another branch is that many of them long,
-  int jumps = 20;                 ///< and so many of them make a history
+  /// Residual of a stage, over the excitation, per unit of the local error that a step may have. Smaller: stages far
+  /// more exact than their steps.
+  double stage = 5e-4;
+  int stage_iterations = 10;   ///< Jacobians per stage before a step is cut
+  double chord_ratio = 0.4;    ///< contraction by old factors below which no new ones are taken
+  double floors = 4.0;         ///< rounding floor of a stage over that of a state: its second equation adds one
+  double safety = 0.9;         ///< of the step that the error permits
+  double shortest_cut = 0.1;   ///< least and
+  double longest_cut = 0.7;    ///< largest factor of a step that erred too much
+  double unsolved_cut = 0.25;  ///< factor of a step whose equations could not be solved;
+  int recovery = 3;            ///< the next ones grow slowly,
+  double slow_growth = 1.5;    ///< by so much at most
+  double smallest = 1e-5;      ///< shortest step, relative to the depth, before the branch counts as ended;
+  double leap = 100.0;         ///< a jump to another branch is that many of them long,
+  int jumps = 20;              ///< and so many of them make a history
 };
 
 /// Successive asymptotes at a moving resonance.

@@ -43,6 +43,12 @@ Settings towards(const Settings& there, const std::vector<Settings>& all, const 
   return *std::ranges::min_element(all, {}, rank);
 }
 
+double strictest(const AccuracyGoal& goal) {
+  double least = goal.relative;
+  for (const auto& [response, asked] : goal.of) least = std::min(least, asked);
+  return least;
+}
+
 std::optional<SettingsChoice::Digit> one_more_digit(const std::vector<Settings>& all, const Forecast& forecast,
                                                     const SettingsChoice& choice) {
   const double tenth = choice.tried.excess / 10;
@@ -62,12 +68,13 @@ bool better(const SettingsTried& a, const SettingsTried& b) {
 
 SettingsChoice choose_settings(const Scene& scene, const AccuracyGoal& goal, const AccuracyProbe& probe,
                                const AccuracyListener& told) {
-  std::vector<Settings> all = all_settings(scene, goal.fixed);
+  std::vector<Settings> all = all_settings(scene, goal.fixed, strictest(goal));
   SettingsChoice choice;
   choice.settings = settings_of(scene);
   Forecast forecast(scene, goal);
   std::optional<Forecast> best;
   Settings next = choice.settings;
+  next.history_tolerance = all.front().history_tolerance;
   if (std::ranges::find(all, next) == all.end()) next = all.front();  // samples that alias
   for (int round = 0; round < kParams.rounds; ++round) {
     const Evaluation evaluation = probe(next);

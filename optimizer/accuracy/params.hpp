@@ -17,6 +17,9 @@ struct SettingLadders {
   std::array<double, 3> resonance_tolerance{1e-7, 1e-6, 1e-5};
   /// Of the half width of a peak, that the tolerance may be at most: amplitudes there err by half the square of it.
   double of_half_width = 1e-2;
+  /// Tolerance of a wear history over the accuracy, which its share of a bar is, and at most: well below what two worn
+  /// states may differ by to be one.
+  double history = 0.1, loosest_history = 5e-3;
 };
 
 /// How settings are foreseen from an evaluation with bars. Powers in the plane are of sections with 34 to 208 contact

@@ -17,8 +17,8 @@ namespace {
 constexpr SettingLadders kLadders;
 
 /// Those of [solver] that buy accuracy.
-constexpr std::array<std::string_view, 4> kSolverKeys{"solver.harmonics", "solver.samples", "solver.modes",
-                                                      "solver.resonance_tolerance"};
+constexpr std::array<std::string_view, 5> kSolverKeys{"solver.harmonics", "solver.samples", "solver.modes",
+                                                      "solver.resonance_tolerance", "solver.history_tolerance"};
 
 std::vector<std::string_view> mesh_keys(const Scene& scene) {
   std::vector<std::string_view> keys(scene.kind->counts.begin(), scene.kind->counts.end());
@@ -43,7 +43,8 @@ Settings settings_of(const Scene& scene) {
           .harmonics = scene.solver.harmonics,
           .samples = scene.solver.samples,
           .modes = scene.solver.modes,
-          .resonance_tolerance = scene.solver.resonance_tolerance};
+          .resonance_tolerance = scene.solver.resonance_tolerance,
+          .history_tolerance = scene.solver.history_tolerance};
 }
 
 Scene with_settings(Scene scene, const Settings& settings) {
@@ -52,6 +53,7 @@ Scene with_settings(Scene scene, const Settings& settings) {
   scene.solver.samples = settings.samples;
   scene.solver.modes = settings.modes;
   scene.solver.resonance_tolerance = settings.resonance_tolerance;
+  scene.solver.history_tolerance = settings.history_tolerance;
   return scene;
 }
 
@@ -64,7 +66,7 @@ std::map<std::string, double> settings_by_key(const Scene& scene, const Settings
   return values;
 }
 
-std::vector<Settings> all_settings(const Scene& scene, const std::set<std::string>& fixed) {
+std::vector<Settings> all_settings(const Scene& scene, const std::set<std::string>& fixed, double accuracy) {
   const auto given = [&](std::string_view key) { return fixed.contains(std::string(key)); };
   const bool mesh_given = std::ranges::any_of(mesh_keys(scene), given);
   std::vector<double> tolerances = rungs<double>(kLadders.resonance_tolerance, scene.solver.resonance_tolerance,
@@ -72,6 +74,9 @@ std::vector<Settings> all_settings(const Scene& scene, const std::set<std::strin
   std::erase_if(tolerances, [&](double tolerance) {
     return tolerance > std::max(scene.solver.resonance_tolerance, kLadders.of_half_width * scene.loading.damping_ratio);
   });
+  const double history = given("solver.history_tolerance")
+                             ? scene.solver.history_tolerance
+                             : std::min(kLadders.history * accuracy, kLadders.loosest_history);
   std::vector<Settings> result;
   for (const double mesh : rungs<double>(kLadders.mesh, 1, mesh_given))
     for (const int harmonics : rungs<int>(kLadders.harmonics, scene.solver.harmonics, given("solver.harmonics")))
@@ -86,7 +91,8 @@ std::vector<Settings> all_settings(const Scene& scene, const std::set<std::strin
                                 .harmonics = harmonics,
                                 .samples = samples,
                                 .modes = modes,
-                                .resonance_tolerance = tolerance});
+                                .resonance_tolerance = tolerance,
+                                .history_tolerance = history});
       }
   // Samples that are too few for any harmonics on the ladder: there is nothing to choose.
   if (result.empty()) result.push_back(settings_of(scene));

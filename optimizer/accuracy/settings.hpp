@@ -14,6 +14,7 @@ struct Settings {
   double mesh = 1;  ///< edges of the mesh over those of the scene
   int harmonics = 0, samples = 0, modes = 0;
   double resonance_tolerance = 0;  ///< of the frequency of a resonance, relative
+  double history_tolerance = 0;    ///< of a wear history, relative
   bool operator==(const Settings&) const = default;
 };
 
@@ -27,7 +28,9 @@ struct Settings {
 [[nodiscard]] std::map<std::string, double> settings_by_key(const Scene& scene, const Settings& settings);
 
 /// All combinations that are allowed, where keys in `fixed` stay as they are: any key of the mesh keeps all of it.
-[[nodiscard]] std::vector<Settings> all_settings(const Scene& scene, const std::set<std::string>& fixed);
+/// Histories are to leave little of the `accuracy` asked for.
+[[nodiscard]] std::vector<Settings> all_settings(const Scene& scene, const std::set<std::string>& fixed,
+                                                 double accuracy);
 
 /// Whether a key is one of those settings.
 [[nodiscard]] bool buys_accuracy(const Scene& scene, const std::string& key);

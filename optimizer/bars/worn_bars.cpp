@@ -82,6 +82,13 @@ void add_worn_bars(const Scene& scene, const CandidateResult& result, Bars& bars
                                     moved < 1));
   if (const wear::WornChange doubt = left_in_doubt(result.model.cells, asymptote); doubt.volume > 0)
     bars.add("history", worn_otherwise(result, doubt, asymptote.confirmed_by_history));
+  if (asymptote.decided_by == wear::FoundBy::history) {
+    constexpr HistoryErrorParams kParams;
+    const double share = kParams.finished + kParams.by_tolerance * scene.solver.history_tolerance;
+    bars.add("history",
+             worn_otherwise(result, {.volume = share * asymptote.worn_volume, .depth = share * asymptote.largest_depth},
+                            true));
+  }
   if (const wear::OtherState* other = rival(asymptote); other != nullptr && result.worn) {
     // On what the ends of worn zones bear the amplitude hardly depends; on a whole other state it may.
     steady::Joint joint = joint_of(scene, result.model);

@@ -32,6 +32,7 @@ wear::Rest worn_state(const Scene& scene, const CandidateModel& model, const ste
   options.follow = scene.loading.follow == wear::Follow::resonance;
   options.history = history;
   options.lines = node_lines(model.cells);
+  options.asymptote.history_tolerance = scene.solver.history_tolerance;
   options.asymptote.history_budget = [&](const steady::Options& settings) {
     SolverSettings solver = scene.solver;
     solver.harmonics = settings.harmonics;

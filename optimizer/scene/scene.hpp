@@ -61,12 +61,13 @@ struct SolverSettings {
   int modes = 20;                     ///< free-interface modes kept
   double tolerance = 1e-9;            ///< relative residual of the steady state
   double resonance_tolerance = 1e-7;  ///< of the frequency of a resonance, relative
+  double history_tolerance = 2e-3;    ///< local error of a wear history that decides, relative to the largest depth
   Prestress prestress = Prestress::own;
   steady::Solver solver = steady::Solver::automatic;
   double pseudo_penalty = 0;         ///< eps of all contact nodes, N/m; 0: from the model
   double pseudo_penalty_normal = 0;  ///< eps in the normal direction, N/m; 0: pseudo_penalty
-  /// Bar over value of the responses asked for, for which mesh, harmonics, samples, modes and resonance_tolerance are
-  /// chosen; 0: they stay.
+  /// Bar over value of the responses asked for, for which mesh, harmonics, samples, modes and the tolerances of
+  /// resonance and history are chosen; 0: they stay.
   double accuracy = 0;
   int max_jacobians = 500;  ///< work of one evaluation, in Jacobians in which all contact nodes take part; 0: no limit
   double time_limit = 0;    ///< of one evaluation from the preload on, s; 0: none

@@ -98,7 +98,7 @@ std::span<const Field<optimizer::Loading>> option_table<optimizer::Loading>() {
 template <>
 std::span<const Field<optimizer::SolverSettings>> option_table<optimizer::SolverSettings>() {
   using S = optimizer::SolverSettings;
-  static const std::array<Field<S>, 12> table{
+  static const std::array<Field<S>, 13> table{
       Field<S>{.key = "harmonics",
                .member = &S::harmonics,
                .range = {.lower = 1, .upper = 200},
@@ -132,6 +132,11 @@ std::span<const Field<optimizer::SolverSettings>> option_table<optimizer::Solver
                .member = &S::resonance_tolerance,
                .range = {.lower = 1e-8, .upper = 1e-4},
                .help = "relative accuracy of the frequency of a resonance"},
+      Field<S>{.key = "history_tolerance",
+               .member = &S::history_tolerance,
+               .range = {.lower = 1e-6, .upper = 1e-2},
+               .help = "local error per step of the wear history that settles a doubtful worn state, relative to the "
+                       "largest depth; part of its error bars where it decides"},
       Field<S>{.key = "prestress",
                .member = &S::prestress,
                .help =
@@ -142,7 +147,8 @@ std::span<const Field<optimizer::SolverSettings>> option_table<optimizer::Solver
                .member = &S::accuracy,
                .range = {.lower = kAccuracyRange.lower, .upper = kAccuracyRange.upper, .zero = "as given"},
                .help = "bar over value of every response that objective and limits name, for which those of mesh, "
-                       "harmonics, samples, modes and resonance_tolerance are chosen that the file does not give; "
+                       "harmonics, samples, modes, resonance_tolerance and history_tolerance are chosen that the file "
+                       "does not give; "
                        "0: all stay as given"},
       Field<S>{.key = "max_jacobians",
                .member = &S::max_jacobians,

@@ -66,8 +66,10 @@ struct AsymptoteOptions {
   Arbitration arbitration = Arbitration::automatic;
   // > 0. Two worn states are the same when their depths differ by less than this, relative to the largest depth.
   double state_tolerance = 1e-2;
-  // in (0, 0.5]. Local error per step of the implicit history, relative to the largest depth.
-  double history_tolerance = 2e-4;
+  // in (0, 0.5]. Local error per step of the implicit history, relative to the largest depth. Below
+  // state_tolerance, or the history cannot tell whether it ends in the direct state. Smaller ones cost steps and buy
+  // little: its end is finished by the direct method.
+  double history_tolerance = 2e-3;
   // Solve once more with the worn gap and contact everywhere, and report the remaining rate.
   bool certify = true;
   // in (0, 1]. With a remaining rate above this fraction of the unworn one (and above rate_threshold), or when that

@@ -19,8 +19,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-ImplicitStage::ImplicitStage(const steady::Joint& joint, const steady::State& from)
-    : problem_(joint, from.tangent->problem().shared_system(), from.penalty_ratio) {
+ImplicitStage::ImplicitStage(const steady::Joint& joint, const steady::State& from, double tolerance)
+    : problem_(joint, from.tangent->problem().shared_system(), from.penalty_ratio),
+      tolerance_(std::max(tolerance, joint.options.tolerance)) {
   adopt(from.tangent);
   const VectorXd& depth = from.tangent->problem().condition().wear_depth;
   factored_at_ = {.displacement = from.displacement,
@@ -233,7 +234,7 @@ class ImplicitStage::Equations {
 
 Status ImplicitStage::solve(const VectorXd& base, const VectorXd& cycles, int max_iterations, WearPoint& point) {
   ++solves_;
-  Equations equations(*this, base, cycles, point.displacement.rows(), problem_.options().tolerance);
+  Equations equations(*this, base, cycles, point.displacement.rows(), tolerance_);
   VectorXd x = equations.start(point);
   equations.residual(x);
   constexpr ImplicitParams kParams;
@@ -241,10 +242,9 @@ Status ImplicitStage::solve(const VectorXd& base, const VectorXd& cycles, int ma
   const numerics::NewtonSystem system{.residual = [&](const VectorXd& at) { return equations.residual(at); },
                                       .newton_step = [&](VectorXd& step) { return equations.newton_step(step); },
                                       .chord_step = [&](VectorXd& step) { return equations.chord_step(step); }};
-  const numerics::NewtonStats stats = numerics::newton(system, x,
-                                                       {.tolerance = std::max(problem_.options().tolerance, floor),
-                                                        .max_iterations = max_iterations,
-                                                        .chord_ratio = kParams.chord_ratio});
+  const numerics::NewtonStats stats = numerics::newton(
+      system, x,
+      {.tolerance = std::max(tolerance_, floor), .max_iterations = max_iterations, .chord_ratio = kParams.chord_ratio});
   if (stats.status != Status::converged) return stats.status;
   equations.residual(x);
   if (equations.at().status != Status::converged) return equations.at().status;

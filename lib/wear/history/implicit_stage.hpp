@@ -13,8 +13,9 @@ namespace dovetail::wear {
 /// those of the second equation through the pseudo-penalty, eps_N (W - B - c r).
 class ImplicitStage {
  public:
-  /// `from` is a steady state of this joint, as worn as it may be, with its tangent.
-  ImplicitStage(const steady::Joint& joint, const steady::State& from);
+  /// `from` is a steady state of this joint, as worn as it may be, with its tangent. Stages are solved to `tolerance`,
+  /// or to that of the joint where it is more.
+  ImplicitStage(const steady::Joint& joint, const steady::State& from, double tolerance);
 
   /// Solves from `point` and writes the solution there if it converges. `base` B [Nc] m, a lower bound of W;
   /// `cycles` c [Nc] >= 0.
@@ -47,6 +48,7 @@ class ImplicitStage {
   [[nodiscard]] Eigen::VectorXd rate(const steady::Point& point) const;
 
   steady::Problem problem_;
+  double tolerance_;
   std::shared_ptr<const steady::Tangent> tangent_;
   WearPoint factored_at_;            // without its rate
   Eigen::MatrixXd by_displacement_;  // dr/dU at the same W, a column per node [nc (2H+1), Nc]

@@ -16,7 +16,10 @@ class ImplicitSteps : public Integrator {
  public:
   ImplicitSteps(WearingJoint& joint, const HistoryOptions& options, steady::State first, const StepMemory& memory,
                 const ImplicitParams& params)
-      : joint_(joint), options_(options), params_(params), stage_(joint.joint(), first) {
+      : joint_(joint),
+        options_(options),
+        params_(params),
+        stage_(joint.joint(), first, params.stage * options.tolerance) {
     if (memory.factored_displacement.size() > 0)
       stage_.factorise_at({.displacement = memory.factored_displacement, .depth = memory.factored_depth, .rate = {}});
     first_ = std::move(first);
@@ -62,7 +65,10 @@ class ImplicitSteps : public Integrator {
   }
 
   [[nodiscard]] steady::State state(const Course& course) const override {
-    return first_.displacement.size() > 0 ? first_ : stage_.described(course.point);
+    if (first_.displacement.size() > 0) return first_;
+    // A stage is less exact than a state.
+    steady::State exact = joint_.worn(course.point.depth, course.point.displacement);
+    return exact.status == Status::converged ? exact : stage_.described(course.point);
   }
 
  private:
@@ -84,7 +90,7 @@ class ImplicitSteps : public Integrator {
     if (found.status != Status::converged) return false;
     ++memory.jumps;
     memory.step = cycles;
-    stage_ = ImplicitStage(joint_.joint(), found);
+    stage_ = ImplicitStage(joint_.joint(), found, params_.stage * options_.tolerance);
     memory.factored_displacement = {};
     memory.factored_depth = {};
     course.point = {.displacement = found.displacement, .depth = beyond, .rate = found.wear_rate};

@@ -12,6 +12,7 @@ WholeSetting whole_setting(const optimizer::Scene& scene) {
           .samples = scene.solver.samples,
           .modes = scene.solver.modes,
           .resonance_tolerance = scene.solver.resonance_tolerance,
+          .history_tolerance = scene.solver.history_tolerance,
           .tolerance = scene.solver.tolerance,
           .solver = scene.solver.solver};
 }
@@ -22,6 +23,7 @@ WholeSetting with_choice(WholeSetting setting, const optimizer::Settings& chosen
   setting.samples = chosen.samples;
   setting.modes = chosen.modes;
   setting.resonance_tolerance = chosen.resonance_tolerance;
+  setting.history_tolerance = chosen.history_tolerance;
   return setting;
 }
 
@@ -30,7 +32,8 @@ optimizer::Scene with_setting(const optimizer::Scene& scene, const WholeSetting&
                                                             .harmonics = setting.harmonics,
                                                             .samples = setting.samples,
                                                             .modes = setting.modes,
-                                                            .resonance_tolerance = setting.resonance_tolerance});
+                                                            .resonance_tolerance = setting.resonance_tolerance,
+                                                            .history_tolerance = setting.history_tolerance});
   there.solver.tolerance = setting.tolerance;
   there.solver.solver = setting.solver;
   return there;
@@ -46,6 +49,8 @@ std::string setting_words(const WholeSetting& setting, int edges_of_file) {
                                  setting.samples, setting.modes);
   if (setting.resonance_tolerance != kDefaults.resonance_tolerance)
     text += fmt::format(", resonance to {:g}", setting.resonance_tolerance);
+  if (setting.history_tolerance != kDefaults.history_tolerance)
+    text += fmt::format(", history to {:g}", setting.history_tolerance);
   if (setting.tolerance != kDefaults.tolerance) text += fmt::format(", residual to {:g}", setting.tolerance);
   if (setting.solver != kDefaults.solver) text += ", " + std::string(to_string(setting.solver));
   return text;

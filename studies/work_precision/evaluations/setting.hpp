@@ -14,6 +14,7 @@ struct WholeSetting {
   int samples = optimizer::SolverSettings{}.samples;
   int modes = optimizer::SolverSettings{}.modes;
   double resonance_tolerance = optimizer::SolverSettings{}.resonance_tolerance;
+  double history_tolerance = optimizer::SolverSettings{}.history_tolerance;
   double tolerance = optimizer::SolverSettings{}.tolerance;  ///< of the residual of a steady state
   steady::Solver solver = steady::Solver::automatic;
 

@@ -20,6 +20,7 @@ inline constexpr auto kFields<WholeSetting> =
                RecordField{"samples", &WholeSetting::samples},
                RecordField{"modes", &WholeSetting::modes},
                RecordField{"resonance_tolerance", &WholeSetting::resonance_tolerance},
+               RecordField{"history_tolerance", &WholeSetting::history_tolerance},
                RecordField{"residual_tolerance", &WholeSetting::tolerance},
                RecordField{"solver", &WholeSetting::solver}};
 

@@ -17,7 +17,7 @@ TEST(ImplicitStage, SolvesBothEquationsWithFactorsOfAnotherPoint) {
   const steady::Joint joint{model, {}, {.tolerance = 1e-11}};
   const steady::State from = paths::steady_state(joint, 1.3);
   ASSERT_EQ(from.status, Status::converged);
-  ImplicitStage stage(joint, from);
+  ImplicitStage stage(joint, from, 0);
   const Eigen::VectorXd base = Eigen::VectorXd::Zero(60);
   const double largest = from.wear_rate.maxCoeff();
   ASSERT_GT(largest, 0);

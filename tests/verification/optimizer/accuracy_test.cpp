@@ -71,7 +71,7 @@ TEST(Accuracy, IsReachedAtHardlyMoreThanTheLeastCost) {
       return 1.8e9 * std::pow(s.mesh, 2.16) * (0.6 + 0.4 * s.modes / 20) +
              jacobians(s) * steady::jacobian_operations(std::lround(34 * s.mesh), 2, s.harmonics, s.samples);
     };
-    for (const Settings& settings : all_settings(scene, {}))
+    for (const Settings& settings : all_settings(scene, {}, 0.02))
       if (laws.sum(settings) <= 0.95 * kGoal.relative) least = std::min(least, cost(settings));
     own = cost(choice.settings);
     EXPECT_LE(own, 1.5 * least) << choice.settings.mesh << " " << choice.settings.harmonics << " "
