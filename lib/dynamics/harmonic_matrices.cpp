@@ -89,7 +89,8 @@ MatrixXcd HarmonicMatrices::rows(int h, Index first, Index count) const {
 
 MatrixXd HarmonicMatrices::apply(const MatrixXd& x, bool conjugated) const {
   if (base_)
-    return apply_to_all(*base_, x, harmonics()) +
+    // K is symmetric, and its columns stand together.
+    return apply_transposed_to_all(*base_, x, harmonics()) +
            apply_low_rank({.left = *coupling_, .inner = inner_, .right = *coupling_}, x, conjugated);
   std::vector<const MatrixXcd*> matrices;
   for (const MatrixXcd& matrix : dense_) matrices.push_back(&matrix);

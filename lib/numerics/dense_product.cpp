@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cassert>
 #include <complex>
+#include <cstddef>
+#include <type_traits>
 
 namespace dovetail::numerics {
 namespace {
@@ -35,6 +37,18 @@ void gemv(CBLAS_TRANSPOSE form, int rows, int columns, const std::complex<double
   cblas_zgemv(CblasColMajor, form, rows, columns, &one, a, lda, x, 1, &zero, y, 1);
 }
 
+// For a few columns OpenBLAS takes as long to copy A into the order that its kernel wants as to multiply, unless the
+// product is so small that it reads A where it stands: then a block of columns of A at a time.
+constexpr Eigen::Index kNarrow = 16;
+constexpr int kBlock = 64;
+
+/// C = A^T B for few columns.
+void narrow(int rows, int columns, int inner, const double* a, int lda, const double* b, int ldb, double* c) {
+  for (int i = 0; i < rows; i += kBlock)
+    gemm(CblasTrans, std::min(kBlock, rows - i), columns, inner, a + static_cast<std::ptrdiff_t>(i) * lda, lda, b, ldb,
+         c + i, rows);
+}
+
 /// C = A B with A in this form.
 template <class Matrix>
 void multiply(CBLAS_TRANSPOSE form, const Eigen::Ref<const Matrix>& a, const Eigen::Ref<const Matrix>& b, Matrix& c) {
@@ -50,6 +64,10 @@ void multiply(CBLAS_TRANSPOSE form, const Eigen::Ref<const Matrix>& a, const Eig
   if (b.cols() == 1)
     return gemv(form, static_cast<int>(a.rows()), static_cast<int>(a.cols()), a.data(),
                 static_cast<int>(a.outerStride()), b.data(), c.data());
+  if constexpr (std::is_same_v<Matrix, Eigen::MatrixXd>)
+    if (turned && b.cols() <= kNarrow)
+      return narrow(static_cast<int>(rows), static_cast<int>(b.cols()), static_cast<int>(inner), a.data(),
+                    static_cast<int>(a.outerStride()), b.data(), static_cast<int>(b.outerStride()), c.data());
   gemm(form, static_cast<int>(rows), static_cast<int>(b.cols()), static_cast<int>(inner), a.data(),
        static_cast<int>(a.outerStride()), b.data(), static_cast<int>(b.outerStride()), c.data(),
        static_cast<int>(rows));

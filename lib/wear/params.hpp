@@ -105,6 +105,8 @@ struct ImplicitParams {
   /// Residual of a stage, over the excitation, per unit of the local error that a step may have. Smaller: stages far
   /// more exact than their steps.
   double stage = 5e-4;
+  double damping = 0.05;       ///< residual, relative, to which errors are damped as the equations do
+  double least_pivot = 1e-6;   ///< of a node whose depth is eliminated from both equations, of 1
   int stage_iterations = 10;   ///< Jacobians per stage before a step is cut
   double chord_ratio = 0.4;    ///< contraction by old factors below which no new ones are taken
   double floors = 4.0;         ///< rounding floor of a stage over that of a state: its second equation adds one

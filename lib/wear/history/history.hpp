@@ -85,7 +85,8 @@ struct StepMemory {
   int recovering = 0;       ///< implicit: steps that still grow slowly
   int jumps = 0;            ///< implicit: folds crossed
   Eigen::MatrixXd factored_displacement;  ///< implicit: U [nc, 2H+1] m where the Jacobian in use was taken, or empty
-  Eigen::VectorXd factored_depth;         ///< implicit: W [Nc] m there
+  Eigen::VectorXd factored_depth;         ///< implicit: W [Nc] m there,
+  Eigen::VectorXd factored_cycles;        ///< and c [Nc] of its stage
 };
 
 /// Wear over cycles; entry 0 is the unworn state, S = accepted steps + 1.

@@ -1,16 +1,11 @@
 #include "wear/history/implicit_stage.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
-#include <vector>
 
-#include "numerics/dense_lu.hpp"
-#include "numerics/dense_product.hpp"
 #include "numerics/gmres.hpp"
 #include "numerics/newton.hpp"
 #include "steady/params.hpp"
-#include "steady/work.hpp"
 #include "wear/params.hpp"
 
 namespace dovetail::wear {
@@ -21,12 +16,14 @@ using Eigen::VectorXd;
 
 ImplicitStage::ImplicitStage(const steady::Joint& joint, const steady::State& from, double tolerance)
     : problem_(joint, from.tangent->problem().shared_system(), from.penalty_ratio),
-      tolerance_(std::max(tolerance, joint.options.tolerance)) {
-  adopt(from.tangent);
-  const VectorXd& depth = from.tangent->problem().condition().wear_depth;
-  factored_at_ = {.displacement = from.displacement,
-                  .depth = depth.size() > 0 ? depth : VectorXd::Zero(problem_.model().nodes()),
-                  .rate = {}};
+      tolerance_(std::max(tolerance, joint.options.tolerance)),
+      factors_(from.tangent, &from.tangent->factors()),
+      factored_(from.tangent, &from.tangent->point()),
+      factored_at_{.displacement = from.displacement,
+                   .depth = from.tangent->problem().condition().wear_depth,
+                   .cycles = VectorXd::Zero(problem_.model().nodes())},
+      last_(factored_) {
+  if (factored_at_.depth.size() == 0) factored_at_.depth = factored_at_.cycles;
 }
 
 std::shared_ptr<const steady::Problem> ImplicitStage::problem(const VectorXd& depth) const {
@@ -42,69 +39,84 @@ VectorXd ImplicitStage::rate(const steady::Point& point) const {
   return rate;
 }
 
-void ImplicitStage::adopt(const std::shared_ptr<const steady::Tangent>& tangent) {
-  tangent_ = tangent;
-  spent_on_products_ = 0;
-  const Index nodes = problem_.model().nodes();
-  std::vector<Index> all(static_cast<std::size_t>(nodes));
-  std::iota(all.begin(), all.end(), Index{0});
-  response_ = tangent->solve(-tangent->residual_to_wear(all));
-  steady::WearRateSlopes slopes = tangent->wear_rate_slopes();
-  by_displacement_ = std::move(slopes.by_displacement);
-  slope_ = numerics::transposed_product(by_displacement_, response_);
-  slope_.diagonal() += slopes.by_wear;
+bool ImplicitStage::is_held(const steady::Point& point) {
+  const auto nodes = static_cast<std::size_t>(problem_.model().nodes());
+  std::vector<bool> bearing(nodes);
+  for (std::size_t i = 0; i < nodes; ++i) bearing[i] = !point.nodes[i].always_separated;
+  bool more = held_by_.size() == nodes;
+  for (std::size_t i = 0; more && i < nodes; ++i) more = bearing[i] || !held_by_[i];
+  if (!more && !steady::is_held(point)) return false;
+  if (!more) held_by_ = std::move(bearing);
+  return true;
 }
 
-void ImplicitStage::factorise_at(const WearPoint& at) {
+void ImplicitStage::begin_step() {
+  spent_on_products_ = 0;
+  last_ = factored_;
+}
+
+void ImplicitStage::factorise_at(const StageFactorsAt& at) {
   auto point = std::make_shared<steady::Point>();
   steady::evaluate(problem(at.depth), at.displacement, *point);
   steady::differentiate(*point);
-  auto tangent = std::make_shared<const steady::Tangent>(std::move(point), tangent_.get());
-  if (tangent->factors().status() != Status::converged) return;
-  adopt(tangent);
+  auto factors = std::make_shared<const steady::FactoredJacobian>(CoupledPoint(point, at.cycles).eliminated());
+  if (factors->status() != Status::converged) return;
+  factors_ = std::move(factors);
+  factored_ = last_ = std::move(point);
   factored_at_ = at;
 }
 
-double ImplicitStage::adoption_operations() const {
-  const auto nodes = static_cast<double>(slope_.rows()), unknowns = static_cast<double>(response_.rows());
-  const auto dense = static_cast<double>(tangent_->factors().size()),
-             contact = static_cast<double>(problem_.model().contact_size());
-  return tangent_->factors().operations() + 2 * nodes * (dense * dense + unknowns * (contact + nodes));
-}
-
-double ImplicitStage::product_operations() const {
-  const auto entries = static_cast<double>(response_.size() + by_displacement_.size());
-  return tangent_->factors().product_operations() + steady::product_operations(entries);
+std::optional<VectorXd> ImplicitStage::solved_nearly(const CoupledPoint& at, const VectorXd& rhs,
+                                                     double tolerance) const {
+  constexpr steady::WorkParams kParams;
+  if (factors_->regularised()) return {};
+  const double product = factors_->product_operations();
+  const double most = (kParams.products * factors_->operations() - spent_on_products_) / product;
+  if (most < 1) return {};
+  const steady::JacobianBlocks here = steady::blocks(*at.eliminated());
+  numerics::GmresResult found =
+      numerics::gmres({.apply = [&here](const VectorXd& x) -> VectorXd { return steady::apply_jacobian(here, x); },
+                       .near_solve = [this](const VectorXd& b) -> VectorXd { return factors_->solve(b); }},
+                      rhs, {.tolerance = tolerance, .most = static_cast<int>(std::min(most, kParams.most_products))});
+  spent_on_products_ += found.products * product;
+  if (problem_.budget()) problem_.budget()->spend_on_factors(found.products * product);
+  if (found.status != Status::converged) return {};
+  return std::move(found.x);
 }
 
 VectorXd ImplicitStage::damp(const VectorXd& cycles, const VectorXd& error) const {
-  const numerics::DenseLu lu(MatrixXd::Identity(error.size(), error.size()) - cycles.asDiagonal() * slope_);
-  if (lu.status() != Status::converged) return error;
-  const VectorXd damped = lu.solve(error);
+  const CoupledPoint at(last_, cycles);
+  const MatrixXd none = MatrixXd::Zero(problem_.model().contact_size(), problem_.basis().coefficients());
+  const VectorXd rhs = at.right_hand_side(none, -error);
+  const std::optional<VectorXd> moved = solved_nearly(at, rhs, ImplicitParams{}.damping);
+  const VectorXd damped = at.deeper(moved ? *moved : VectorXd(factors_->solve(rhs)), -error);
   return damped.allFinite() ? damped : error;
 }
 
-/// The equations of a stage for Newton's method, in unknowns (U, x) that are forces relative to the excitation.
+/// The equations of a stage for Newton's method, in unknowns (U, W) that are forces relative to the excitation.
 class ImplicitStage::Equations {
  public:
-  Equations(ImplicitStage& stage, const VectorXd& base, const VectorXd& cycles, Index rows, double tolerance)
+  Equations(ImplicitStage& stage, const VectorXd& base, const VectorXd& cycles, Index rows)
       : stage_(stage),
         base_(base),
         cycles_(cycles),
         rows_(rows),
-        goal_(tolerance),
         unknowns_(stage.problem_.unknowns()),
         force_(stage.problem_.system().force_scale),
-        unit_(unknowns_ + base.size()) {
+        unit_(unknowns_ + base.size()),
+        near_(stage.last_, cycles) {
     unit_ << stage.problem_.unit_displacement(), force_ * stage.problem_.penalty().normal.cwiseInverse();
   }
 
-  /// Depth that the base adds moves the joint with it.
-  [[nodiscard]] VectorXd start(const WearPoint& point) const {
-    const VectorXd moved = point.depth.cwiseMax(base_);
+  /// One step from a solution of other stages, or of none: both residuals are known there.
+  [[nodiscard]] VectorXd start(const WearPoint& point) {
+    residual_f_ = MatrixXd::Zero(rows_, unknowns_ / rows_);
+    residual_g_ = point.depth - base_ - cycles_.cwiseProduct(point.rate);
+    VectorXd step;
+    direction(step);
     VectorXd x(unit_.size());
-    x << point.displacement.reshaped() + stage_.response_ * (moved - point.depth), moved;
-    return x.cwiseQuotient(unit_);
+    x << point.displacement.reshaped(), point.depth;
+    return x.cwiseQuotient(unit_) + step;
   }
 
   VectorXd residual(const VectorXd& x) {
@@ -114,27 +126,38 @@ class ImplicitStage::Equations {
     if (at_.use_count() > 1) at_ = std::make_shared<steady::Point>();
     steady::evaluate(stage_.problem(depth_), shaped(u.head(unknowns_)), *at_);
     rates_ = stage_.rate(*at_);
-    const VectorXd excess = u.tail(nodes) - base_ - cycles_.cwiseProduct(rates_);
+    residual_f_ = at_->residual;
+    residual_g_ = u.tail(nodes) - base_ - cycles_.cwiseProduct(rates_);
     residual_.resize(unit_.size());
-    residual_ << at_->residual.reshaped() / force_, excess.cwiseQuotient(unit_.tail(nodes));
+    residual_ << residual_f_.reshaped() / force_, residual_g_.cwiseQuotient(unit_.tail(nodes));
     return residual_;
   }
 
   Status newton_step(VectorXd& step) {
     if (spent(stage_.problem_.budget())) return Status::budget_spent;
     steady::differentiate(*at_);
-    if (nearly(step)) return Status::converged;
-    auto tangent = std::make_shared<const steady::Tangent>(at_, stage_.tangent_.get());
-    if (tangent->factors().status() != Status::converged) return tangent->factors().status();
+    stage_.last_ = at_;
+    near_ = CoupledPoint(at_, cycles_);
+    const VectorXd rhs = near_.right_hand_side(residual_f_, residual_g_);
+    if (const std::optional<VectorXd> moved = stage_.solved_nearly(near_, rhs, forcing())) {
+      step = with_depths(*moved);
+      return Status::converged;
+    }
+    auto factors = std::make_shared<const steady::FactoredJacobian>(near_.eliminated());
+    if (factors->status() != Status::converged) return factors->status();
     ++stage_.jacobians_;
-    stage_.adopt(tangent);
-    stage_.factored_at_ = {.displacement = at_->displacement, .depth = depth_, .rate = {}};
-    return direction(step);
+    stage_.factors_ = std::move(factors);
+    stage_.factored_ = at_;
+    stage_.factored_at_ = {.displacement = at_->displacement, .depth = depth_, .cycles = cycles_};
+    stage_.spent_on_products_ = 0;
+    direction(step);
+    return Status::converged;
   }
 
   bool chord_step(VectorXd& step) {
-    if (stage_.tangent_->factors().regularised()) return false;
-    return direction(step) == Status::converged;
+    if (stage_.factors_->regularised()) return false;
+    direction(step);
+    return true;
   }
 
   [[nodiscard]] const steady::Point& at() const { return *at_; }
@@ -143,98 +166,40 @@ class ImplicitStage::Equations {
  private:
   [[nodiscard]] MatrixXd shaped(const VectorXd& u) const { return u.reshaped(rows_, u.size() / rows_); }
 
-  /// The step by products with the Jacobian at the point and the factors in use, while that costs less than new ones.
-  bool nearly(VectorXd& step) {
-    const steady::FactoredJacobian& factors = stage_.tangent_->factors();
-    if (factors.regularised() || rates_factors().status() != Status::converged) return false;
-    const double product = stage_.product_operations();
-    const double most =
-        (steady::WorkParams{}.products * stage_.adoption_operations() - stage_.spent_on_products_) / product;
-    if (most < 1) return false;
-    const std::vector<MatrixXd> by_prediction = steady::wear_rate_by_prediction(*at_);
-    const numerics::GmresResult found = numerics::gmres(
-        {.apply = [&](const VectorXd& x) { return applied(by_prediction, x); },
-         .near_solve = [this](const VectorXd& b) { return solved(b); }},
-        -residual_,
-        {.tolerance = forcing(), .most = static_cast<int>(std::min(most, steady::WorkParams{}.most_products))});
-    stage_.spent_on_products_ += found.products * product;
-    if (stage_.problem_.budget()) stage_.problem_.budget()->spend_on_factors(found.products * product);
-    if (found.status != Status::converged) return false;
-    step = found.x;
-    return true;
-  }
-
   /// As exact as the next step can make use of, see steady::solve.
   [[nodiscard]] double forcing() const {
     constexpr steady::WorkParams kParams;
     const double residual = residual_.norm();
-    return std::min(kParams.loosest_step, std::max(residual, kParams.of_goal * goal_ / residual));
+    return std::min(kParams.loosest_step, std::max(residual, kParams.of_goal * stage_.tolerance_ / residual));
   }
 
-  /// The Jacobian of both equations at the point.
-  [[nodiscard]] VectorXd applied(const std::vector<MatrixXd>& by_prediction, const VectorXd& x) const {
-    const steady::Problem& of = stage_.problem_;
-    const Index nodes = base_.size(), d = of.model().directions(), k = unknowns_ / rows_;
-    const VectorXd all = x.cwiseProduct(unit_), deeper = all.tail(nodes);
-    const MatrixXd u = shaped(all.head(unknowns_)), linear = dynamics::apply_stiffness(of.system(), u);
-    MatrixXd predicted = of.dof_penalty().asDiagonal() * u - linear;
-    for (Index i = 0; i < nodes; ++i) predicted(i * d, 0) -= of.penalty().normal(i) * deeper(i);
-    const MatrixXd force = linear + steady::apply_force_derivative(*at_, predicted);
-    VectorXd faster(nodes);
-    for (Index i = 0; i < nodes; ++i)
-      faster(i) = by_prediction[static_cast<std::size_t>(i)].cwiseProduct(predicted.block(i * d, 0, d, k)).sum();
-    VectorXd result(unit_.size());
-    result << force.reshaped() / force_, (deeper - cycles_.cwiseProduct(faster)).cwiseQuotient(unit_.tail(nodes));
-    return result;
-  }
-
-  /// Of I - c R with the factors in use.
-  const numerics::DenseLu& rates_factors() {
-    if (factored_ != stage_.tangent_.get()) {
-      const Index nodes = base_.size();
-      rates_lu_.factorise(MatrixXd::Identity(nodes, nodes) - cycles_.asDiagonal() * stage_.slope_);
-      factored_ = stage_.tangent_.get();
-    }
-    return rates_lu_;
-  }
-
-  /// Step for a right-hand side of both equations with the factors in use, which must be regular.
-  [[nodiscard]] VectorXd solved(const VectorXd& rhs) const {
-    const Index nodes = base_.size();
-    const VectorXd free = stage_.tangent_->solve(force_ * rhs.head(unknowns_));
-    const VectorXd driven = numerics::transposed_product(stage_.by_displacement_, free);
-    const VectorXd deeper =
-        rates_lu_.solve(cycles_.cwiseProduct(driven) + rhs.tail(nodes).cwiseProduct(unit_.tail(nodes)));
+  [[nodiscard]] VectorXd with_depths(const VectorXd& moved) const {
     VectorXd step(unit_.size());
-    step << free + stage_.response_ * deeper, deeper;
+    step << moved, near_.deeper(moved, residual_g_);
     return step.cwiseQuotient(unit_);
   }
 
   /// With the factors in use.
-  Status direction(VectorXd& step) {
-    if (rates_factors().status() != Status::converged) return rates_lu_.status();
-    step = solved(-residual_);
-    return Status::converged;
+  void direction(VectorXd& step) const {
+    step = with_depths(stage_.factors_->solve(near_.right_hand_side(residual_f_, residual_g_)));
   }
 
   ImplicitStage& stage_;
   const VectorXd &base_, &cycles_;
-  Index rows_;
-  double goal_;  // a start's floor may raise it
-  Index unknowns_;
+  Index rows_, unknowns_;
   double force_;
-  VectorXd unit_;  // m per unit unknown
+  VectorXd unit_;      // m per unit unknown
+  CoupledPoint near_;  // of the last point with its derivative
   std::shared_ptr<steady::Point> at_ = std::make_shared<steady::Point>();
-  VectorXd depth_;     // W, never below the base
-  VectorXd residual_;  // of f and of g = x - B - c r
-  VectorXd rates_;
-  numerics::DenseLu rates_lu_;
-  const steady::Tangent* factored_ = nullptr;
+  VectorXd depth_;       // W, never below the base
+  MatrixXd residual_f_;  // N
+  VectorXd residual_g_;  // W - B - c r, m
+  VectorXd residual_, rates_;
 };
 
 Status ImplicitStage::solve(const VectorXd& base, const VectorXd& cycles, int max_iterations, WearPoint& point) {
   ++solves_;
-  Equations equations(*this, base, cycles, point.displacement.rows(), tolerance_);
+  Equations equations(*this, base, cycles, point.displacement.rows());
   VectorXd x = equations.start(point);
   equations.residual(x);
   constexpr ImplicitParams kParams;
@@ -248,7 +213,7 @@ Status ImplicitStage::solve(const VectorXd& base, const VectorXd& cycles, int ma
   if (stats.status != Status::converged) return stats.status;
   equations.residual(x);
   if (equations.at().status != Status::converged) return equations.at().status;
-  if (!steady::is_held(equations.at())) return Status::singular;
+  if (!is_held(equations.at())) return Status::singular;
   point = equations.point();
   return Status::converged;
 }
@@ -256,7 +221,7 @@ Status ImplicitStage::solve(const VectorXd& base, const VectorXd& cycles, int ma
 steady::State ImplicitStage::described(const WearPoint& at) const {
   steady::Point point;
   steady::evaluate(problem(at.depth), at.displacement, point);
-  return steady::described(std::move(point), Status::converged, steady::AtSolution::linearise, tangent_.get());
+  return steady::described(std::move(point), Status::converged, steady::AtSolution::linearise, nullptr);
 }
 
 }  // namespace dovetail::wear

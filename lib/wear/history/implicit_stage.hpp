@@ -2,15 +2,27 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
+#include <vector>
 
+#include "steady/factored_jacobian.hpp"
 #include "steady/state.hpp"
+#include "wear/history/coupled_point.hpp"
 #include "wear/history/wear_point.hpp"
 
 namespace dovetail::wear {
 
-/// One implicit stage f(U; W) = 0, W = B + c r(U, W): Newton's method on (U, W) with U eliminated. Factors are kept
-/// from stage to stage as long as chord steps with them contract. Residuals are forces relative to the excitation,
-/// those of the second equation through the pseudo-penalty, eps_N (W - B - c r).
+/// Where the factors of a stage were taken.
+struct StageFactorsAt {
+  Eigen::MatrixXd displacement;  ///< U [nc, 2H+1] m
+  Eigen::VectorXd depth;         ///< W [Nc] m
+  Eigen::VectorXd cycles;        ///< c [Nc]; 0: those of a steady state
+};
+
+/// One implicit stage f(U; W) = 0, W = B + c r(U, W): Newton's method on (U, W) with W eliminated (coupled_point.hpp).
+/// Factors are kept from stage to stage as long as chord steps with them contract, or products with the Jacobian at
+/// hand cost less than new ones. Residuals are forces relative to the excitation, those of the second equation through
+/// the pseudo-penalty, eps_N (W - B - c r).
 class ImplicitStage {
  public:
   /// `from` is a steady state of this joint, as worn as it may be, with its tangent. Stages are solved to `tolerance`,
@@ -21,20 +33,18 @@ class ImplicitStage {
   /// `cycles` c [Nc] >= 0.
   [[nodiscard]] Status solve(const Eigen::VectorXd& base, const Eigen::VectorXd& cycles, int max_iterations,
                              WearPoint& point);
-  /// (I - c R)^-1 v with the factors of the last stage: an error as the equations damp it.
+  /// (I - c R)^-1 v, R = dr/dW along f = 0 near the last stage: an error as the equations damp it.
   [[nodiscard]] Eigen::VectorXd damp(const Eigen::VectorXd& cycles, const Eigen::VectorXd& error) const;
   /// The point as a steady state, with its tangent.
   [[nodiscard]] steady::State described(const WearPoint& point) const;
-  /// Factors of a steady state computed elsewhere.
-  void adopt(const std::shared_ptr<const steady::Tangent>& tangent);
 
-  /// Takes the factors at a point, which need not be a solution.
-  void factorise_at(const WearPoint& point);
-  /// Of products, what was spent in steps before counts no more: a history that is resumed does the same as one that
-  /// went on.
-  void begin_step() { spent_on_products_ = 0; }
+  /// Takes the factors there, which need not be a solution.
+  void factorise_at(const StageFactorsAt& at);
+  /// What was spent or seen in steps before counts no more, but for the factors: a history that is resumed does the
+  /// same as one that went on.
+  void begin_step();
   /// Where the factors in use were taken.
-  [[nodiscard]] const WearPoint& factored_at() const { return factored_at_; }
+  [[nodiscard]] const StageFactorsAt& factored_at() const { return factored_at_; }
 
   [[nodiscard]] int solves() const { return solves_; }
   [[nodiscard]] int jacobians() const { return jacobians_; }
@@ -42,19 +52,21 @@ class ImplicitStage {
  private:
   class Equations;
   [[nodiscard]] std::shared_ptr<const steady::Problem> problem(const Eigen::VectorXd& depth) const;
-  /// Of new factors with what follows from them, and of a product with a Jacobian and solving once with them.
-  [[nodiscard]] double adoption_operations() const;
-  [[nodiscard]] double product_operations() const;
   [[nodiscard]] Eigen::VectorXd rate(const steady::Point& point) const;
+  /// See steady::is_held. What some nodes hold is held by more.
+  [[nodiscard]] bool is_held(const steady::Point& point);
+  /// J X = B of the eliminated point by products, with the factors in use; empty where that costs too much.
+  [[nodiscard]] std::optional<Eigen::VectorXd> solved_nearly(const CoupledPoint& at, const Eigen::VectorXd& rhs,
+                                                             double tolerance) const;
 
   steady::Problem problem_;
   double tolerance_;
-  std::shared_ptr<const steady::Tangent> tangent_;
-  WearPoint factored_at_;            // without its rate
-  Eigen::MatrixXd by_displacement_;  // dr/dU at the same W, a column per node [nc (2H+1), Nc]
-  Eigen::MatrixXd response_;         // dU/dW along f = 0, [nc (2H+1), Nc]
-  Eigen::MatrixXd slope_;            // R = dr/dW along f = 0, [Nc, Nc]
-  double spent_on_products_ = 0;     // in this step since they were taken, operations
+  std::shared_ptr<const steady::FactoredJacobian> factors_;
+  std::shared_ptr<const steady::Point> factored_;  // with its derivative
+  StageFactorsAt factored_at_;
+  std::shared_ptr<const steady::Point> last_;  // point with its derivative in this step, else where factors were taken
+  mutable double spent_on_products_ = 0;       // in this step since they were taken, operations
+  std::vector<bool> held_by_;  // nodes that are known to hold the body; an implicit history releases none
   int solves_ = 0, jacobians_ = 0;
 };
 

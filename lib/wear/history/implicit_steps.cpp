@@ -21,7 +21,9 @@ class ImplicitSteps : public Integrator {
         params_(params),
         stage_(joint.joint(), first, params.stage * options.tolerance) {
     if (memory.factored_displacement.size() > 0)
-      stage_.factorise_at({.displacement = memory.factored_displacement, .depth = memory.factored_depth, .rate = {}});
+      stage_.factorise_at({.displacement = memory.factored_displacement,
+                           .depth = memory.factored_depth,
+                           .cycles = memory.factored_cycles});
     first_ = std::move(first);
   }
 
@@ -49,6 +51,7 @@ class ImplicitSteps : public Integrator {
         memory.recovering = std::max(0, memory.recovering - 1);
         memory.factored_displacement = stage_.factored_at().displacement;
         memory.factored_depth = stage_.factored_at().depth;
+        memory.factored_cycles = stage_.factored_at().cycles;
         first_ = {};
         return Status::converged;
       }
@@ -93,6 +96,7 @@ class ImplicitSteps : public Integrator {
     stage_ = ImplicitStage(joint_.joint(), found, params_.stage * options_.tolerance);
     memory.factored_displacement = {};
     memory.factored_depth = {};
+    memory.factored_cycles = {};
     course.point = {.displacement = found.displacement, .depth = beyond, .rate = found.wear_rate};
     course.cycles += cycles;
     first_ = std::move(found);

@@ -61,7 +61,8 @@ wear::History history_of(const Json& json, Eigen::Index nodes) {
   const double harmonics = json.at("history").at("identity").at("harmonics").get<double>();
   if (last.rows() % nodes != 0 || static_cast<double>(last.cols()) != 2 * harmonics + 1)
     history.steady.displacement.resize(0, 0);
-  if (factored.rows() != last.rows() || factored.cols() != last.cols() || history.memory.factored_depth.size() != nodes)
+  if (factored.rows() != last.rows() || factored.cols() != last.cols() ||
+      history.memory.factored_depth.size() != nodes || history.memory.factored_cycles.size() != nodes)
     factored.resize(0, 0);
 
   const auto cycles = value_of<Eigen::VectorXd>(json.at("cycles"));

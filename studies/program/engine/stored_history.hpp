@@ -22,7 +22,8 @@ inline constexpr auto kFields<wear::StepMemory> =
                RecordField{"recovering", &wear::StepMemory::recovering},
                RecordField{"jumps", &wear::StepMemory::jumps},
                RecordField{"factored_displacement_m", &wear::StepMemory::factored_displacement},
-               RecordField{"factored_depth_m", &wear::StepMemory::factored_depth}};
+               RecordField{"factored_depth_m", &wear::StepMemory::factored_depth},
+               RecordField{"factored_stage_cycles", &wear::StepMemory::factored_cycles}};
 
 }  // namespace dovetail::optimizer
 
