@@ -27,5 +27,19 @@ TEST(DenseProduct, OfOneColumnReadsNoFurtherThanItGoes) {
   munmap(pages, 2 * page);
 }
 
+// Products with few columns take another way than those with many.
+TEST(DenseProduct, OfFewColumnsIsThatOfMany) {
+  for (const Eigen::Index rows : {1, 63, 64, 65, 200})
+    for (const Eigen::Index inner : {1, 7, 130})
+      for (const Eigen::Index columns : {1, 2, 7, 16, 17, 40}) {
+        const Eigen::MatrixXd stored = Eigen::MatrixXd::Random(inner + 3, rows + 2);
+        const Eigen::MatrixXd b = Eigen::MatrixXd::Random(inner, columns);
+        const auto a = stored.block(1, 2, inner, rows);
+        const Eigen::MatrixXd expected = a.transpose().lazyProduct(b);
+        EXPECT_LT((transposed_product(a, b) - expected).norm(), 1e-13 * (1 + expected.norm()))
+            << rows << " x " << inner << " x " << columns;
+      }
+}
+
 }  // namespace
 }  // namespace dovetail::numerics
