@@ -30,11 +30,11 @@ struct UnseenParams {
   double all_of_it = 0.25;  ///< change of the pressure in a period, relative, from which on all of the zone counts
 };
 
-/// How far off a history ends that decides, of its worn volume: by its tolerance, and by where it is finished by the
-/// direct method, whatever its tolerance. Of designs of the quickstart with random flanks, forces and friction, against
-/// histories to 1e-5: 0.2 % at most at a tolerance of 2e-4, 0.4 % at 2e-3, 0.7 % at 5e-3.
+/// How far off a history ends that decides, of its worn volume: by its tolerance, and by what its finish by the direct
+/// method may move, whatever the tolerance. Of 33 designs of the quickstart with random flanks, forces and friction,
+/// against histories to 5e-5: 0.2 % at most at a tolerance of 2e-4, 0.5 % at 2e-3, 0.7 % at 5e-3.
 struct HistoryErrorParams {
-  double finished = 2e-3, by_tolerance = 1.25;
+  double finished = 3e-3, by_tolerance = 1.5;
 };
 
 /// What a history that ends in a state leaves open of it, of the node at each end of a zone, from histories on nodes a
