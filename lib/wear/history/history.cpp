@@ -106,6 +106,9 @@ class Loop {
                               : wearing_.worn(depth, result_.steady.displacement);
     if (first.status != Status::converged) return first.status;
     course_.point = {.displacement = first.displacement, .depth = depth, .rate = first.wear_rate};
+    if (resumed() && implicit() && !start_.past->finished &&
+        start_.past->steady.displacement.size() == first.displacement.size())
+      course_.point = {.displacement = start_.past->steady.displacement, .depth = depth, .rate = records_.back().rate};
     course_.first_depth = resumed() ? VectorXd(records_.front().depth) : depth;
     course_.cycles = resumed() ? records_.back().cycles : 0.0;
     if (resumed()) records_.pop_back();  // solved again
@@ -182,7 +185,8 @@ class Loop {
     result_.end = end;
     result_.status = within(wearing_.joint().options.budget, status);
     if (!result_.finished) {
-      if (integrator_) result_.steady = state();
+      const bool over = end == HistoryEnd::worn_out || end == HistoryEnd::steady_rate;
+      if (integrator_) result_.steady = over ? state() : integrator_->as_stepped(course_);
       result_.final_depth = records_.empty() ? wearing_.start() : records_.back().depth;
       if (!records_.empty()) result_.final_rate = records_.back().rate;
     }

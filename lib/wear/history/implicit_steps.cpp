@@ -71,7 +71,11 @@ class ImplicitSteps : public Integrator {
     if (first_.displacement.size() > 0) return first_;
     // A stage is less exact than a state.
     steady::State exact = joint_.worn(course.point.depth, course.point.displacement);
-    return exact.status == Status::converged ? exact : stage_.described(course.point);
+    return exact.status == Status::converged ? exact : as_stepped(course);
+  }
+
+  [[nodiscard]] steady::State as_stepped(const Course& course) const override {
+    return first_.displacement.size() > 0 ? first_ : stage_.described(course.point);
   }
 
  private:

@@ -30,6 +30,8 @@ class Integrator {
   [[nodiscard]] virtual Status advance(double limit, Course& course) = 0;
   /// The steady state at the last accepted point, with its tangent.
   [[nodiscard]] virtual steady::State state(const Course& course) const = 0;
+  /// The same no more exact than steps are, from which a resumed history goes on as if never stopped.
+  [[nodiscard]] virtual steady::State as_stepped(const Course& course) const { return state(course); }
 };
 
 /// Cycle jumps of constant largest increment: with the rate dW of the state at W, N += dN, W += dN dW,
