@@ -11,11 +11,11 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-CoupledPoint::CoupledPoint(std::shared_ptr<const steady::Point> point, const VectorXd& cycles)
-    : cycles_(cycles), pivot_(cycles.size()), slope_(steady::wear_rate_by_prediction(*point)) {
+CoupledPoint::CoupledPoint(const steady::Point& point, const VectorXd& cycles)
+    : cycles_(cycles), pivot_(cycles.size()), slope_(steady::wear_rate_by_prediction(point)) {
   constexpr ImplicitParams kParams;
-  auto eliminated = std::make_shared<steady::Point>(*point);
-  const VectorXd& penalty = point->problem->penalty().normal;
+  auto eliminated = std::make_shared<steady::Point>(point);
+  const VectorXd& penalty = point.problem->penalty().normal;
   for (Index i = 0; i < cycles.size(); ++i) {
     const MatrixXd& slope = slope_[static_cast<std::size_t>(i)];
     const double by_wear = cycles(i) * penalty(i);

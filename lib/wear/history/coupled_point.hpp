@@ -16,7 +16,7 @@ namespace dovetail::wear {
 class CoupledPoint {
  public:
   /// Of a point with its derivative; `cycles` c [Nc] >= 0.
-  CoupledPoint(std::shared_ptr<const steady::Point> point, const Eigen::VectorXd& cycles);
+  CoupledPoint(const steady::Point& point, const Eigen::VectorXd& cycles);
 
   /// The point with D M in place of D: whose Jacobian is that of both equations.
   [[nodiscard]] const std::shared_ptr<const steady::Point>& eliminated() const { return eliminated_; }

@@ -59,7 +59,7 @@ void ImplicitStage::factorise_at(const StageFactorsAt& at) {
   auto point = std::make_shared<steady::Point>();
   steady::evaluate(problem(at.depth), at.displacement, *point);
   steady::differentiate(*point);
-  auto factors = std::make_shared<const steady::FactoredJacobian>(CoupledPoint(point, at.cycles).eliminated());
+  auto factors = std::make_shared<const steady::FactoredJacobian>(CoupledPoint(*point, at.cycles).eliminated());
   if (factors->status() != Status::converged) return;
   factors_ = std::move(factors);
   factored_ = last_ = std::move(point);
@@ -85,7 +85,7 @@ std::optional<VectorXd> ImplicitStage::solved_nearly(const CoupledPoint& at, con
 }
 
 VectorXd ImplicitStage::damp(const VectorXd& cycles, const VectorXd& error) const {
-  const CoupledPoint at(last_, cycles);
+  const CoupledPoint at(*last_, cycles);
   const MatrixXd none = MatrixXd::Zero(problem_.model().contact_size(), problem_.basis().coefficients());
   const VectorXd rhs = at.right_hand_side(none, -error);
   const std::optional<VectorXd> moved = solved_nearly(at, rhs, ImplicitParams{}.damping);
@@ -104,7 +104,7 @@ class ImplicitStage::Equations {
         unknowns_(stage.problem_.unknowns()),
         force_(stage.problem_.system().force_scale),
         unit_(unknowns_ + base.size()),
-        near_(stage.last_, cycles) {
+        near_(*stage.last_, cycles) {
     unit_ << stage.problem_.unit_displacement(), force_ * stage.problem_.penalty().normal.cwiseInverse();
   }
 
@@ -137,7 +137,7 @@ class ImplicitStage::Equations {
     if (spent(stage_.problem_.budget())) return Status::budget_spent;
     steady::differentiate(*at_);
     stage_.last_ = at_;
-    near_ = CoupledPoint(at_, cycles_);
+    near_ = CoupledPoint(*at_, cycles_);
     const VectorXd rhs = near_.right_hand_side(residual_f_, residual_g_);
     if (const std::optional<VectorXd> moved = stage_.solved_nearly(near_, rhs, forcing())) {
       step = with_depths(*moved);

@@ -39,7 +39,7 @@ TEST(CoupledPoint, SolvesBothEquationsAtOnce) {
     residual << f, g;
     const Eigen::VectorXd expected = whole.partialPivLu().solve(-residual);
 
-    const CoupledPoint at({state.tangent, &tangent.point()}, cycles);
+    const CoupledPoint at(tangent.point(), cycles);
     const steady::FactoredJacobian factors(at.eliminated());
     const Eigen::VectorXd moved = factors.solve(at.right_hand_side(f.reshaped(contact, n / contact), g));
     EXPECT_LT((moved - expected.head(n)).norm(), 1e-9 * expected.head(n).norm()) << depth;
