@@ -99,7 +99,9 @@ struct History {
   Eigen::MatrixXd rate;         ///< [S, Nc] m per cycle, at that depth
   Eigen::VectorXd amplitude;    ///< [S] m, of the followed output; implicit: NaN but of the last state
   Eigen::VectorXd frequency;    ///< [S] exciting omega, rad/s
-  steady::State steady;         ///< of the last accepted state, or of the final one when `finished`
+  /// Of the last accepted state, or of the final one when `finished`. Where an implicit history may go on it is as
+  /// exact as its steps are.
+  steady::State steady;
   Eigen::VectorXd final_depth;  ///< [Nc] m, of the direct method when `finished`, otherwise the last depth
   Eigen::VectorXd final_rate;   ///< [Nc] m per cycle, at that depth; empty when there is no state
   double final_volume = 0;      ///< m^3

@@ -44,12 +44,10 @@ class Integrator {
                                                          steady::State first, const ExplicitParams& params = {});
 
 /// (U, W) integrated together by a stiffly accurate, L-stable scheme of second order: stages W_s = B_s + c r(U_s, W_s)
-/// are solved by Newton's method on (U, W) at once with U eliminated by the factorised Jacobian, one factorisation per
-/// iteration,
-///   dU = -J^-1 (f + J_W dW), (I - c R) dW = -(g - c r_U J^-1 f), g = W - B - c r, R = dr/dW along f = 0,
-/// over the nodes that wear. Steps grow while the local error permits; one that does not converge is cut. Where none
-/// converges however short, as at a fold, one explicit jump goes to the state that the joint has there. No node loses
-/// depth, and none is worn past the load that wears it.
+/// are solved by Newton's method on (U, W) at once with W eliminated node by node (coupled_point.hpp), by chord steps
+/// and products with the factors in use as long as these serve. Steps grow while the local error permits; one that does
+/// not converge is cut. Where none converges however short, as at a fold, one explicit jump goes to the state that the
+/// joint has there. No node loses depth, and none is worn past the load that wears it.
 [[nodiscard]] std::unique_ptr<Integrator> implicit_steps(WearingJoint& joint, const HistoryOptions& options,
                                                          steady::State first, const StepMemory& memory,
                                                          const ImplicitParams& params = {});
