@@ -23,8 +23,8 @@ if(DOVETAIL_SANITIZE)
 endif()
 
 # Headers that most files read, precompiled once for the libraries and once for the tests: a third of the time of a
-# build. Presets that check build without, so that an include that is missing shows, and for clang-tidy, which cannot
-# read what g++ precompiles.
+# build. The preset dev builds without, so that an include that is missing shows, and for clang-tidy, which cannot read
+# what g++ precompiles.
 function(dovetail_precompiled target)
   cmake_parse_arguments(ARG "" "" "HEADERS;LINK" ${ARGN})
   file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/${target}.cpp CONTENT "")

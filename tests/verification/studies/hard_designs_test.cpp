@@ -335,6 +335,7 @@ TEST(HardDesigns, APeakThatTheMeshResolvesHasABarThatHolds) {
     const double bar = evaluation.error_estimates.at("contact_pressure_max_pa");
     EXPECT_NEAR(evaluation.responses.at("contact_pressure_max_pa"), peak, bar);
     EXPECT_LT(bar, 0.09 * peak);
+    if (changes.size() > 1) continue;
     // Coarser meshes, which a study that does not name the peak asks alone, hardly resolve it: a large bar, or none.
     const optimizer::Evaluation aside = evaluated(finer, unworn).evaluation;
     const auto large = aside.error_estimates.find("contact_pressure_max_pa");
