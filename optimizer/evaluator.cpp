@@ -23,7 +23,7 @@ CandidateResult SceneEvaluator::evaluate(const Scene& scene, const Purpose& purp
   CandidateResult result = computed(scene, builder_.build(scene), how);
   if (purpose.bars && result.evaluation.converged()) {
     Stopwatch watch;
-    add_error_bars(scene, builder_, others(), how, result);
+    add_error_bars(scene, builder_, purpose.truncation_alone ? nullptr : &others(), how, result);
     result.evaluation.timings_s["error_estimates"] = watch.lap();
   }
   result.evaluation.timings_s["total"] = total.lap();

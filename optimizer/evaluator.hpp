@@ -13,6 +13,7 @@ namespace dovetail::optimizer {
 /// How much an evaluation has to answer for. A search compares many designs and leaves bars and histories out.
 struct Purpose {
   bool bars = true;                     ///< error bars of all responses there are
+  bool truncation_alone = false;        ///< of those the parts by harmonics, samples and pseudo-penalty alone
   bool history = true;                  ///< where the direct worn state is in doubt, the wear history decides
   Stage until = Stage::worn_resonance;  ///< the last one that is computed; responses of later ones have no value
 };

@@ -118,7 +118,7 @@ SettingsChoice choose_settings(const Scene& scene, const AccuracyGoal& goal, con
 
 SettingsChoice choose_settings(const Scene& reference, const Scene& scene, const AccuracyGoal& goal,
                                const AccuracyListener& told) {
-  Purpose purpose{.bars = true, .history = false};
+  Purpose purpose{.truncation_alone = goal.of_truncation, .history = false};
   if (!goal.responses.empty()) purpose.until = last_stage(goal.responses);
   return choose_settings(
       scene, goal,

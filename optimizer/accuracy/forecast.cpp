@@ -24,6 +24,12 @@ Knob knob_of(const std::string& source) {
   return Knob::none;
 }
 
+/// Whether a part of a bar that falls with `knob` is held to what was asked for.
+bool counts(Knob knob, const AccuracyGoal& goal) {
+  if (goal.of_truncation) return knob == Knob::harmonics || knob == Knob::samples;
+  return knob != Knob::none;
+}
+
 /// To whose number that of steady states is proportional.
 double states_by(const Settings& settings) {
   return 1 - kForecast.by_digit * (std::log10(settings.resonance_tolerance) - std::log10(kForecast.coarsest_tolerance));
@@ -140,7 +146,7 @@ void Forecast::add(const Response& response, const Evaluation& evaluation) {
     if (source != "history") whole += bar;  // no round asks a history: what it would settle is not known here
   whole_[name] = whole / std::abs(value->second);
   for (const auto& [source, bar] : bars->second)
-    if (const Knob knob = knob_of(source); knob != Knob::none)
+    if (const Knob knob = knob_of(source); counts(knob, *goal_))
       parts_.push_back({.response = &response,
                         .source = source,
                         .knob = knob,

@@ -18,6 +18,8 @@ struct AccuracyGoal {
   std::map<std::string, double> of = {};    ///< > 0, of single responses instead
   std::vector<std::string> responses = {};  ///< held to it; empty: all with a value, a bar and a limit
   std::set<std::string> fixed = {};         ///< keys that stay as they are
+  /// Of harmonics and samples alone: parts of bars by anything else count neither for nor against.
+  bool of_truncation = false;
 
   [[nodiscard]] double asked(const std::string& response) const {
     const auto own = of.find(response);

@@ -43,7 +43,7 @@ Evaluation companion(const Scene& scene, CandidateModel model, const Computation
 /// Asks companions of one design and gathers what they say.
 class ErrorBarSources {
  public:
-  ErrorBarSources(const Scene& scene, const ModelBuilder& builder, const OtherMeshes& others, const Computation& how,
+  ErrorBarSources(const Scene& scene, const ModelBuilder& builder, const OtherMeshes* others, const Computation& how,
                   CandidateResult& result)
       : scene_(scene), builder_(builder), others_(others), result_(result), bars_(scene, result), as_here_(how) {
     // Where the history decided, it does so for the companions.
@@ -51,6 +51,11 @@ class ErrorBarSources {
   }
 
   void run() {
+    if (others_ == nullptr) {
+      std::vector<Base> own{own_mesh()};
+      if (as_here_.until >= Stage::unworn) ask_truncation(own);
+      return bars_.total();
+    }
     ask_meshes();
     const Evaluation longer = on_nodes(kCompanion.longer_nodes);
     const std::string slides = failed_at("asymptote", Status::gross_sliding);
@@ -84,10 +89,12 @@ class ErrorBarSources {
     std::optional<CandidateModel> model;
   };
 
+  [[nodiscard]] Base own_mesh() const { return {&builder_, scene_, &result_.evaluation, result_.model}; }
+
   void ask_meshes() {
     std::vector<Companion> meshes;
-    answers_.reserve(others_.meshes().size());
-    for (const auto& [sizes, on_it] : others_.meshes()) {
+    answers_.reserve(others_->meshes().size());
+    for (const auto& [sizes, on_it] : others_->meshes()) {
       const Scene there = resized(scene_, sizes);
       // The coarsest meshes there are end the way down.
       const double ratio = static_cast<double>(scene_.mesh.flank_elements) / there.mesh.flank_elements;
@@ -97,13 +104,21 @@ class ErrorBarSources {
       finer_ = ratio < 1 && answers_.back().converged();
     }
     bars_.add("mesh", meshes, result_.evaluation);
-    if (const ModelBuilder* on_it = others_.finer_section()) {
-      constexpr double kRatio = kCompanion.section_ratio;
-      Computation how = as_here_;
-      how.until = std::min(how.until, Stage::unworn);
-      const Evaluation finer = companion(scene_, on_it->build(resized_section(scene_, kRatio)), how);
-      bars_.add("mesh", {{&finer, by_mesh(kRatio)}}, result_.evaluation);
-    }
+    ask_sections();
+  }
+
+  /// What the section leaves hardly depends on the layers along the slot.
+  void ask_sections() {
+    const OtherMeshes::Sections* on_them = others_->sections();
+    if (on_them == nullptr) return;
+    constexpr double kRatio = kCompanion.section_ratio;
+    Computation how = as_here_;
+    how.until = std::min(how.until, Stage::unworn);
+    const Scene few = with_few_layers(scene_), fine = resized_section(few, kRatio);
+    const Evaluation own = on_them->own ? companion(few, on_them->own->build(few), how) : result_.evaluation;
+    const Evaluation finer = companion(fine, on_them->finer.build(fine), how);
+    if (own.converged()) return bars_.add("mesh", {{&finer, by_mesh(kRatio)}}, own);
+    bars_.add("mesh", {{&own, by_mesh(kRatio)}}, result_.evaluation);
   }
 
   /// Of what a mesh with elements `ratio` times as long changes.
@@ -153,19 +168,22 @@ class ErrorBarSources {
   void ask_settings() {
     std::vector<Base> bases;
     for (std::size_t i = answers_.size(); i-- > 0;)  // the coarsest one stands last
-      if (const auto& [ratio, on_it] = others_.meshes()[i]; ratio > 1 && answers_[i].converged())
+      if (const auto& [ratio, on_it] = others_->meshes()[i]; ratio > 1 && answers_[i].converged())
         bases.push_back({&on_it, resized(scene_, ratio), &answers_[i], {}});
-    bases.push_back({&builder_, scene_, &result_.evaluation, result_.model});
+    bases.push_back(own_mesh());
     const std::span<Base> of_contact =
         scene_.kind->coarse_answers ? std::span<Base>(bases) : std::span<Base>(bases).last(1);
-    // Contact nodes of a study have no mass.
-    const quality::TruncationFactors factors = quality::truncation_factors(true);
     ask(bases, "modes", kCompanion.modes_factor, {[](Scene& changed, Computation&) {
           changed.solver.modes = std::max(2 * changed.solver.modes, changed.solver.modes + kCompanion.more_modes);
         }});
     if (scene_.solver.prestress == Prestress::shared)
       ask(bases, "prestress", 1, {[](Scene& changed, Computation&) { changed.solver.prestress = Prestress::own; }});
-    if (as_here_.until < Stage::unworn) return;  // nothing moves
+    if (as_here_.until >= Stage::unworn) ask_truncation(of_contact);  // else nothing moves
+  }
+
+  void ask_truncation(std::span<Base> of_contact) {
+    // Contact nodes of a study have no mass.
+    const quality::TruncationFactors factors = quality::truncation_factors(true);
     ask(of_contact, "harmonics", factors.harmonics, {[](Scene& changed, Computation&) {
           changed.solver.harmonics = 2 * changed.solver.harmonics + 1;
           changed.solver.samples = quality::samples_for(changed.solver.harmonics, changed.solver.samples);
@@ -195,7 +213,7 @@ class ErrorBarSources {
 
   const Scene& scene_;
   const ModelBuilder& builder_;
-  const OtherMeshes& others_;
+  const OtherMeshes* others_;
   CandidateResult& result_;
   Bars bars_;
   Computation as_here_;
@@ -205,7 +223,7 @@ class ErrorBarSources {
 
 }  // namespace
 
-void add_error_bars(const Scene& scene, const ModelBuilder& builder, const OtherMeshes& others, const Computation& how,
+void add_error_bars(const Scene& scene, const ModelBuilder& builder, const OtherMeshes* others, const Computation& how,
                     CandidateResult& result) {
   ErrorBarSources(scene, builder, others, how, result).run();
 }

@@ -34,11 +34,12 @@ struct Computation;
 /// is the sum. Responses add what their own computation knows of its error. One without a limit is `unbounded`, and
 /// whatever companions none of which converged leave open (with a message).
 /// @param builder  of the design's own mesh
+/// @param others  null: bars by harmonics, samples and pseudo-penalty alone, which the design's own mesh is asked for
 /// @param how  the design was computed: what it leaves out has no bars, and companions leave it out, too
 /// Cost: an evaluation on a finer mesh, six on coarser ones and one or two on other grids of contact nodes; on fine
 /// meshes none on a finer one; in space two on coarser meshes and seven or eight as large as the design's own. Each has
 /// a budget of its own.
-void add_error_bars(const Scene& scene, const ModelBuilder& builder, const OtherMeshes& others, const Computation& how,
+void add_error_bars(const Scene& scene, const ModelBuilder& builder, const OtherMeshes* others, const Computation& how,
                     CandidateResult& result);
 
 }  // namespace dovetail::optimizer

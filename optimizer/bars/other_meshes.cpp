@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "optimizer/bars/params.hpp"
 
@@ -20,10 +21,24 @@ Scene lengthened(Scene scene, std::span<const std::string_view> keys, double rat
   return scene;
 }
 
+std::vector<double> layers(const Scene& scene) {
+  std::vector<double> counts;
+  for (const std::string_view key : scene.kind->layers) counts.push_back(parameter(scene, key));
+  return counts;
+}
+
 }  // namespace
 
 Scene resized_section(Scene scene, double ratio) {
   return lengthened(std::move(scene), kSection.lengths, ratio);
+}
+
+Scene with_few_layers(Scene scene) {
+  for (const std::string_view key : scene.kind->layers) {
+    const double count = parameter(scene, key);
+    if (count > CompanionParams{}.section_layers) set_parameter(scene, key, CompanionParams{}.section_layers);
+  }
+  return scene;
 }
 
 Scene resized(Scene scene, double ratio) {
@@ -42,7 +57,10 @@ OtherMeshes::OtherMeshes(const Scene& reference, bool finer) {
   const bool ask_finer = reference.mesh.flank_elements < below || (finer && below > 0);
   for (const double ratio : ask_finer ? kParams.finer : kParams.coarser)
     meshes_.push_back({.ratio = ratio, .builder = ModelBuilder(resized(reference, ratio))});
-  if (reference.kind->lengths.empty()) finer_section_.emplace(resized_section(reference, kParams.section_ratio));
+  if (!reference.kind->lengths.empty()) return;
+  const Scene few = with_few_layers(reference);
+  sections_ = {.own = {}, .finer = ModelBuilder(resized_section(few, kParams.section_ratio))};
+  if (layers(few) != layers(reference)) sections_->own.emplace(few);
 }
 
 }  // namespace dovetail::optimizer

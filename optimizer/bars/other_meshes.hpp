@@ -14,6 +14,9 @@ namespace dovetail::optimizer {
 /// The design on a mesh whose elements in the section, but for those along the flanks, are `ratio` times as large.
 [[nodiscard]] Scene resized_section(Scene scene, double ratio);
 
+/// The design on a mesh that has the same section and few elements along the slot.
+[[nodiscard]] Scene with_few_layers(Scene scene);
+
 /// Makes the models of a study's designs on the other meshes that error bars are asked of.
 class OtherMeshes {
  public:
@@ -27,12 +30,17 @@ class OtherMeshes {
   /// Where meshes of the kind are fine, coarser ones alone unless a finer one was asked for; in the order in which the
   /// error by the mesh is asked for.
   [[nodiscard]] const std::vector<Mesh>& meshes() const { return meshes_; }
-  /// Where those do not resize the section beside the flanks: one that has it finer. Else null.
-  [[nodiscard]] const ModelBuilder* finer_section() const { return finer_section_ ? &*finer_section_ : nullptr; }
+  /// A finer section and the design's own, both on few layers; no own one where the design has no more of them.
+  struct Sections {
+    std::optional<ModelBuilder> own;
+    ModelBuilder finer;
+  };
+  /// Where those meshes do not resize the section beside the flanks; else null.
+  [[nodiscard]] const Sections* sections() const { return sections_ ? &*sections_ : nullptr; }
 
  private:
   std::vector<Mesh> meshes_;
-  std::optional<ModelBuilder> finer_section_;
+  std::optional<Sections> sections_;
 };
 
 }  // namespace dovetail::optimizer

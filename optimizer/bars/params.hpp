@@ -11,11 +11,15 @@ namespace dovetail::optimizer {
 struct CompanionParams {
   /// Sizes of the elements of other meshes over a design's own, in the order in which they are asked.
   std::array<double, 2> finer{1 / 1.5, 1.5}, coarser{1.5, 2};
-  double longer_nodes = 1.5;        ///< length of contact nodes over the design's own
-  double shorter_nodes = 0.5;       ///< the same where nothing wears
-  double shorter_factor = 2;        ///< part of what they change, as half of a zone may be missed on them, too
-  double nodes_again = 0.25;        ///< part of what longer nodes change that remains beside a finer mesh
-  double section_ratio = 1 / 1.5;   ///< sizes of elements in a finer section
+  double longer_nodes = 1.5;       ///< length of contact nodes over the design's own
+  double shorter_nodes = 0.5;      ///< the same where nothing wears
+  double shorter_factor = 2;       ///< part of what they change, as half of a zone may be missed on them, too
+  double nodes_again = 0.25;       ///< part of what longer nodes change that remains beside a finer mesh
+  double section_ratio = 1 / 1.5;  ///< sizes of elements in a finer section
+  /// Layers along the slot of meshes that show what a finer section changes. With eight, four and three of them it
+  /// changed frequencies, stresses, mass and amplitude of the reference's bladed disk alike, to a tenth of the change,
+  /// with two the dissipated energy not.
+  int section_layers = 3;
   double harder = 2, softer = 0.5;  ///< pseudo-penalties, the softer one first
   double modes_factor = 1.5;        ///< of what twice as many modes change: the error falls like 1 / omega^2
   int more_modes = 10;              ///< at least: one more may be one that the load does not move

@@ -30,6 +30,7 @@ struct SceneKind {
   std::vector<Violation> (*contradictions)(const Scene& scene);
 
   std::span<const std::string_view> counts;   ///< keys of numbers of elements, which another mesh has more or fewer of
+  std::span<const std::string_view> layers;   ///< those of them along the slot
   std::span<const std::string_view> lengths;  ///< keys of sizes of elements, which it has larger or smaller
   int finer_below;      ///< edges along the flanks from which on coarser meshes say what finer ones would; 0: always
   bool contact_grid;    ///< mesh.contact_flank_elements and mesh.contact_slot_elements count

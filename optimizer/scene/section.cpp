@@ -32,6 +32,7 @@ const SceneKind kSection{.name = "section",
                          .blade_mass = blade_mass,
                          .contradictions = [](const Scene&) { return std::vector<Violation>{}; },
                          .counts = kCounts,
+                         .layers = {},
                          .lengths = kLengths,
                          .finer_below = 48,  // measured from there on (studies/error_bars)
                          .contact_grid = false,

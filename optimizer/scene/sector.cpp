@@ -16,6 +16,7 @@ Mesher mesher(const Scene& reference) {
 
 constexpr std::array<std::string_view, 5> kCounts{"mesh.flank_elements", "mesh.aerofoil_elements", "mesh.slot_elements",
                                                   "mesh.contact_slot_elements", "mesh.contact_flank_elements"};
+constexpr std::array<std::string_view, 2> kLayers{"mesh.slot_elements", "mesh.contact_slot_elements"};
 
 geometry::Feasibility feasibility(const Scene& scene, const geometry::FeasibilityLimits& limits) {
   return geometry::check_feasibility(scene.geometry, scene.solid, limits);
@@ -38,6 +39,7 @@ const SceneKind kSector{.name = "sector",
                         .blade_mass = blade_mass,
                         .contradictions = too_fine,
                         .counts = kCounts,
+                        .layers = kLayers,
                         .lengths = {},     // the section beside the flanks is as coarse as elements of the sweep allow
                         .finer_below = 0,  // a finer one would cost more than all else
                         .contact_grid = true,

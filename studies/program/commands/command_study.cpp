@@ -20,7 +20,6 @@
 #include "studies/program/commands/commands.hpp"
 #include "studies/program/engine/engine.hpp"
 #include "studies/program/engine/settled_study.hpp"
-#include "studies/program/engine/truncation_choice.hpp"
 #include "studies/program/study_file/refusal.hpp"
 #include "studies/program/study_file/study_template.hpp"
 
@@ -136,21 +135,17 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
   for (const std::string& warning : warnings(study)) streams.err << options.study << ": warning: " << warning << "\n";
   if (study.scene.solver.accuracy > 0) refuse_automatic(options.solver);
   const Study asked = study;
-  const std::optional<optimizer::SettingsChoice> choice = settle(study, [&](const optimizer::SettingsTried& tried) {
-    streams.err << "dovetail: " << round_words(asked, tried) << "\n";
-  });
-  const std::shared_ptr<const optimizer::SceneEvaluator> evaluator = scene_evaluator(study);
-  const std::optional<Status> automatic = choose_truncation(study.scene, *evaluator, options.solver);
+  const optimizer::Stage until = options.unworn ? optimizer::Stage::unworn : optimizer::Stage::worn_resonance;
+  const std::optional<optimizer::AccuracyGoal> goal =
+      study.scene.solver.accuracy > 0 ? accuracy_goal(study) : truncation_goal(study, options.solver, until);
+  const std::optional<optimizer::SettingsChoice> choice = settle(
+      study, goal,
+      [&](const optimizer::SettingsTried& tried) { streams.err << "dovetail: " << round_words(asked, tried) << "\n"; });
   optimizer::Evaluation evaluation =
-      evaluator
+      scene_evaluator(study)
           ->evaluate(study.scene,
-                     {.bars = !options.no_bars && !options.unworn,
-                      .history = !options.no_history,
-                      .until = options.unworn ? optimizer::Stage::unworn : optimizer::Stage::worn_resonance})
+                     {.bars = !options.no_bars && !options.unworn, .history = !options.no_history, .until = until})
           .evaluation;
-  if (automatic && *automatic != Status::converged)
-    evaluation.messages.push_back(
-        truncation_complaint(*automatic, optimizer::steady_options(study.scene.solver), options.solver));
   const std::string inaccurate = choice ? accuracy_complaint(asked, *choice) : std::string();
   if (!inaccurate.empty()) evaluation.messages.push_back(inaccurate);
   std::vector<std::string> unjudged;
@@ -162,10 +157,7 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
   if (options.json != "-") streams.out << evaluation_table(evaluation);
   if (evaluation.infeasible()) throw infeasible(options.study, evaluation.messages);
   for (const std::string& message : evaluation.messages) streams.err << "dovetail: " << message << "\n";
-  const auto missed = [](const auto& found, auto status) { return found && status(*found) != Status::converged; };
-  if (evaluation.converged())
-    return missed(automatic, std::identity{}) || missed(choice, [](const auto& c) { return c.status; }) ? kNotConverged
-                                                                                                        : kDone;
+  if (evaluation.converged()) return choice && choice->status != Status::converged ? kNotConverged : kDone;
   const auto ends_in = [&](auto why) { return evaluation.status.ends_with(to_string(why)); };
   const char* what = ends_in(wear::Verdict::no_asymptote) ? "wear has no end"
                      : ends_in(Status::gross_sliding)     ? "the joint slides"

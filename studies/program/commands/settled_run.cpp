@@ -77,9 +77,9 @@ std::optional<Chosen> kept(const std::filesystem::path& file, const std::string&
 /// Settings for the accuracy that the study asks for at its own design; nothing where it asks for none.
 std::optional<optimizer::SettingsChoice> choose(const Study& there, std::ostream& err, Chosen& result) {
   Study settled = there;
-  std::optional<optimizer::SettingsChoice> choice = settle(settled, [&](const optimizer::SettingsTried& tried) {
-    err << "dovetail: " << round_words(there, tried) << "\n";
-  });
+  std::optional<optimizer::SettingsChoice> choice =
+      settle(settled, accuracy_goal(settled),
+             [&](const optimizer::SettingsTried& tried) { err << "dovetail: " << round_words(there, tried) << "\n"; });
   if (!choice) return choice;
   for (const auto& [key, value] : settings_by_key(there.scene, choice->settings))
     if (!there.given.contains(key)) result.settings[key] = value;

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 
+#include "optimizer/responses/response_table.hpp"
 #include "studies/program/engine/engine.hpp"
+#include "studies/program/engine/truncation_choice.hpp"
 
 namespace dovetail::studies {
 
@@ -27,8 +29,27 @@ std::optional<optimizer::AccuracyGoal> accuracy_goal(const Study& study) {
   return goal;
 }
 
-std::optional<optimizer::SettingsChoice> settle(Study& study, const optimizer::AccuracyListener& told) {
-  const std::optional<optimizer::AccuracyGoal> goal = accuracy_goal(study);
+std::optional<optimizer::AccuracyGoal> truncation_goal(const Study& study, const SolverChoice& solver,
+                                                       optimizer::Stage until) {
+  if (!solver.automatic()) return {};
+  optimizer::AccuracyGoal goal{.relative = 10 * accuracy(solver), .of_truncation = true};
+  const std::vector<std::string> named = optimizer::responses_of(study.problem);
+  for (const optimizer::Response& response : optimizer::responses()) {
+    const std::string name(response.name);
+    if (response.stage <= until && (named.empty() || std::ranges::count(named, name) > 0))
+      goal.responses.push_back(name);
+  }
+  for (const optimizer::Response* amplitude : {&optimizer::kPeakAmplitude, &optimizer::kWornPeakAmplitude})
+    goal.of[std::string(amplitude->name)] = accuracy(solver);
+  for (const auto& [key, value] : optimizer::settings_by_key(study.scene, optimizer::settings_of(study.scene)))
+    goal.fixed.insert(key);
+  if (solver.harmonics == kAutomatic) goal.fixed.erase("solver.harmonics");
+  if (solver.samples == kAutomatic) goal.fixed.erase("solver.samples");
+  return goal;
+}
+
+std::optional<optimizer::SettingsChoice> settle(Study& study, const std::optional<optimizer::AccuracyGoal>& goal,
+                                                const optimizer::AccuracyListener& told) {
   if (!goal) return {};
   optimizer::SettingsChoice choice = optimizer::choose_settings(reference_scene(study), study.scene, *goal, told);
   study.scene = optimizer::with_settings(study.scene, choice.settings);
@@ -41,8 +62,9 @@ namespace {
 std::string known(const optimizer::Dominant& by) {
   std::string text = fmt::format("{} to {:.2g} % (asked: {:.2g} %)", by.response, 100 * by.relative, 100 * by.asked);
   if (!by.source.empty()) text += ", most of it by " + by.source;
-  // What no setting buys: doubts of the worn state, edges of zones.
-  if (by.whole > kTellWhole * by.relative) text += fmt::format("; {:.2g} % with what no setting buys", 100 * by.whole);
+  // Doubts of the worn state, edges of zones; with harmonics and samples alone to be chosen, all else.
+  if (by.whole > kTellWhole * by.relative)
+    text += fmt::format("; {:.2g} % with what this does not buy", 100 * by.whole);
   return text;
 }
 
@@ -64,7 +86,7 @@ std::string accuracy_complaint(const Study& study, const optimizer::SettingsChoi
   if (choice.status == Status::converged) return {};
   std::vector<std::string> held;
   for (const std::string& key : study.given)
-    if (optimizer::buys_accuracy(study.scene, key)) held.push_back(key);
+    if (study.scene.solver.accuracy > 0 && optimizer::buys_accuracy(study.scene, key)) held.push_back(key);
   return fmt::format("the accuracy asked for is not reached: {}{}{}", known(*choice.tried.by),
                      held.empty() ? "" : ". The study file holds ", fmt::join(held, ", "));
 }

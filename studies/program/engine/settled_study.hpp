@@ -4,6 +4,7 @@
 #include <string>
 
 #include "optimizer/accuracy/choice.hpp"
+#include "studies/program/questions/solver_choice.hpp"
 #include "studies/program/study_file/study.hpp"
 
 namespace dovetail::studies {
@@ -12,10 +13,16 @@ namespace dovetail::studies {
 /// does not give. Nothing where it asks for no accuracy.
 [[nodiscard]] std::optional<optimizer::AccuracyGoal> accuracy_goal(const Study& study);
 
+/// The same of the harmonics and samples that are to be chosen automatically; nothing where none are.
+/// @param until  responses that need a later stage are not asked
+[[nodiscard]] std::optional<optimizer::AccuracyGoal> truncation_goal(const Study& study, const SolverChoice& solver,
+                                                                     optimizer::Stage until);
+
 /// Settings for that, of the study's own design: computed once, and then as if they stood in its file. The study's
 /// scene has them from then on.
-/// @return nothing where the study asks for no accuracy
-std::optional<optimizer::SettingsChoice> settle(Study& study, const optimizer::AccuracyListener& told = {});
+/// @return nothing where there is no goal
+std::optional<optimizer::SettingsChoice> settle(Study& study, const std::optional<optimizer::AccuracyGoal>& goal,
+                                                const optimizer::AccuracyListener& told = {});
 
 /// A round in a line for people.
 [[nodiscard]] std::string round_words(const Study& study, const optimizer::SettingsTried& tried);

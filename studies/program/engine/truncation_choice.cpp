@@ -4,7 +4,6 @@
 
 #include <numbers>
 
-#include "paths/resonance.hpp"
 #include "quality/automatic.hpp"
 
 namespace dovetail::studies {
@@ -26,23 +25,6 @@ std::optional<Status> choose_truncation(LoadedModel& loaded, const std::vector<d
   const quality::AutomaticSettings chosen = quality::automatic_settings(loaded.joint, omega, options);
   loaded.joint.options = chosen.options;
   return chosen.status;
-}
-
-std::optional<Status> choose_truncation(optimizer::Scene& scene, const optimizer::SceneEvaluator& evaluator,
-                                        const SolverChoice& solver) {
-  if (!solver.automatic()) return std::nullopt;
-  const optimizer::CandidateModel candidate = evaluator.builder().build(scene);
-  if (!candidate.converged()) return std::nullopt;
-  LoadedModel loaded;
-  loaded.joint.model = candidate.condensed;
-  loaded.joint.options = optimizer::steady_options(scene.solver);
-  const double glued = candidate.glued_frequencies(scene.loading.mode - 1);
-  const paths::Resonance resonance = paths::resonance(loaded.joint, glued);
-  if (resonance.status != Status::converged) return std::nullopt;
-  const std::optional<Status> status = choose_truncation(loaded, {resonance.omega / (2 * std::numbers::pi)}, solver);
-  scene.solver.harmonics = loaded.joint.options.harmonics;
-  scene.solver.samples = loaded.joint.options.samples;
-  return status;
 }
 
 std::string truncation_complaint(Status status, const steady::Options& reached, const SolverChoice& solver) {

@@ -16,11 +16,6 @@ namespace dovetail::studies {
 /// be chosen.
 std::optional<Status> choose_truncation(LoadedModel& loaded, const std::vector<double>& hz, const SolverChoice& solver);
 
-/// The same for a scene, at its unworn resonance. Nothing is chosen where its model does not exist: evaluating it says
-/// why.
-std::optional<Status> choose_truncation(optimizer::Scene& scene, const optimizer::SceneEvaluator& evaluator,
-                                        const SolverChoice& solver);
-
 /// One sentence about a choice that did not reach the accuracy.
 [[nodiscard]] std::string truncation_complaint(Status status, const steady::Options& reached,
                                                const SolverChoice& solver);

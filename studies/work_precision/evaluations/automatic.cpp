@@ -40,10 +40,11 @@ AutomaticChoice choose(MeasuredDesign& design, double accuracy, double limit) {
   const double begin = ready_study::processor_seconds();
   optimizer::Settings settings;
   try {
-    const auto settled = studies::settle(study, [&](const optimizer::SettingsTried& tried) {
-      choice.rounds.push_back(tried);
-      if (limit > 0 && ready_study::processor_seconds() - begin > limit) throw GivenUp{};
-    });
+    const auto settled =
+        studies::settle(study, studies::accuracy_goal(study), [&](const optimizer::SettingsTried& tried) {
+          choice.rounds.push_back(tried);
+          if (limit > 0 && ready_study::processor_seconds() - begin > limit) throw GivenUp{};
+        });
     settings = settled->settings;
     choice.status = to_string(settled->status);
   } catch (const GivenUp&) {

@@ -101,7 +101,7 @@ std::vector<Stage> whole_stages(Chain& chain) {
     chain.with_bars = chain.result;
   };
   const auto bars = [&] {
-    optimizer::add_error_bars(chain.scene, chain.evaluator->builder(), *chain.others,
+    optimizer::add_error_bars(chain.scene, chain.evaluator->builder(), &*chain.others,
                               optimizer::until(optimizer::Stage::worn_resonance, false), chain.with_bars);
     require(chain.with_bars.evaluation.converged(), "error_bars", chain.with_bars.evaluation.status);
   };
