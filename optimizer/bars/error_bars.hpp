@@ -14,13 +14,13 @@ struct Computation;
 /// - mesh: d to a mesh with 1.5 times the edges, with contact nodes of its own, of which an error of order p leaves
 ///   d / (1 - 1.5^-p). Where a mesh is fine, and in space, d to meshes r = 1.5 and 2 times as coarse, of which d / (r^p
 ///   - 1) is left; the larger counts, as a response may by accident change little from one to the next; d to a mesh
-///   with the same flanks in a section 1.5 times as fine, before wear, counts besides. Orders stand with the responses.
+///   with the same flanks in a section 1.5 times as fine, before wear, counts besides, both on few layers. Orders stand
+///   with the responses.
 /// - contact_grid: d to contact nodes 1.5 times as long on the same mesh, by the response's order; a quarter of that
 ///   beside a finer mesh, whose nodes are shorter, too. Worn volumes of zero are asked for on nodes half as long, and
 ///   what a zone as narrow as the nodes at the ends of the contact would wear unseen counts besides.
-/// - harmonics, samples: d to 2H+1 and to 2N; errors fall at least like 1/H and 1/N: (2H+1)/(H+1) d and 2 d.
-/// - pseudo_penalty: 1/2 d to half of it, or to twice as much where half has no answer, which acts through the
-///   harmonics left out.
+/// - harmonics, samples, pseudo_penalty: d to 2H+1, to 2N and to half of the penalty, or to twice as much where half
+///   has no answer, by quality::truncation_factors.
 /// - modes: d to twice as many: 1.5 d, as the error falls like the square of the first frequency left out.
 /// - prestress: d to matrices assembled with the design's own preload, where designs share theirs.
 /// - edge: ends of worn zones that went to and fro between two grids, in proportion to how far.
@@ -37,8 +37,8 @@ struct Computation;
 /// @param others  null: bars by harmonics, samples and pseudo-penalty alone, which the design's own mesh is asked for
 /// @param how  the design was computed: what it leaves out has no bars, and companions leave it out, too
 /// Cost: an evaluation on a finer mesh, six on coarser ones and one or two on other grids of contact nodes; on fine
-/// meshes none on a finer one; in space two on coarser meshes and seven or eight as large as the design's own. Each has
-/// a budget of its own.
+/// meshes none on a finer one; in space five on coarser meshes and four or five on the design's own. Each has a budget
+/// of its own.
 void add_error_bars(const Scene& scene, const ModelBuilder& builder, const OtherMeshes* others, const Computation& how,
                     CandidateResult& result);
 

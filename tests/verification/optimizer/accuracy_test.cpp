@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "optimizer/responses/response_table.hpp"
+#include "quality/truncation.hpp"
 #include "steady/work.hpp"
 #include "tests/verification/optimizer/coarse_scene.hpp"
 
@@ -103,6 +104,45 @@ TEST(Accuracy, LeavesWhatIsGivenAsItIs) {
   EXPECT_EQ(choice.settings.mesh, 1);
   EXPECT_EQ(choice.settings.samples, scene.solver.samples);
   EXPECT_GT(choice.settings.harmonics, scene.solver.harmonics);
+}
+
+// A mesh that leaves fifteen times what is asked for is nothing that harmonics and samples could mend.
+TEST(Accuracy, OfTruncationAloneCountsNothingElse) {
+  const Scene scene;
+  AccuracyGoal goal = kGoal;
+  goal.of_truncation = true;
+  for (const auto& [key, value] : settings_by_key(scene, settings_of(scene)))
+    if (key != "solver.harmonics" && key != "solver.samples") goal.fixed.insert(key);
+  const Laws laws{.mesh = 0.3};
+  const SettingsChoice choice = choose_settings(scene, goal, laws.probe());
+  ASSERT_EQ(choice.status, Status::converged);
+  const auto bars = laws.at(choice.settings);
+  EXPECT_LE(bars.at("harmonics") + bars.at("samples"), goal.relative);
+  EXPECT_GT(choice.settings.harmonics, scene.solver.harmonics);
+  Settings others = choice.settings;
+  others.harmonics = scene.solver.harmonics;
+  others.samples = scene.solver.samples;
+  EXPECT_EQ(others, settings_of(scene));
+  goal.of_truncation = false;
+  EXPECT_EQ(choose_settings(scene, goal, laws.probe()).status, Status::iteration_limit);
+}
+
+TEST(Accuracy, OfTruncationAloneAsksTheOwnMesh) {
+  const Scene scene = coarse_scene();
+  const SceneEvaluator evaluator(scene);
+  const Evaluation alone =
+      evaluator.evaluate(scene, {.truncation_alone = true, .history = false, .until = Stage::unworn}).evaluation;
+  ASSERT_TRUE(alone.converged()) << alone.status;
+  Scene finer = scene;
+  finer.solver.samples *= 2;
+  const Evaluation of_samples =
+      evaluator.evaluate(finer, {.bars = false, .history = false, .until = Stage::unworn}).evaluation;
+  const auto& sources = alone.error_sources.at("dissipated_energy_j");
+  EXPECT_EQ(sources.size(), 3U);
+  const double change =
+      std::abs(of_samples.responses.at("dissipated_energy_j") - alone.responses.at("dissipated_energy_j"));
+  EXPECT_NEAR(sources.at("samples"), quality::truncation_factors(true).samples * change, 1e-3 * change);
+  EXPECT_EQ(sources.count("mesh"), 0U);
 }
 
 TEST(Accuracy, OutOfReachIsSaid) {

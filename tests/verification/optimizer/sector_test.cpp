@@ -11,6 +11,7 @@
 #include "fem/diameter_frequencies.hpp"
 #include "geometry/solid/solid_family.hpp"
 #include "optimizer/bars/other_meshes.hpp"
+#include "optimizer/bars/params.hpp"
 #include "optimizer/evaluator.hpp"
 #include "optimizer/responses/computed.hpp"
 #include "tests/verification/optimizer/sector_joint.hpp"
@@ -150,6 +151,40 @@ TEST(OtherMeshes, AreFinerInThePlaneAlone) {
   plane.mesh.flank_elements = kSection.finer_below;
   EXPECT_EQ(sizes(plane, false), std::pair(1.5, 2.0));
   EXPECT_EQ(sizes(plane, true), std::pair(1 / 1.5, 1.5));
+}
+
+TEST(OtherMeshes, ShowAFinerSectionOnFewLayers) {
+  Scene space = joint(kSector);
+  space.mesh.flank_elements = 4;
+  space.solid_mesh.slot_elements = 8;
+  const Scene few = with_few_layers(space);
+  EXPECT_LT(few.solid_mesh.slot_elements, 8);
+  EXPECT_EQ(few.solid_mesh.contact_slot_elements, 0) << "as many as layers";
+  EXPECT_EQ(few.mesh.flank_elements, 4);
+  ASSERT_NE(OtherMeshes(space).sections(), nullptr);
+  EXPECT_TRUE(OtherMeshes(space).sections()->own);
+  EXPECT_FALSE(OtherMeshes(few).sections()->own) << "the design itself has no more";
+  EXPECT_EQ(OtherMeshes(joint(kSection)).sections(), nullptr);
+}
+
+// Frequencies hardly depend on the layers, by which a coarse section makes the neck too stiff.
+TEST(OtherMeshes, AFinerSectionSaysOnFewLayersWhatItSaysOnAll) {
+  Scene all = joint(kSector);
+  all.mesh.flank_elements = 4;
+  all.mesh.bulk_size = 8e-3;
+  all.solid_mesh.slot_elements = 6;
+  all.solid.skew_angle = 0.2;
+  const auto change = [](const Scene& own) {
+    const Scene finer = resized_section(own, CompanionParams{}.section_ratio);
+    const auto frequency = [](const Scene& scene) {
+      const Evaluation of = SceneEvaluator(scene).evaluate(scene, {.bars = false, .until = Stage::unworn}).evaluation;
+      return of.responses.at("glued_frequency_hz");
+    };
+    return frequency(finer) / frequency(own) - 1;
+  };
+  const double whole = change(all), few = change(with_few_layers(all));
+  EXPECT_LT(whole, 0);
+  EXPECT_NEAR(few, whole, 0.2 * std::abs(whole));
 }
 
 TEST(SectorEvaluation, ConvergesWithEveryResponseAndItsErrorBar) {
