@@ -82,6 +82,7 @@ report::RunRecord record_of(const RunSite& site, OptimizationResult result, doub
   record.seconds = seconds;
   record.provenance.program_version = version();
   record.provenance.study_file = study.file;
+  record.provenance.settings = site.chosen;
   record.provenance.study_text = study.text;
   record.best_design = std::move(best);
   record.baseline_design = std::move(baseline);
@@ -92,7 +93,7 @@ report::RunRecord record_of(const RunSite& site, OptimizationResult result, doub
 
 report::RunRecord write_run(const RunSite& site, const OptimizationResult& result, double seconds,
                             const std::vector<report::VerificationRecord>& verifications) {
-  const auto& [study, engine, directory, err, settings] = site;
+  const auto& [study, engine, directory, err, settings, chosen] = site;
   // The design first: it costs nothing and must not be lost when describing it is cut short.
   if (result.best) {
     const optimizer::Candidate& best = result.evaluations[*result.best];

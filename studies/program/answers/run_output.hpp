@@ -17,6 +17,7 @@ struct RunSite {
   std::filesystem::path directory;
   std::ostream& err;
   std::string settings = {};  ///< a sentence on those of start and best design where they are not the search's
+  std::map<std::string, std::string> chosen = {};  ///< those that an accuracy chose, key -> value as text
 };
 
 /// Writes what a run came to into its directory, finished or interrupted: best.toml and the exports the study asks for

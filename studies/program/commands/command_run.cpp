@@ -185,8 +185,12 @@ int run_study(const RunOptions& options, const Streams& streams, const RunEngine
               : study;
   const std::string settings = settings_words(study, handed);
   const RunEngine closer = settings.empty() ? engine : make_engine(handed);
-  const RunSite end{
-      .study = handed, .engine = closer, .directory = directory, .err = streams.err, .settings = settings};
+  const RunSite end{.study = handed,
+                    .engine = closer,
+                    .directory = directory,
+                    .err = streams.err,
+                    .settings = settings,
+                    .chosen = chosen_settings(asked, study, handed)};
   std::vector<report::VerificationRecord> verifications;
   if (!interrupt.requested()) verifications = verify_best(end, result, fingerprint_of(handed), interrupt);
 

@@ -149,6 +149,20 @@ Study settled_run(Study study, const std::filesystem::path& directory, bool resu
   return with_chosen(study, *settled);
 }
 
+std::map<std::string, std::string> chosen_settings(const Study& asked, const Study& searched, const Study& handed) {
+  std::map<std::string, std::string> result;
+  const double search = asked.scene.solver.accuracy, end = asked.optimizer.verify_accuracy;
+  if (search == 0 && end == 0) return result;
+  const auto values = [](const Study& study) { return settings_by_key(study.scene, settings_of(study.scene)); };
+  const auto by_search = values(searched), at_end = values(handed);
+  for (const auto& [key, value] : by_search) {
+    if (asked.given.contains(key)) continue;
+    result[key] = shortest(value);
+    if (at_end.at(key) != value) result[key] += fmt::format(", handed over with {}", shortest(at_end.at(key)));
+  }
+  return result;
+}
+
 Study settled_best(const Study& asked, const Study& searched, const optimizer::Candidate& best,
                    const std::filesystem::path& directory, bool resume, std::ostream& err) {
   if (asked.optimizer.verify_accuracy == 0) return searched;

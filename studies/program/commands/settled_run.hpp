@@ -2,6 +2,8 @@
 
 #include <filesystem>
 #include <iosfwd>
+#include <map>
+#include <string>
 
 #include "optimizer/search/run.hpp"
 #include "studies/program/engine/run_engine.hpp"
@@ -20,5 +22,10 @@ namespace dovetail::studies {
 /// @param asked  the study as its file has it: what stands there stays
 [[nodiscard]] Study settled_best(const Study& asked, const Study& searched, const optimizer::Candidate& best,
                                  const std::filesystem::path& directory, bool resume, std::ostream& err);
+
+/// What the accuracy asked for chose, by key, for the search and for what is handed over. Empty where none was asked
+/// for.
+[[nodiscard]] std::map<std::string, std::string> chosen_settings(const Study& asked, const Study& searched,
+                                                                 const Study& handed);
 
 }  // namespace dovetail::studies

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <string>
 
 #include "optimizer/responses/response_table.hpp"
 #include "studies/report/plots/plot.hpp"
@@ -192,6 +194,17 @@ std::string evaluation_table(const RunRecord& record) {
   return folded("", fmt::format("All {} candidates", record.evaluations.size()), table_html(table));
 }
 
+namespace {
+
+std::string folded_values(const char* title, const std::map<std::string, std::string>& values) {
+  if (values.empty()) return {};
+  Table table{.columns = {{""}, {"", true}}, .rows = {}};
+  for (const auto& [key, value] : values) table.rows.push_back({{Html{"<code>" + escape(key) + "</code>"}, value}});
+  return folded("", title, table_html(table));
+}
+
+}  // namespace
+
 std::string provenance_section(const RunRecord& record) {
   const Provenance& p = record.provenance;
   std::string libraries;
@@ -205,12 +218,8 @@ std::string provenance_section(const RunRecord& record) {
                        {"Compiler", p.compiler},
                        {"Libraries", libraries},
                        {"Study", p.study_file}});
-  if (!p.options.empty()) {
-    Table table{.columns = {{""}, {"", true}}, .rows = {}};
-    for (const auto& [key, value] : p.options)
-      table.rows.push_back({{Html{"<code>" + escape(key) + "</code>"}, value}});
-    text += folded("", "Options of the optimiser", table_html(table));
-  }
+  text += folded_values("Settings chosen for the accuracy asked for", p.settings);
+  text += folded_values("Options of the optimiser", p.options);
   if (!p.study_text.empty()) text += folded("", "The study file", "<pre>" + escape(p.study_text) + "</pre>");
   return text;
 }

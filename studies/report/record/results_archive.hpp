@@ -87,7 +87,8 @@ class Archive {
       const std::size_t columns = table(path, record.*field.member, out_ ? field.columns(record) : 0);
       if ((record.*field.member).empty() || columns == field.columns(record)) return;
       refuse(path, {}, "must have " + std::to_string(field.columns(record)) + " columns");
-    } else if (out_ || !field.later || file_.exists(path) || has_attribute(group, field.name)) {
+    } else if (out_ || !field.later || file_.exists(path) || file_.exists(path + "_names") ||
+               has_attribute(group, field.name)) {
       exchange(group, field.name, record.*field.member);
     }
   }

@@ -12,7 +12,7 @@ namespace dovetail::report {
 ///   / attributes      format "dovetail-results", version 1, name, title, status, message, seconds,
 ///                     best, least_broken, baseline (index of an evaluation, -1: none)
 ///   /provenance       attributes program_version, date_utc, compiler, study_file; study_text, library_names,
-///                     library_versions, option_names, option_values
+///                     library_versions, option_names, option_values, setting_names, setting_values
 ///   /problem          variables {key, lower, upper, start}, objective {response, weight, scale, absolute},
 ///                     constraints {response, lower, upper, has_lower, has_upper, scale, absolute}, constraint_names
 ///   /evaluations      [E] x [E,n], phase, status, feasible, objective, violation, constraints [E,C], seconds;

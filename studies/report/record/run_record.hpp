@@ -138,6 +138,7 @@ struct Provenance {
   std::string compiler;
   std::map<std::string, std::string> libraries;  ///< name -> version
   std::map<std::string, std::string> options;    ///< of the optimiser, key -> value as text
+  std::map<std::string, std::string> settings;   ///< chosen for an accuracy, key -> value as text
   std::string study_file, study_text;            ///< name and verbatim content
 };
 

@@ -86,6 +86,14 @@ TEST(Report, EscapesWhatTheStudySays) {
   EXPECT_THAT(page, HasSubstr("The post is too thin &amp; &lt;breaks&gt;."));
 }
 
+TEST(Report, ListsTheSettingsThatAnAccuracyChose) {
+  RunRecord record = sample_record();
+  EXPECT_THAT(report_html(record),
+              HasSubstr("<code>solver.modes</code></th><td class=\"text\">8, handed over with 12"));
+  record.provenance.settings.clear();
+  EXPECT_THAT(report_html(record), Not(HasSubstr("chosen for the accuracy")));
+}
+
 TEST(Report, NamesTheWearLawAmongTheLimitsOfTheModel) {
   RunRecord record = sample_record();
   record.wear_law = "";

@@ -174,6 +174,7 @@ RunRecord sample_record() {
                        .compiler = "g++ 12",
                        .libraries = {{"Eigen", "3.4.0"}},
                        .options = {{"algorithm", "cobyla"}, {"note", ""}},
+                       .settings = {{"solver.modes", "8, handed over with 12"}},
                        .study_file = "study.toml",
                        .study_text = "# <script>alert('x')</script>\n[scene]\nname = \"\u00fc\"\n"};
   return record;
