@@ -76,7 +76,7 @@ SettingsChoice choose_settings(const Scene& scene, const AccuracyGoal& goal, con
   Settings next = choice.settings;
   next.history_tolerance = all.front().history_tolerance;
   if (std::ranges::find(all, next) == all.end()) next = all.front();  // samples that alias
-  for (int round = 0; round < kParams.rounds; ++round) {
+  for (int round = 0, answers = 0; round < kParams.rounds; ++round) {
     const Evaluation evaluation = probe(next);
     SettingsTried tried{.settings = next, .status = evaluation.status};
     if (evaluation.converged()) {
@@ -98,9 +98,15 @@ SettingsChoice choose_settings(const Scene& scene, const AccuracyGoal& goal, con
       std::erase(all, next);
     }
     choice.rounds.push_back(tried);
-    if (told) told(tried);
-    if (!best) break;
-    const Settings wanted = towards(cheapest(all, forecast, kParams.aim), all, next);
+    const bool go_on = !told || told(tried);
+    if (!best || !go_on) break;
+    const Settings there = cheapest(all, forecast, kParams.aim);
+    answers += evaluation.converged() ? 1 : 0;
+    if (const double least = forecast.excess(there); least > 1 && choice.tried.excess > 1 && answers > 1) {
+      choice.out_of_reach = least;
+      break;
+    }
+    const Settings wanted = towards(there, all, next);
     const bool known = std::ranges::any_of(choice.rounds, [&](const SettingsTried& t) { return t.settings == wanted; });
     const bool hardly_cheaper =
         choice.tried.excess <= 1 && forecast.operations(wanted) > kParams.worth * choice.tried.operations;

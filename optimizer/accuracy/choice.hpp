@@ -36,16 +36,18 @@ struct SettingsChoice {
     double times_as_long = 1;
   };
   std::optional<Digit> one_more_digit;
+  /// Where no settings there are should be accurate enough: the least excess foreseen of any.
+  std::optional<double> out_of_reach;
 };
 
 /// A design with bars at other settings.
 using AccuracyProbe = std::function<Evaluation(const Settings&)>;
-/// Hears of every round.
-using AccuracyListener = std::function<void(const SettingsTried&)>;
+/// Hears of every round and says whether to go on.
+using AccuracyListener = std::function<bool(const SettingsTried&)>;
 
 /// Rounds of an evaluation with bars, from whose parts the next settings follow: of all there are, the cheapest that
 /// should be accurate enough. What no setting buys (doubts of the worn state, the edges of zones) is left out of
-/// what is asked for.
+/// what is asked for. Where two rounds foresee that no settings there are would do, it ends: finer ones cost ever more.
 [[nodiscard]] SettingsChoice choose_settings(const Scene& scene, const AccuracyGoal& goal, const AccuracyProbe& probe,
                                              const AccuracyListener& told = {});
 

@@ -180,9 +180,9 @@ int run_study(const RunOptions& options, const Streams& streams, const RunEngine
 
   // What is handed over may ask for more than the search.
   const bool settles = result.best && !interrupt.requested();
-  const Study handed =
-      settles ? settled_best(asked, study, result.evaluations[*result.best], directory, options.resume, streams.err)
-              : study;
+  const Study handed = settles ? settled_best(asked, study, result.evaluations[*result.best], directory, options.resume,
+                                              interrupt, streams.err)
+                               : study;
   const std::string settings = settings_words(study, handed);
   const RunEngine closer = settings.empty() ? engine : make_engine(handed);
   const RunSite end{.study = handed,

@@ -138,9 +138,11 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
   const optimizer::Stage until = options.unworn ? optimizer::Stage::unworn : optimizer::Stage::worn_resonance;
   const std::optional<optimizer::AccuracyGoal> goal =
       study.scene.solver.accuracy > 0 ? accuracy_goal(study) : truncation_goal(study, options.solver, until);
-  const std::optional<optimizer::SettingsChoice> choice = settle(
-      study, goal,
-      [&](const optimizer::SettingsTried& tried) { streams.err << "dovetail: " << round_words(asked, tried) << "\n"; });
+  const std::optional<optimizer::SettingsChoice> choice =
+      settle(study, goal, [&](const optimizer::SettingsTried& tried) {
+        streams.err << "dovetail: " << round_words(asked, tried) << "\n";
+        return true;
+      });
   optimizer::Evaluation evaluation =
       scene_evaluator(study)
           ->evaluate(study.scene,

@@ -193,12 +193,15 @@ std::vector<Option<W>> history_options() {
       {"--history-tolerance",
        &W::history_tolerance,
        "X",
-       "history: local error per step relative to the depth (default: explicit 0, increments as they are; implicit "
-       "2e-4)",
+       "Local error per step of a history, relative to the depth (default: explicit 0, increments as they are; "
+       "implicit "
+       "2e-4), or of the history that decides where an asymptote is in doubt (default: solver.history_tolerance of a "
+       "study, 2e-3 for a model)",
        false,
        {.lower = 0, .upper = 0.5},
        {},
-       {{only_with, kHistory}, {not_with, "--integrator implicit", "0", "must be > 0 with --integrator implicit"}}},
+       {{not_with, "--integrator implicit", "0", "must be > 0 with --integrator implicit"},
+        {not_with, "--method asymptote", "0", "must be > 0 with --method asymptote"}}},
       {"--resume",
        &W::resume,
        "FILE",

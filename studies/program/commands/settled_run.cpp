@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -75,12 +76,17 @@ std::optional<Chosen> kept(const std::filesystem::path& file, const std::string&
 }
 
 /// Settings for the accuracy that the study asks for at its own design; nothing where it asks for none.
-std::optional<optimizer::SettingsChoice> choose(const Study& there, std::ostream& err, Chosen& result) {
+/// @param stop  set: the choice ends after the round at hand
+std::optional<optimizer::SettingsChoice> choose(const Study& there, const std::atomic<bool>* stop, std::ostream& err,
+                                                Chosen& result) {
   Study settled = there;
+  const auto stopped = [stop] { return stop != nullptr && stop->load(); };
   std::optional<optimizer::SettingsChoice> choice =
-      settle(settled, accuracy_goal(settled),
-             [&](const optimizer::SettingsTried& tried) { err << "dovetail: " << round_words(there, tried) << "\n"; });
-  if (!choice) return choice;
+      settle(settled, accuracy_goal(settled), [&](const optimizer::SettingsTried& tried) {
+        err << "dovetail: " << round_words(there, tried) << "\n";
+        return !stopped();
+      });
+  if (!choice || stopped()) return choice;
   for (const auto& [key, value] : settings_by_key(there.scene, choice->settings))
     if (!there.given.contains(key)) result.settings[key] = value;
   result.accuracy = accuracy_json(there.scene, *choice);
@@ -114,7 +120,7 @@ Chosen chosen(const Study& asked, const RunEngineFactory& make_engine, std::ostr
   Chosen result{.settings = {}, .noise = asked.optimizer.noise};
   Study at_start = asked;
   at_start.scene = start_scene(asked);
-  const std::optional<optimizer::SettingsChoice> choice = choose(at_start, err, result);
+  const std::optional<optimizer::SettingsChoice> choice = choose(at_start, nullptr, err, result);
   if (asked.optimizer.noise > 0) return result;
   const RunEngine engine = choice && choice->tried.by ? RunEngine{} : make_engine(asked);
   if (!engine.start && !choice) return result;
@@ -164,7 +170,8 @@ std::map<std::string, std::string> chosen_settings(const Study& asked, const Stu
 }
 
 Study settled_best(const Study& asked, const Study& searched, const optimizer::Candidate& best,
-                   const std::filesystem::path& directory, bool resume, std::ostream& err) {
+                   const std::filesystem::path& directory, bool resume, const OrderlyInterrupt& interrupt,
+                   std::ostream& err) {
   if (asked.optimizer.verify_accuracy == 0) return searched;
   Study there = searched;
   there.given = asked.given;
@@ -175,7 +182,8 @@ Study settled_best(const Study& asked, const Study& searched, const optimizer::C
   if (!settled) {
     err << "dovetail: settings for the best design\n";
     settled = Chosen{.settings = {}, .noise = searched.optimizer.noise};
-    choose(verified(there), err, *settled);
+    choose(verified(there), &interrupt.flag(), err, *settled);
+    if (interrupt.requested()) return searched;
     keep(file, question, *settled);
   }
   return with_chosen(searched, *settled);

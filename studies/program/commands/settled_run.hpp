@@ -6,6 +6,7 @@
 #include <string>
 
 #include "optimizer/search/run.hpp"
+#include "studies/program/engine/interrupt.hpp"
 #include "studies/program/engine/run_engine.hpp"
 #include "studies/program/study_file/study.hpp"
 
@@ -18,10 +19,11 @@ namespace dovetail::studies {
                                 const RunEngineFactory& make_engine, std::ostream& err);
 
 /// The study that was searched with settings for `[optimizer] verify_accuracy` at its best design, where that is asked
-/// for. Kept in best_settings.json and resumed as above.
+/// for. Kept in best_settings.json and resumed as above; as it was searched when interrupted on the way.
 /// @param asked  the study as its file has it: what stands there stays
 [[nodiscard]] Study settled_best(const Study& asked, const Study& searched, const optimizer::Candidate& best,
-                                 const std::filesystem::path& directory, bool resume, std::ostream& err);
+                                 const std::filesystem::path& directory, bool resume, const OrderlyInterrupt& interrupt,
+                                 std::ostream& err);
 
 /// What the accuracy asked for chose, by key, for the search and for what is handed over. Empty where none was asked
 /// for.

@@ -145,6 +145,7 @@ LoadedModel from_study(const std::string& file, const std::vector<Override>& giv
   LoadedModel loaded;
   loaded.joint.options = optimizer::steady_options(study.scene.solver);
   loaded.follow = study.scene.loading.follow;
+  loaded.history_tolerance = study.scene.solver.history_tolerance;
   if (!candidate.converged()) {
     loaded.failure = candidate.status;
     return loaded;

@@ -14,6 +14,7 @@
 #include "studies/program/engine/run_engine.hpp"
 #include "studies/program/questions/solver_choice.hpp"
 #include "studies/program/study_file/study.hpp"
+#include "wear/asymptote/asymptote.hpp"
 #include "wear/node_line.hpp"
 
 namespace dovetail::studies {
@@ -42,7 +43,8 @@ struct LoadedModel {
   std::vector<wear::NodeLine> lines;  ///< of its contact nodes: a study's strips of cells
   double glued_omega = 0;             ///< rad/s, of the followed mode (a file: the lowest); 0 when the model has none
   wear::Follow follow = wear::Follow::fixed;  ///< the study's choice of what drives the wear
-  std::string failure;                        ///< not empty: the candidate's model did not converge, and why
+  double history_tolerance = wear::AsymptoteOptions{}.history_tolerance;  ///< of a history that decides: the study's
+  std::string failure;  ///< not empty: the candidate's model did not converge, and why
 };
 
 /// Whether the file is HDF5 rather than a text: by its first bytes, or its ending when it cannot be read.

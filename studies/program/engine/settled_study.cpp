@@ -87,7 +87,11 @@ std::string accuracy_complaint(const Study& study, const optimizer::SettingsChoi
   std::vector<std::string> held;
   for (const std::string& key : study.given)
     if (study.scene.solver.accuracy > 0 && optimizer::buys_accuracy(study.scene, key)) held.push_back(key);
-  return fmt::format("the accuracy asked for is not reached: {}{}{}", known(*choice.tried.by),
+  std::string foreseen;
+  if (choice.out_of_reach)
+    foreseen =
+        fmt::format("; no settings are foreseen to leave less than {:.2g} times what was asked", *choice.out_of_reach);
+  return fmt::format("the accuracy asked for is not reached: {}{}{}{}", known(*choice.tried.by), foreseen,
                      held.empty() ? "" : ". The study file holds ", fmt::join(held, ", "));
 }
 

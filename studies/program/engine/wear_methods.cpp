@@ -40,6 +40,7 @@ WearAnswer by_asymptote(const WearOptions& options, const LoadedModel& loaded, c
   wear::RestOptions settings;
   settings.follow = options.follow == Drive::resonance;
   settings.lines = loaded.lines;
+  settings.asymptote.history_tolerance = options.history_tolerance.value_or(loaded.history_tolerance);
   wear::Rest found = wear::comes_to_rest(loaded.joint, at.omega, settings, initial, watcher);
   WearAnswer answer;
   answer.frequencies_hz = {at.hz};

@@ -54,11 +54,11 @@ struct WearOptions {
   std::optional<Drive> follow;         ///< absent: as the study says, or fixed
   std::optional<double> frequency_hz;  ///< absent: the unworn resonance
   std::optional<double> band_from_hz, band_to_hz;
-  std::optional<int> band_points;     ///< absent: 11
-  std::optional<double> cycles;       ///< history
-  std::optional<int> steps;           ///< history
-  std::optional<double> increment_m;  ///< history; absent: a hundredth of the depth that release comes to
-  std::optional<double> history_tolerance;
+  std::optional<int> band_points;           ///< absent: 11
+  std::optional<double> cycles;             ///< history
+  std::optional<int> steps;                 ///< history
+  std::optional<double> increment_m;        ///< history; absent: a hundredth of the depth that release comes to
+  std::optional<double> history_tolerance;  ///< of a history, or of the one that decides where an asymptote is in doubt
   std::optional<wear::IntegratorKind> integrator;  ///< of a history; absent: as the wear law asks for
   std::string resume;                              ///< JSON of the history to go on with, or empty
   std::optional<int> curves;                       ///< response curves along a history

@@ -8,27 +8,12 @@
 namespace dovetail::work_precision {
 namespace {
 
-/// Leaves a choice that takes too long.
-struct GivenUp {};
-
 /// The study as if its file gave nothing that an accuracy chooses.
 studies::Study asking(studies::Study study, double accuracy) {
   study.scene.solver.accuracy = accuracy;
   const optimizer::Scene scene = study.scene;
   std::erase_if(study.given, [&](const std::string& key) { return optimizer::buys_accuracy(scene, key); });
   return study;
-}
-
-/// The best of the rounds, for a choice that was given up: the most accurate one.
-optimizer::Settings most_accurate(const std::vector<optimizer::SettingsTried>& rounds, const optimizer::Scene& scene) {
-  optimizer::Settings best = optimizer::settings_of(scene);
-  double least = kInfinity;
-  for (const optimizer::SettingsTried& tried : rounds)
-    if (tried.excess < least) {
-      least = tried.excess;
-      best = tried.settings;
-    }
-  return best;
 }
 
 }  // namespace
@@ -38,19 +23,14 @@ AutomaticChoice choose(MeasuredDesign& design, double accuracy, double limit) {
   studies::Study study = asking(design.study(), accuracy);
   const WholeSetting own = whole_setting(study.scene);
   const double begin = ready_study::processor_seconds();
-  optimizer::Settings settings;
-  try {
-    const auto settled =
-        studies::settle(study, studies::accuracy_goal(study), [&](const optimizer::SettingsTried& tried) {
-          choice.rounds.push_back(tried);
-          if (limit > 0 && ready_study::processor_seconds() - begin > limit) throw GivenUp{};
-        });
-    settings = settled->settings;
-    choice.status = to_string(settled->status);
-  } catch (const GivenUp&) {
-    settings = most_accurate(choice.rounds, study.scene);
-    choice.status = fmt::format("given up after {:.0f} s", limit);
-  }
+  bool given_up = false;
+  const auto settled = studies::settle(study, studies::accuracy_goal(study), [&](const optimizer::SettingsTried&) {
+    given_up = limit > 0 && ready_study::processor_seconds() - begin > limit;
+    return !given_up;
+  });
+  const optimizer::Settings& settings = settled->settings;
+  choice.rounds = settled->rounds;
+  choice.status = given_up ? fmt::format("given up after {:.0f} s", limit) : to_string(settled->status);
   choice.seconds = ready_study::processor_seconds() - begin;
   for (const optimizer::SettingsTried& tried : choice.rounds)
     if (tried.settings == settings && tried.by) {

@@ -98,6 +98,7 @@ END
 fi
 expect 2 wear m.h5 --method history --resume s.toml --json -
 expect 2 wear m.h5 --method history --integrator implicit --history-tolerance 0 --json -
+expect 2 wear m.h5 --method asymptote --history-tolerance 0 --json -
 # Under a threshold nodes come to rest in slip: the history takes implicit steps unless it is told otherwise.
 energy="--set contact.wear_law=energy --set contact.energy_threshold_j_per_m2=1"
 # shellcheck disable=SC2086

@@ -62,6 +62,11 @@ TEST(CommandOptions, AMeaningMayBeOfOneValueAlone) {
   EXPECT_THAT(said(options),
               AllOf(HasSubstr("--history-tolerance = 0: must be > 0"), Not(HasSubstr("--integrator ="))));
   EXPECT_THAT(said(options), HasSubstr("--follow = resonance: needs --integrator explicit"));
+  options = {};
+  options.history_tolerance = 1e-4;  // of the history that decides
+  EXPECT_EQ(said(options), "");
+  options.history_tolerance = 0;
+  EXPECT_THAT(said(options), HasSubstr("--history-tolerance = 0: must be > 0 with --method asymptote"));
 }
 
 TEST(CommandOptions, AnyOfSeveralAlternativesGivesAMeaning) {

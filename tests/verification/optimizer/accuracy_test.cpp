@@ -158,6 +158,28 @@ TEST(Accuracy, OutOfReachIsSaid) {
   for (const SettingsTried& tried : choice.rounds) EXPECT_GE(tried.excess, choice.tried.excess);
 }
 
+// Bars that hardly fall: after two rounds no more is spent on finer meshes.
+TEST(Accuracy, OutOfReachOfEverySettingCostsTwoRounds) {
+  const Laws laws{.mesh = 0.08, .by_mesh = 0.3};
+  int calls = 0;
+  const SettingsChoice choice = choose_settings(Scene{}, kGoal, laws.probe(&calls));
+  EXPECT_EQ(choice.status, Status::iteration_limit);
+  EXPECT_EQ(calls, 2);
+  ASSERT_TRUE(choice.out_of_reach);
+  EXPECT_GT(*choice.out_of_reach, 1);
+  EXPECT_FALSE(choose_settings(Scene{}, kGoal, Laws{}.probe()).out_of_reach);
+}
+
+TEST(Accuracy, EndsWhenToldTo) {
+  int calls = 0;
+  const SettingsChoice choice = choose_settings(Scene{}, {.relative = 3e-3, .responses = {kVolume}},
+                                                Laws{}.probe(&calls), [&](const SettingsTried&) { return calls < 2; });
+  EXPECT_EQ(calls, 2);
+  EXPECT_EQ(choice.rounds.size(), 2U);
+  EXPECT_FALSE(choice.out_of_reach);
+  EXPECT_EQ(choice.status, Status::iteration_limit);
+}
+
 TEST(Accuracy, WhatNoSettingBuysIsLeftOut) {
   const SettingsChoice choice = choose_settings(Scene{}, kGoal, Laws{.history = 10}.probe());
   EXPECT_EQ(choice.status, Status::converged);
