@@ -58,10 +58,23 @@ std::optional<SettingsChoice::Digit> one_more_digit(const std::vector<Settings>&
                                .times_as_long = forecast.operations(there) / forecast.operations(choice.settings)};
 }
 
-bool better(const SettingsTried& a, const SettingsTried& b) {
-  const bool a_does = a.excess <= 1, b_does = b.excess <= 1;
-  if (a_does != b_does) return a_does;
-  return a_does ? a.operations < b.operations : a.excess < b.excess;
+/// A round that has bars.
+struct Known {
+  SettingsTried tried;
+  Evaluation evaluation;
+  Forecast forecast;
+};
+
+/// The cheapest that is accurate enough; where none is, of those that are hardly less accurate than the best of them:
+/// what is missed all the same is not paid for.
+const Known& best_of(const std::vector<Known>& rounds) {
+  double least = kInfinity;
+  for (const Known& round : rounds) least = std::min(least, round.tried.excess);
+  const double limit = least <= 1 ? 1 : kParams.hardly_worse * least;
+  const auto rank = [limit](const Known& round) {
+    return std::pair{round.tried.excess > limit, round.tried.operations};
+  };
+  return *std::ranges::min_element(rounds, {}, rank);
 }
 
 }  // namespace
@@ -72,53 +85,50 @@ SettingsChoice choose_settings(const Scene& scene, const AccuracyGoal& goal, con
   SettingsChoice choice;
   choice.settings = settings_of(scene);
   Forecast forecast(scene, goal);
-  std::optional<Forecast> best;
+  std::vector<Known> known;
   Settings next = choice.settings;
   next.history_tolerance = all.front().history_tolerance;
   if (std::ranges::find(all, next) == all.end()) next = all.front();  // samples that alias
-  for (int round = 0, answers = 0; round < kParams.rounds; ++round) {
-    const Evaluation evaluation = probe(next);
+  while (static_cast<int>(choice.rounds.size()) < kParams.rounds) {
+    Evaluation evaluation = probe(next);
     SettingsTried tried{.settings = next, .status = evaluation.status};
     if (evaluation.converged()) {
       forecast.add(next, evaluation);
       tried.by = forecast.dominant();
       if (tried.by) tried.excess = forecast.excess(next);
       tried.operations = forecast.operations(next);
-      if (!best) choice.not_held = forecast.not_held();
+      if (known.empty()) choice.not_held = forecast.not_held();
     }
-    if (tried.by) {
-      if (!best || better(tried, choice.tried)) {
-        choice.settings = next;
-        choice.tried = tried;
-        choice.evaluation = evaluation;
-        choice.not_held = forecast.not_held();
-        best = forecast;
-      }
-    } else {
+    if (tried.by)
+      known.push_back({.tried = tried, .evaluation = std::move(evaluation), .forecast = forecast});
+    else
       std::erase(all, next);
-    }
     choice.rounds.push_back(tried);
     const bool go_on = !told || told(tried);
-    if (!best || !go_on) break;
+    if (known.empty() || !go_on) break;
+    const SettingsTried& best = best_of(known).tried;
     const Settings there = cheapest(all, forecast, kParams.aim);
-    answers += evaluation.converged() ? 1 : 0;
-    if (const double least = forecast.excess(there); least > 1 && choice.tried.excess > 1 && answers > 1) {
+    if (const double least = forecast.excess(there); least > 1 && best.excess > 1 && known.size() > 1) {
       choice.out_of_reach = least;
       break;
     }
     const Settings wanted = towards(there, all, next);
-    const bool known = std::ranges::any_of(choice.rounds, [&](const SettingsTried& t) { return t.settings == wanted; });
-    const bool hardly_cheaper =
-        choice.tried.excess <= 1 && forecast.operations(wanted) > kParams.worth * choice.tried.operations;
-    if (known || hardly_cheaper) break;
+    const bool tried_before = std::ranges::find(choice.rounds, wanted, &SettingsTried::settings) != choice.rounds.end();
+    const bool hardly_cheaper = best.excess <= 1 && forecast.operations(wanted) > kParams.worth * best.operations;
+    if (tried_before || hardly_cheaper) break;
     next = wanted;
   }
-  if (!best) {
+  if (known.empty()) {
     choice.status = Status::stalled;
     return choice;
   }
+  const Known& best = best_of(known);
+  choice.settings = best.tried.settings;
+  choice.tried = best.tried;
+  choice.evaluation = best.evaluation;
+  choice.not_held = best.forecast.not_held();
   choice.status = choice.tried.excess <= 1 ? Status::converged : Status::iteration_limit;
-  choice.one_more_digit = one_more_digit(all, *best, choice);
+  choice.one_more_digit = one_more_digit(all, best.forecast, choice);
   return choice;
 }
 

@@ -21,9 +21,10 @@ struct SettingsTried {
 
 /// Settings for the accuracy asked for, at least cost as far as bars foresee it.
 struct SettingsChoice {
-  /// converged: all responses are accurate enough; iteration_limit: not reached, these are the most accurate ones
-  /// tried; stalled: no response asked for has a value and a bar at the first settings, which are the scene's own
-  /// unless samples and harmonics there do not match, and they stay.
+  /// converged: all responses are accurate enough; iteration_limit: not reached, these are the cheapest of those
+  /// tried that are hardly less accurate than the most accurate ones; stalled: no response asked for has a value and a
+  /// bar at the first settings, which are the scene's own unless samples and harmonics there do not match, and they
+  /// stay.
   Status status = Status::iteration_limit;
   Settings settings;
   SettingsTried tried;                ///< at those settings

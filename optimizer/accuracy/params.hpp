@@ -39,11 +39,12 @@ struct SettingsParams {
   /// Steady states of the searches of resonances grow by so much with each digit of their tolerance, of their number at
   /// 1e-5.
   double by_digit = 0.2, coarsest_tolerance = 1e-5;
-  double contact = 2.4;   ///< power of contact nodes times 2H+1, of the operations of factorisations
-  double aim = 0.95;      ///< of the accuracy: what is foreseen is a little off
-  double as_good = 1.02;  ///< bars over the least ones that settings reach: for less no knob is turned
-  double worth = 0.85;    ///< of the operations: for less than that saved nothing else is tried
-  double step = 1.7;      ///< no setting changes by more from one round to the next
+  double contact = 2.4;        ///< power of contact nodes times 2H+1, of the operations of factorisations
+  double aim = 0.95;           ///< of the accuracy: what is foreseen is a little off
+  double as_good = 1.02;       ///< bars over the least ones that settings reach: for less no knob is turned
+  double hardly_worse = 1.25;  ///< bars over the least ones reached, of settings that are kept where none are enough
+  double worth = 0.85;         ///< of the operations: for less than that saved nothing else is tried
+  double step = 1.7;           ///< no setting changes by more from one round to the next
   int rounds = 8;
 };
 

@@ -154,19 +154,22 @@ TEST(Accuracy, OutOfReachIsSaid) {
   ASSERT_TRUE(choice.tried.by);
   EXPECT_EQ(choice.tried.by->source, "mesh");
   EXPECT_GT(choice.tried.by->relative, goal.relative);
-  // Nothing better was tried.
-  for (const SettingsTried& tried : choice.rounds) EXPECT_GE(tried.excess, choice.tried.excess);
+  // Nothing much better was tried.
+  for (const SettingsTried& tried : choice.rounds) EXPECT_GE(1.25 * tried.excess, choice.tried.excess);
 }
 
-// Bars that hardly fall: after two rounds no more is spent on finer meshes.
+// Bars that hardly fall: after two rounds no more is spent on finer meshes, nor on the one that was tried.
 TEST(Accuracy, OutOfReachOfEverySettingCostsTwoRounds) {
-  const Laws laws{.mesh = 0.08, .by_mesh = 0.3};
+  const Laws laws{.mesh = 0.08, .harmonics = 1e-3, .samples = 3e-4, .modes = 2e-4, .by_mesh = 0.3};
   int calls = 0;
   const SettingsChoice choice = choose_settings(Scene{}, kGoal, laws.probe(&calls));
   EXPECT_EQ(choice.status, Status::iteration_limit);
   EXPECT_EQ(calls, 2);
   ASSERT_TRUE(choice.out_of_reach);
   EXPECT_GT(*choice.out_of_reach, 1);
+  ASSERT_EQ(choice.rounds.size(), 2U);
+  EXPECT_LT(choice.rounds[1].excess, choice.rounds[0].excess);
+  EXPECT_EQ(choice.settings, choice.rounds[0].settings);
   EXPECT_FALSE(choose_settings(Scene{}, kGoal, Laws{}.probe()).out_of_reach);
 }
 
