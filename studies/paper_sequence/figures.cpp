@@ -42,10 +42,10 @@ std::vector<std::size_t> shown_nodes(const Results& r) {
   const double deepest = largest_of(last).value;
   for (std::size_t i = 0; i < last.size(); ++i)
     if (r.design.contact.flank[i] == 0 && last[i] > 0.01 * deepest) worn.push_back(i);
-  constexpr std::size_t kShown = 5;
-  if (worn.size() <= kShown) return worn;
+  constexpr std::size_t kCurves = 5;
+  if (worn.size() <= kCurves) return worn;
   std::vector<std::size_t> shown;
-  for (std::size_t k = 0; k < kShown; ++k) shown.push_back(worn[k * (worn.size() - 1) / (kShown - 1)]);
+  for (std::size_t k = 0; k < kCurves; ++k) shown.push_back(worn[k * (worn.size() - 1) / (kCurves - 1)]);
   return shown;
 }
 
