@@ -16,7 +16,7 @@ struct RunSite {
   const RunEngine& engine;
   std::filesystem::path directory;
   std::ostream& err;
-  std::string settings = {};  ///< a sentence on those of start and best design where they are not the search's
+  std::string settings = {};  ///< a sentence on those of start and best design that an accuracy chose
   std::map<std::string, std::string> chosen = {};  ///< those that an accuracy chose, key -> value as text
 };
 

@@ -124,16 +124,14 @@ std::string fingerprint_of(const Study& study) {
                                 std::string("dovetail ") + version() + "\n" + physics_text(study.scene));
 }
 
-/// On settings of start and best design that are not the search's; empty where they are.
-std::string settings_words(const Study& searched, const Study& handed) {
-  if (physics_text(searched.scene) == physics_text(handed.scene)) return {};
-  const optimizer::SolverSettings& solver = handed.scene.solver;
+/// On settings of start and best design that an accuracy chose; empty where none did.
+std::string settings_words(const Study& searched, const HandedOver& handed) {
+  if (handed.accuracy.empty()) return {};
+  const optimizer::SolverSettings& solver = handed.study.scene.solver;
   return fmt::format(
-      "Computed for an accuracy of {:.2g} %: {} edges per flank, {} harmonics, {} samples, {} modes; the search had "
-      "{}, "
-      "{}, {} and {}.",
-      100 * handed.optimizer.verify_accuracy, handed.scene.mesh.flank_elements, solver.harmonics, solver.samples,
-      solver.modes, searched.scene.mesh.flank_elements, searched.scene.solver.harmonics, searched.scene.solver.samples,
+      "{}. Computed with {} edges per flank, {} harmonics, {} samples, {} modes; the search had {}, {}, {} and {}.",
+      handed.accuracy, handed.study.scene.mesh.flank_elements, solver.harmonics, solver.samples, solver.modes,
+      searched.scene.mesh.flank_elements, searched.scene.solver.harmonics, searched.scene.solver.samples,
       searched.scene.solver.modes);
 }
 
@@ -180,11 +178,13 @@ int run_study(const RunOptions& options, const Streams& streams, const RunEngine
 
   // What is handed over may ask for more than the search.
   const bool settles = result.best && !interrupt.requested();
-  const Study handed = settles ? settled_best(asked, study, result.evaluations[*result.best], directory, options.resume,
-                                              interrupt, streams.err)
-                               : study;
-  const std::string settings = settings_words(study, handed);
-  const RunEngine closer = settings.empty() ? engine : make_engine(handed);
+  const HandedOver over = settles ? settled_best(asked, study, result.evaluations[*result.best], directory,
+                                                 options.resume, interrupt, streams.err)
+                                  : HandedOver{.study = study};
+  const Study& handed = over.study;
+  const std::string settings = settings_words(study, over);
+  const bool as_searched = physics_text(study.scene) == physics_text(handed.scene);
+  const RunEngine closer = as_searched ? engine : make_engine(handed);
   const RunSite end{.study = handed,
                     .engine = closer,
                     .directory = directory,

@@ -132,6 +132,17 @@ Chosen chosen(const Study& asked, const RunEngineFactory& make_engine, std::ostr
   return result;
 }
 
+/// What an accuracy asked for came to, of what accuracy_json says of it.
+std::string came_to(const Json& accuracy, double asked) {
+  if (!accuracy.at("relative_bar").is_number())
+    return fmt::format("An accuracy of {:.2g} % was asked for at the best design; no bar says what is reached",
+                       100 * asked);
+  const bool reached = accuracy.at("status") == to_string(Status::converged);
+  return fmt::format("An accuracy of {:.2g} % was asked for at the best design and is {}: {} is known to {:.2g} %",
+                     100 * asked, reached ? "reached" : "not reached", accuracy.at("response").get<std::string>(),
+                     100 * accuracy.at("relative_bar").get<double>());
+}
+
 /// Everything that the choice hangs on; which keys the file gives, too, for a key that is given stays.
 std::string question_of(const Study& study) {
   std::string text = std::string("dovetail ") + version() + "\n" + physics_text(study.scene);
@@ -163,16 +174,16 @@ std::map<std::string, std::string> chosen_settings(const Study& asked, const Stu
   const auto by_search = values(searched), at_end = values(handed);
   for (const auto& [key, value] : by_search) {
     if (asked.given.contains(key)) continue;
-    result[key] = shortest(value);
-    if (at_end.at(key) != value) result[key] += fmt::format(", handed over with {}", shortest(at_end.at(key)));
+    result[key] = fmt::format("{:g}", value);
+    if (at_end.at(key) != value) result[key] += fmt::format(", handed over with {:g}", at_end.at(key));
   }
   return result;
 }
 
-Study settled_best(const Study& asked, const Study& searched, const optimizer::Candidate& best,
-                   const std::filesystem::path& directory, bool resume, const OrderlyInterrupt& interrupt,
-                   std::ostream& err) {
-  if (asked.optimizer.verify_accuracy == 0) return searched;
+HandedOver settled_best(const Study& asked, const Study& searched, const optimizer::Candidate& best,
+                        const std::filesystem::path& directory, bool resume, const OrderlyInterrupt& interrupt,
+                        std::ostream& err) {
+  if (asked.optimizer.verify_accuracy == 0) return {.study = searched};
   Study there = searched;
   there.given = asked.given;
   there.scene = scene_of(searched, best);
@@ -183,10 +194,11 @@ Study settled_best(const Study& asked, const Study& searched, const optimizer::C
     err << "dovetail: settings for the best design\n";
     settled = Chosen{.settings = {}, .noise = searched.optimizer.noise};
     choose(verified(there), &interrupt.flag(), err, *settled);
-    if (interrupt.requested()) return searched;
+    if (interrupt.requested()) return {.study = searched};
     keep(file, question, *settled);
   }
-  return with_chosen(searched, *settled);
+  return {.study = with_chosen(searched, *settled),
+          .accuracy = came_to(settled->accuracy, asked.optimizer.verify_accuracy)};
 }
 
 }  // namespace dovetail::studies

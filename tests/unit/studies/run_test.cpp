@@ -141,8 +141,23 @@ TEST_F(Run, HandsOverAtSettingsForTheAccuracyAskedFor) {
   std::string text = replaced(study_template("sample"), "max_evaluations = 100", "max_evaluations = 3");
   text = replaced(without(text, "harmonics"), "flank_elements = 24", "flank_elements = 10");
   replace_file(study(), replaced(text, "verify_accuracy = 0\n", "verify_accuracy = 0.2\n"));
-  const RunEngineFactory factory = [](const Study&) { return RunEngine{.evaluate = bowl, .describe = {}}; };
+  const RunEngineFactory factory = [](const Study&) {
+    const auto describe = [](const optimizer::Scene&) {
+      DescribedDesign seen{.evaluation = bowl(std::vector<double>{10, 3, 9}), .record = {}};
+      seen.record.status = "converged";
+      return seen;
+    };
+    return RunEngine{.evaluate = bowl, .describe = describe};
+  };
+  const auto says_what_was_chosen = [&] {
+    const report::RunRecord record = report::read_results(results() / "results.h5");
+    EXPECT_THAT(record.best_design->notes,
+                testing::Contains(HasSubstr("An accuracy of 20 % was asked for at the best design and is")));
+    EXPECT_EQ(record.provenance.settings.count("solver.harmonics"), 1U);
+    EXPECT_EQ(record.provenance.settings.count("mesh.flank_elements"), 0U);  // it stands in the file
+  };
   ASSERT_EQ(run(false, factory), kDone) << err_.str();
+  says_what_was_chosen();
   EXPECT_THAT(err_.str(), HasSubstr("settings for the best design"));
   EXPECT_THAT(err_.str(), HasSubstr("10 edges per flank, 5 harmonics"));
   EXPECT_TRUE(fs::exists(results() / "best_settings.json"));
@@ -152,6 +167,7 @@ TEST_F(Run, HandsOverAtSettingsForTheAccuracyAskedFor) {
   EXPECT_TRUE(best.given.contains("solver.harmonics"));
   EXPECT_EQ(best.scene.mesh.flank_elements, 10);
   ASSERT_EQ(run(true, factory), kDone) << err_.str();
+  says_what_was_chosen();
   EXPECT_THAT(err_.str(), Not(HasSubstr("edges per flank")));
 }
 
