@@ -24,6 +24,21 @@ constexpr DiameterBasisParams kDiameterBasis = {};
 /// A(phase) = A0 + e^{i phase} A1 + e^{-i phase} A1^T over the dofs of the glued joint.
 struct PhaseMatrix {
   Sparse constant, turning;
+
+  [[nodiscard]] Eigen::MatrixXcd times(double phase, const Eigen::MatrixXcd& vectors) const {
+    const Eigen::MatrixXd re = vectors.real(), im = vectors.imag();
+    Eigen::MatrixXcd result(vectors.rows(), vectors.cols());
+    result.real() = constant * re;
+    result.imag() = constant * im;
+    const auto add = [&](const auto& matrix, Complex factor) {
+      const Eigen::MatrixXd of_re = matrix * re, of_im = matrix * im;
+      result.real() += factor.real() * of_re - factor.imag() * of_im;
+      result.imag() += factor.real() * of_im + factor.imag() * of_re;
+    };
+    add(turning, std::polar(1.0, phase));
+    add(turning.transpose(), std::polar(1.0, -phase));
+    return result;
+  }
 };
 
 /// T(phase) = Ta + e^{i phase} Tb: the parts from the glued transformation of one nodal diameter.
@@ -53,13 +68,25 @@ class RitzBasis {
     mass_ = phase_matrix(mass, a, b);
   }
 
-  /// Real and imaginary parts of the modes, as far as they are new directions.
+  /// Real and imaginary parts of the vectors, as far as they are new directions.
   template <class Vectors>
-  void add(const Vectors& modes) {
-    for (Eigen::Index m = 0; m < modes.cols(); ++m) {
-      add_direction(modes.col(m).real());
-      add_direction(modes.col(m).imag());
+  void add(const Vectors& vectors) {
+    Eigen::MatrixXd fresh(vectors.rows(), 2 * vectors.cols());
+    Eigen::Index count = 0;
+    const auto take = [&](const Eigen::VectorXd& direction) {
+      if (const double length = direction.norm(); length > 0) fresh.col(count++) = direction / length;
+    };
+    for (Eigen::Index m = 0; m < vectors.cols(); ++m) {
+      take(vectors.col(m).real());
+      take(vectors.col(m).imag());
     }
+    fresh.conservativeResize(Eigen::NoChange, count);
+    for (int pass = 0; pass < 2 && basis_.cols() > 0; ++pass)
+      numerics::add_product(basis_, -numerics::transposed_product(basis_, fresh), fresh);
+    orthonormalise(fresh);
+    const Eigen::Index old = basis_.cols();
+    basis_.conservativeResize(vectors.rows(), old + fresh.cols());
+    basis_.rightCols(fresh.cols()) = fresh;
     update(stiffness_, reduced_stiffness_);
     update(mass_, reduced_mass_);
   }
@@ -73,6 +100,19 @@ class RitzBasis {
     return found.values.head(count);
   }
 
+  /// K V - M V diag(values) of the lowest `count` Ritz pairs; empty where there are none.
+  [[nodiscard]] Eigen::MatrixXcd residuals(double phase, Eigen::Index count) const {
+    count = std::min(count, basis_.cols());
+    const numerics::Pairs<Complex> found =
+        numerics::all_pairs<Complex>(reduced_stiffness_.at(phase), reduced_mass_.at(phase));
+    if (found.status != Status::converged) return {};
+    Eigen::MatrixXcd vectors(basis_.rows(), count);
+    vectors.real() = numerics::product(basis_, Eigen::MatrixXd(found.vectors.leftCols(count).real()));
+    vectors.imag() = numerics::product(basis_, Eigen::MatrixXd(found.vectors.leftCols(count).imag()));
+    const Eigen::MatrixXcd of_mass = mass_.times(phase, vectors);
+    return stiffness_.times(phase, vectors) - of_mass * found.values.head(count).asDiagonal();
+  }
+
  private:
   struct Reduced {
     Eigen::MatrixXd constant, turning;
@@ -84,17 +124,17 @@ class RitzBasis {
     }
   };
 
-  /// Gram-Schmidt, twice; what is left of a direction in the basis already is noise.
-  void add_direction(Eigen::VectorXd direction) {
-    const double length = direction.norm();
-    if (!(length > 0)) return;
-    direction /= length;
-    for (int pass = 0; pass < 2; ++pass)
-      if (basis_.cols() > 0) direction -= basis_ * (basis_.transpose() * direction);
-    const double left = direction.norm();
-    if (left < kDiameterBasis.fresh) return;
-    basis_.conservativeResize(direction.size(), basis_.cols() + 1);
-    basis_.col(basis_.cols() - 1) = direction / left;
+  /// Gram-Schmidt, twice, of what is left of directions of length one beside the basis; less than a little is noise.
+  static void orthonormalise(Eigen::MatrixXd& directions) {
+    Eigen::Index count = 0;
+    for (Eigen::Index k = 0; k < directions.cols(); ++k) {
+      Eigen::VectorXd direction = directions.col(k);
+      for (int pass = 0; pass < 2; ++pass)
+        direction -= directions.leftCols(count) * (directions.leftCols(count).transpose() * direction);
+      if (const double left = direction.norm(); left >= kDiameterBasis.fresh)
+        directions.col(count++) = direction / left;
+    }
+    directions.conservativeResize(Eigen::NoChange, count);
   }
 
   void update(const PhaseMatrix& matrix, Reduced& reduced) const {
@@ -144,8 +184,9 @@ class Diameters {
       for (std::size_t k = 0; k < count; ++k) solve(k);
       return std::move(result_);
     }
-    solve(0);
-    solve(count - 1);
+    solve_at_real_phases();
+    for (const std::size_t end : {std::size_t{0}, count - 1})
+      if (!result_.solved[end]) settle(end);
     bisect(0, count - 1);
     for (std::size_t k = 0; k < count; ++k) {
       if (result_.solved[k]) continue;
@@ -163,7 +204,7 @@ class Diameters {
     if (to - from < 2) return;
     const std::size_t middle = from + (to - from) / 2;
     const Eigen::VectorXd expected = predicted(middle);
-    const Eigen::VectorXd found = solve(middle);
+    const Eigen::VectorXd found = settle(middle);
     const bool holds = result_.status[middle] == Status::converged && expected.size() == found.size() &&
                        ((expected - found).array().abs() <= 2 * options_.tolerance * found.array().abs()).all();
     if (holds) return;  // an eigenvalue errs twice as much as its frequency
@@ -171,9 +212,60 @@ class Diameters {
     bisect(middle, to);
   }
 
+  [[nodiscard]] double phase(std::size_t k) const {
+    return 2 * std::numbers::pi * result_.nodal_diameters[k] / sector_.sectors;
+  }
+
   [[nodiscard]] Eigen::VectorXd predicted(std::size_t k) const {
-    const double phase = 2 * std::numbers::pi * result_.nodal_diameters[k] / sector_.sectors;
-    return basis_->eigenvalues(phase, options_.modes.count);
+    return basis_->eigenvalues(phase(k), options_.modes.count);
+  }
+
+  /// Neighbours that move alike, and against each other: matrices of these two phases are real, and every other phase
+  /// lies between them. Their modes begin the basis, their factors serve all.
+  void solve_at_real_phases() {
+    numerics::ModesOptions more = options_.modes;
+    more.count += kDiameterBasis.spare;
+    const auto add = [&](const Constraints<double>& constraints, numerics::SparseCholesky<double>& factors) {
+      const auto modes = glued_modes(stiffness_, mass_, constraints, more, factors, options_.contact_flexibility);
+      if (modes.status == Status::converged) basis_->add(modes.vectors);
+      return modes;
+    };
+    const auto keep = [&](std::size_t k, const numerics::Modes<double>& modes) {
+      if (modes.status != Status::converged) return;
+      result_.solved[k] = true;
+      store(k, modes.eigenvalues.head(options_.modes.count), modes.status);
+    };
+    const numerics::Modes<double> alike = add(real_constraints(sector_, bore_, 0), real_);
+    if (result_.nodal_diameters.front() == 0) keep(0, alike);
+    const numerics::Modes<double> against = add(alternating_constraints(sector_, bore_), alternating_);
+    if (2 * result_.nodal_diameters.back() == sector_.sectors) keep(result_.nodal_diameters.size() - 1, against);
+  }
+
+  /// Block Davidson: residuals of the Ritz pairs, divided by the factors of the nearer real phase, join the basis until
+  /// the values stay. Where they do not, or there are no factors, the sparse problem is solved.
+  Eigen::VectorXd settle(std::size_t k) {
+    const numerics::SparseCholesky<double>& factors = std::cos(phase(k)) >= 0 ? real_ : alternating_;
+    Eigen::VectorXd before = predicted(k);
+    for (int round = 0; round < kDiameterBasis.rounds && factors.factorised(); ++round) {
+      const int followed = options_.modes.count + (round == 0 ? kDiameterBasis.spare : 0);
+      const Eigen::MatrixXcd left = basis_->residuals(phase(k), followed);
+      if (left.cols() == 0) break;
+      Eigen::MatrixXd parts(left.rows(), 2 * left.cols());
+      parts << left.real(), left.imag();
+      basis_->add(Eigen::MatrixXd(factors.solve(parts)));
+      Eigen::VectorXd after = predicted(k);
+      if (after.size() == 0) break;
+      const bool stay =
+          before.size() == after.size() &&
+          ((before - after).array().abs() <= kDiameterBasis.settled * options_.tolerance * after.array().abs()).all();
+      if (stay) {
+        result_.solved[k] = true;
+        store(k, after, Status::converged);
+        return after;
+      }
+      before = std::move(after);
+    }
+    return solve(k);
   }
 
   Eigen::VectorXd solve(std::size_t k) {
@@ -205,7 +297,7 @@ class Diameters {
   NodalDiameterFrequencies result_;
   std::optional<RitzBasis> basis_;
   // One analysis per scalar type serves all diameters: the patterns do not depend on the phase.
-  numerics::SparseCholesky<double> real_;
+  numerics::SparseCholesky<double> real_, alternating_;
   numerics::SparseCholesky<Complex> complex_;
 };
 

@@ -24,17 +24,19 @@ struct NodalDiameterFrequencies {
   std::vector<int> nodal_diameters;
   Eigen::MatrixXd frequency;   ///< [diameters, modes] Hz, ascending; negative for -sqrt(-lambda)/(2 pi) (unstable)
   std::vector<Status> status;  ///< per diameter
-  std::vector<bool> solved;    ///< per diameter: by its own sparse eigenproblem, not from its neighbours' modes
+  std::vector<bool> solved;    ///< per diameter: from residuals of its own, not from its neighbours' modes alone
 };
 
 /// Computes them for the diameters asked for (ascending, each 0..sectors/2), or all when the list is empty.
 ///
 /// The constrained matrices depend on the phase between sectors as K0 + e^{i phase} K1 + e^{-i phase} K1^T, so the
-/// modes are smooth functions of it. With a tolerance, the sparse problem is solved at the ends of the list and in the
-/// middle of every interval in which Rayleigh-Ritz on the real and imaginary parts of the modes found so far misses the
-/// middle's frequencies by more than it; inside an interval that passed, Ritz values serve. They are upper bounds of
-/// the frequencies, and the middle just checked is in their basis, so errors are below the tolerance checked there.
-/// Cost: a sparse factorisation for every diameter solved, five to nine of 24 with tolerance 1e-6.
+/// modes are smooth functions of it. With a tolerance, the sparse problem is solved at the two phases where it is real,
+/// 0 and pi. Between them Rayleigh-Ritz on the real and imaginary parts of what was found so far serves; residuals,
+/// divided by the factors of the nearer real phase, join that basis until the frequencies stay: at the ends of the list
+/// and in the middle of every interval in which those of the middle were missed by more than the tolerance. Ritz values
+/// are upper bounds of the frequencies.
+/// Cost: two real factorisations, and some hundred solves with them; without a tolerance, or where rounds do not come
+/// to an end, a complex factorisation for every diameter.
 [[nodiscard]] NodalDiameterFrequencies nodal_diameter_frequencies(const SectorMesh& sector,
                                                                   const Eigen::SparseMatrix<double>& stiffness,
                                                                   const Eigen::SparseMatrix<double>& mass,

@@ -20,7 +20,10 @@ struct DiameterBasisParams {
   /// residual of the modes, at most 1e-9, magnified by the Gram-Schmidt steps. Smaller: noise makes the reduced mass
   /// singular; larger: a needed direction is lost and more diameters are solved.
   double fresh = 1e-7;
-  std::size_t few = 3;  ///< diameters that are all solved: two ends and a sample between them leave none to save
+  int spare = 3;         ///< modes beyond those asked for that are followed: one that comes down is not missed
+  int rounds = 12;       ///< of residuals at one diameter; then its sparse problem is solved
+  double settled = 0.5;  ///< of the tolerance, by which values of a diameter may change in its last round
+  std::size_t few = 3;   ///< diameters that are all solved: two ends and a sample between them leave none to save
 };
 
 static_assert(MatchingParams{}.weights < MatchingParams{}.image, "positions are rounded more than weights");

@@ -63,6 +63,7 @@ template Pairs<double> all_pairs(Eigen::MatrixXd, Eigen::MatrixXd);
 template Pairs<double> all_values(Eigen::MatrixXd);
 template Pairs<double> all_values(Eigen::MatrixXd, Eigen::MatrixXd);
 template Pairs<std::complex<double>> all_pairs(Eigen::MatrixXcd);
+template Pairs<std::complex<double>> all_pairs(Eigen::MatrixXcd, Eigen::MatrixXcd);
 template Pairs<std::complex<double>> all_values(Eigen::MatrixXcd, Eigen::MatrixXcd);
 
 SymmetricPairs pairs_up_to(Eigen::MatrixXd matrix, double limit) {

@@ -137,7 +137,7 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
   const Study asked = study;
   const optimizer::Stage until = options.unworn ? optimizer::Stage::unworn : optimizer::Stage::worn_resonance;
   const std::optional<optimizer::AccuracyGoal> goal =
-      study.scene.solver.accuracy > 0 ? accuracy_goal(study) : truncation_goal(study, options.solver, until);
+      study.scene.solver.accuracy > 0 ? accuracy_goal(study, until) : truncation_goal(study, options.solver, until);
   const std::optional<optimizer::SettingsChoice> choice =
       settle(study, goal, [&](const optimizer::SettingsTried& tried) {
         streams.err << "dovetail: " << round_words(asked, tried) << "\n";
@@ -149,12 +149,25 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
                      {.bars = !options.no_bars && !options.unworn, .history = !options.no_history, .until = until})
           .evaluation;
   const std::string inaccurate = choice ? accuracy_complaint(asked, *choice) : std::string();
-  if (!inaccurate.empty()) evaluation.messages.push_back(inaccurate);
+  if (!inaccurate.empty() && !evaluation.infeasible()) evaluation.messages.push_back(inaccurate);
+  // Rounds ask no history, and know nothing of what else no setting buys.
+  const std::optional<optimizer::Dominant> whole =
+      choice && !goal->of_truncation ? whole_bar(*goal, evaluation) : std::nullopt;
+  if (whole && whole->relative > whole->asked && choice->status == Status::converged)
+    evaluation.messages.push_back(fmt::format(
+        "as far as settings buy it the accuracy asked for is reached; with all parts of its bar {} is known "
+        "to {:.2g} % (asked: {:.2g} %), most of it by {}",
+        whole->response, 100 * whole->relative, 100 * whole->asked, whole->source));
   std::vector<std::string> unjudged;
   if (options.unworn && evaluation.converged()) unjudged = keep_unworn(study.problem, evaluation);
   optimizer::annotate(study.problem, study.optimizer.constraint_tolerance, evaluation);
   std::ranges::move(unjudged, std::back_inserter(evaluation.undecided_constraints));
-  const nlohmann::ordered_json accuracy = choice ? accuracy_json(asked.scene, *choice) : nlohmann::ordered_json();
+  nlohmann::ordered_json accuracy = choice ? accuracy_json(asked.scene, *choice) : nlohmann::ordered_json();
+  if (whole)
+    accuracy["whole_bar"] = {{"response", whole->response},
+                             {"source", whole->source},
+                             {"relative_bar", whole->relative},
+                             {"asked", whole->asked}};
   deliver_json(options.json, evaluation_json(evaluation, choice ? &accuracy : nullptr), streams);
   if (options.json != "-") streams.out << evaluation_table(evaluation);
   if (evaluation.infeasible()) throw infeasible(options.study, evaluation.messages);

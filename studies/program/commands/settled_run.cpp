@@ -159,6 +159,12 @@ Study settled_run(Study study, const std::filesystem::path& directory, bool resu
   const std::string question = question_of(study);
   const std::filesystem::path file = directory / kFile;
   std::optional<Chosen> settled = resume ? kept(file, question) : std::nullopt;
+  if (!settled && resume && std::filesystem::exists(file) && std::filesystem::exists(directory / "journal.jsonl"))
+    throw InputError(Violation{.file = file.string(),
+                               .key = "what it says was chosen",
+                               .value = {},
+                               .allowed = "was chosen for another study or accuracy than the one at hand: resume that "
+                                          "one, or begin anew without --resume"});
   if (!settled) {
     settled = chosen(study, make_engine, err);
     keep(file, question, *settled);

@@ -14,10 +14,17 @@ namespace dovetail::studies {
 /// Whole bar over what settings buy of it from which it is told.
 static constexpr double kTellWhole = 1.05;
 
-std::optional<optimizer::AccuracyGoal> accuracy_goal(const Study& study) {
+std::optional<optimizer::AccuracyGoal> accuracy_goal(const Study& study, optimizer::Stage until) {
   if (study.scene.solver.accuracy == 0) return {};
   optimizer::AccuracyGoal goal{.relative = study.scene.solver.accuracy};
   goal.responses = optimizer::responses_of(study.problem);
+  if (until < optimizer::Stage::worn_resonance) {
+    if (goal.responses.empty())
+      for (const optimizer::Response& response : optimizer::responses()) goal.responses.emplace_back(response.name);
+    std::erase_if(goal.responses,
+                  [&](const std::string& name) { return optimizer::find_response(name)->stage > until; });
+    if (goal.responses.empty()) return {};
+  }
   goal.fixed = study.given;
   const auto own = [&goal](const auto& term) {
     if (term.accuracy == 0) return;
@@ -69,6 +76,22 @@ std::string known(const optimizer::Dominant& by) {
 }
 
 }  // namespace
+
+std::optional<optimizer::Dominant> whole_bar(const optimizer::AccuracyGoal& goal,
+                                             const optimizer::Evaluation& evaluation) {
+  std::optional<optimizer::Dominant> worst;
+  for (const auto& [name, bar] : evaluation.error_estimates) {
+    const double value = evaluation.responses.at(name), asked = goal.asked(name);
+    if (value == 0 || (!goal.responses.empty() && std::ranges::count(goal.responses, name) == 0)) continue;
+    const double relative = bar / std::abs(value);
+    if (worst && relative / asked <= worst->relative / worst->asked) continue;
+    const auto& sources = evaluation.error_sources.at(name);
+    const auto largest = std::ranges::max_element(sources, {}, [](const auto& source) { return source.second; })->first;
+    worst = optimizer::Dominant{
+        .response = name, .source = largest, .relative = relative, .whole = relative, .asked = asked};
+  }
+  return worst;
+}
 
 std::string round_words(const Study& study, const optimizer::SettingsTried& tried) {
   const optimizer::Scene there = optimizer::with_settings(study.scene, tried.settings);

@@ -10,8 +10,10 @@
 namespace dovetail::studies {
 
 /// What solver.accuracy asks of a study: of the responses that its objective and limits name, at settings that the file
-/// does not give. Nothing where it asks for no accuracy.
-[[nodiscard]] std::optional<optimizer::AccuracyGoal> accuracy_goal(const Study& study);
+/// does not give. Nothing where it asks for no accuracy, or of no response that is known until then.
+/// @param until  responses that need a later stage are not asked
+[[nodiscard]] std::optional<optimizer::AccuracyGoal> accuracy_goal(
+    const Study& study, optimizer::Stage until = optimizer::Stage::worn_resonance);
 
 /// The same of the harmonics and samples that are to be chosen automatically; nothing where none are.
 /// @param until  responses that need a later stage are not asked
@@ -23,6 +25,11 @@ namespace dovetail::studies {
 /// @return nothing where there is no goal
 std::optional<optimizer::SettingsChoice> settle(Study& study, const std::optional<optimizer::AccuracyGoal>& goal,
                                                 const optimizer::AccuracyListener& told = {});
+
+/// Of the responses that an accuracy is asked of, the one whose whole bar, with what no setting buys of it, is largest
+/// over what was asked; nothing where none has a bar.
+[[nodiscard]] std::optional<optimizer::Dominant> whole_bar(const optimizer::AccuracyGoal& goal,
+                                                           const optimizer::Evaluation& evaluation);
 
 /// A round in a line for people.
 [[nodiscard]] std::string round_words(const Study& study, const optimizer::SettingsTried& tried);
