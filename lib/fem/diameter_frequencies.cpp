@@ -1,5 +1,6 @@
 #include "fem/diameter_frequencies.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <limits>

@@ -161,9 +161,9 @@ Study settled_run(Study study, const std::filesystem::path& directory, bool resu
   std::optional<Chosen> settled = resume ? kept(file, question) : std::nullopt;
   if (!settled && resume && std::filesystem::exists(file) && std::filesystem::exists(directory / "journal.jsonl"))
     throw InputError(Violation{.file = file.string(),
-                               .key = "what it says was chosen",
+                               .key = "the choice in it",
                                .value = {},
-                               .allowed = "was chosen for another study or accuracy than the one at hand: resume that "
+                               .allowed = "was made for another study or accuracy than the one at hand: resume that "
                                           "one, or begin anew without --resume"});
   if (!settled) {
     settled = chosen(study, make_engine, err);

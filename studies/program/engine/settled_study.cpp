@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "optimizer/responses/response_table.hpp"
 #include "studies/program/engine/engine.hpp"

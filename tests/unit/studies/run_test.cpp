@@ -5,6 +5,7 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include "core/replace_file.hpp"
@@ -129,6 +130,13 @@ TEST_F(Run, KeepsTheNoiseFromTheBarOfItsStart) {
       EXPECT_THAT(error.what(), testing::AllOf(HasSubstr("settings.json"), HasSubstr("is damaged"))) << text;
     }
   }
+  EXPECT_EQ(starts, 2);
+  // One for another study is kept: it belongs to the journal beside it.
+  const std::string other = R"({"question": "another", "settings": {}, "noise": 0.1, "accuracy": null})";
+  replace_file(results() / "settings.json", other);
+  EXPECT_THROW(run(true, with_start), InputError);
+  std::ifstream kept(results() / "settings.json");
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(kept), {}), other);
   EXPECT_EQ(starts, 2);
   fs::remove(results() / "settings.json");
   ASSERT_EQ(run(true, with_start), kDone) << err_.str();
