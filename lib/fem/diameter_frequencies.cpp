@@ -69,7 +69,7 @@ class RitzBasis {
     mass_ = phase_matrix(mass, a, b);
   }
 
-  /// Real and imaginary parts of the vectors, as far as they are new directions.
+  /// Real and imaginary parts of vectors, each as a direction alone, as far as it is a new one.
   template <class Vectors>
   void add(const Vectors& vectors) {
     Eigen::MatrixXd fresh(vectors.rows(), 2 * vectors.cols());

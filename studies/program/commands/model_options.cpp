@@ -194,8 +194,8 @@ std::vector<Option<W>> history_options() {
        &W::history_tolerance,
        "X",
        "Local error per step of a history, relative to the depth (default: explicit 0, increments as they are; "
-       "implicit "
-       "2e-4), or of the history that decides where an asymptote is in doubt (default: solver.history_tolerance of a "
+       "implicit 2e-4), or of the history that decides where an asymptote is in doubt (default: "
+       "solver.history_tolerance of a "
        "study, 2e-3 for a model)",
        false,
        {.lower = 0, .upper = 0.5},

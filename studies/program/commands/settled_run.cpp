@@ -134,7 +134,7 @@ Chosen chosen(const Study& asked, const RunEngineFactory& make_engine, std::ostr
 
 /// What an accuracy asked for came to, of what accuracy_json says of it.
 std::string came_to(const Json& accuracy, double asked) {
-  if (!accuracy.at("relative_bar").is_number())
+  if (!accuracy.is_object() || !accuracy.contains("relative_bar") || !accuracy.at("relative_bar").is_number())
     return fmt::format("An accuracy of {:.2g} % was asked for at the best design; no bar says what is reached",
                        100 * asked);
   const bool reached = accuracy.at("status") == to_string(Status::converged);
