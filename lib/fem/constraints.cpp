@@ -208,10 +208,6 @@ Constraints<double> real_constraints(const SectorMesh& sector, BoreSupport bore,
   return TransformationBuilder<double>(sector, bore, nodal_diameter == 0 ? 1.0 : -1.0).build();
 }
 
-Constraints<double> alternating_constraints(const SectorMesh& sector, BoreSupport bore) {
-  return TransformationBuilder<double>(sector, bore, -1.0).build();
-}
-
 Constraints<std::complex<double>> complex_constraints(const SectorMesh& sector, BoreSupport bore, int nodal_diameter) {
   check_diameter(sector, nodal_diameter);
   const double phase = 2 * std::numbers::pi * nodal_diameter / sector.sectors;

@@ -34,11 +34,6 @@ struct Constraints {
   [[nodiscard]] Eigen::Index size() const { return internal_count + contact_count; }
 };
 
-/// Real T of neighbours that move against each other: nodal diameter sectors/2 where their number is even, and a phase
-/// beyond the last one where it is odd.
-[[nodiscard]] Constraints<double> alternating_constraints(const SectorMesh& sector,
-                                                          BoreSupport bore = BoreSupport::tangential);
-
 /// Real T: nodal diameter 0, and sectors/2 when their number is even. Throws InputError for other diameters
 /// and for a mesh whose pairs do not match.
 [[nodiscard]] Constraints<double> real_constraints(const SectorMesh& sector, BoreSupport bore = BoreSupport::tangential,

@@ -16,10 +16,12 @@ struct MatchingParams {
 /// Frequencies over nodal diameters from a basis of modes.
 struct DiameterBasisParams {
   double rounding = 1e-14;  ///< entries of a transformation below it are none: it is made of cosines and sines
-  /// Length, of a unit vector, beyond the basis above which it is a new direction: what is left of others is the
-  /// residual of the modes, at most 1e-9, magnified by the Gram-Schmidt steps. Smaller: noise makes the reduced mass
-  /// singular; larger: a needed direction is lost and more diameters are solved.
+  /// Length, of a unit vector, beyond the basis above which it is a new direction: what is left of others is rounding,
+  /// magnified by the Gram-Schmidt steps. Smaller: noise makes the reduced mass singular; larger: a needed direction is
+  /// lost and more rounds are needed.
   double fresh = 1e-7;
+  /// Of modes of the real phases, of the tolerance of frequencies: these err by about the square of it.
+  double modes_tolerance = 1;
   int spare = 3;         ///< modes beyond those asked for that are followed: one that comes down is not missed
   int rounds = 12;       ///< of residuals at one diameter; then its sparse problem is solved
   double settled = 0.5;  ///< of the tolerance, by which values of a diameter may change in its last round

@@ -78,6 +78,25 @@ void SparseCholesky<Scalar>::analyse(const Matrix& a) {
 }
 
 template <class Scalar>
+void SparseCholesky<Scalar>::analyse(const Matrix& a, const SparseCholesky& ordered) {
+  const cholmod_factor* other = ordered.state_->factor;
+  if (other == nullptr || ordered.size() != a.rows()) return analyse(a);
+  State& s = *state_;
+  cholmod_free_factor(&s.factor, &s.common);
+  s.factorised = false;
+  cholmod_sparse view = lower_view(a);
+  const auto methods = s.common.nmethods;
+  const auto first = s.common.method[0].ordering;
+  s.common.nmethods = 1;
+  s.common.method[0].ordering = CHOLMOD_GIVEN;
+  s.factor = cholmod_analyze_p(&view, static_cast<int*>(other->Perm), nullptr, 0, &s.common);
+  s.common.nmethods = methods;
+  s.common.method[0].ordering = first;
+  if (s.factor == nullptr) throw std::bad_alloc();
+  s.entries = a.nonZeros();
+}
+
+template <class Scalar>
 Status SparseCholesky<Scalar>::factorise(const Matrix& a) {
   State& s = *state_;
   if (s.factor == nullptr || size() != a.rows() || s.entries != a.nonZeros()) analyse(a);

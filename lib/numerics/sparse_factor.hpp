@@ -33,6 +33,8 @@ class SparseCholesky {
 
   /// Symbolic analysis of a square, compressed matrix. Forgets an earlier factorisation.
   void analyse(const Matrix& a);
+  /// The same in the order that was found for another matrix with that pattern: finding it is most of the work.
+  void analyse(const Matrix& a, const SparseCholesky& ordered);
 
   /// Numeric factorisation of a matrix with the analysed pattern; analyses first if the pattern's size
   /// or number of non-zeros is another one. `singular` when a pivot is not positive (the matrix is not positive

@@ -50,10 +50,11 @@ double strictest(const AccuracyGoal& goal) {
 }
 
 std::optional<SettingsChoice::Digit> one_more_digit(const std::vector<Settings>& all, const Forecast& forecast,
-                                                    const SettingsChoice& choice) {
+                                                    const SettingsChoice& choice, double history_tolerance) {
   const double tenth = choice.tried.excess / 10;
-  const Settings there = cheapest(all, forecast, tenth);
+  Settings there = cheapest(all, forecast, tenth);
   if (forecast.excess(there) > tenth) return {};
+  there.history_tolerance = history_tolerance;
   return SettingsChoice::Digit{.settings = there,
                                .times_as_long = forecast.operations(there) / forecast.operations(choice.settings)};
 }
@@ -107,6 +108,7 @@ SettingsChoice choose_settings(const Scene& scene, const AccuracyGoal& goal, con
     const bool go_on = !told || told(tried);
     if (known.empty() || !go_on) break;
     const SettingsTried& best = best_of(known).tried;
+    if (best.excess <= 1 && !goal.many) break;
     const Settings there = cheapest(all, forecast, kParams.aim);
     if (const double least = forecast.excess(there); least > 1 && best.excess > 1 && known.size() > 1) {
       choice.out_of_reach = least;
@@ -128,7 +130,8 @@ SettingsChoice choose_settings(const Scene& scene, const AccuracyGoal& goal, con
   choice.evaluation = best.evaluation;
   choice.not_held = best.forecast.not_held();
   choice.status = choice.tried.excess <= 1 ? Status::converged : Status::iteration_limit;
-  choice.one_more_digit = one_more_digit(all, best.forecast, choice);
+  choice.one_more_digit =
+      one_more_digit(all, best.forecast, choice, history_tolerance(scene, goal.fixed, strictest(goal) / 10));
   return choice;
 }
 

@@ -20,6 +20,8 @@ struct AccuracyGoal {
   std::set<std::string> fixed = {};         ///< keys that stay as they are
   /// Of harmonics and samples alone: parts of bars by anything else count neither for nor against.
   bool of_truncation = false;
+  /// Many evaluations follow at those settings: cheaper ones are worth a round where these are accurate enough.
+  bool many = true;
 
   [[nodiscard]] double asked(const std::string& response) const {
     const auto own = of.find(response);

@@ -66,6 +66,11 @@ std::map<std::string, double> settings_by_key(const Scene& scene, const Settings
   return values;
 }
 
+double history_tolerance(const Scene& scene, const std::set<std::string>& fixed, double accuracy) {
+  if (fixed.contains("solver.history_tolerance")) return scene.solver.history_tolerance;
+  return std::min(kLadders.history * accuracy, kLadders.loosest_history);
+}
+
 std::vector<Settings> all_settings(const Scene& scene, const std::set<std::string>& fixed, double accuracy) {
   const auto given = [&](std::string_view key) { return fixed.contains(std::string(key)); };
   const bool mesh_given = std::ranges::any_of(mesh_keys(scene), given);
@@ -74,9 +79,7 @@ std::vector<Settings> all_settings(const Scene& scene, const std::set<std::strin
   std::erase_if(tolerances, [&](double tolerance) {
     return tolerance > std::max(scene.solver.resonance_tolerance, kLadders.of_half_width * scene.loading.damping_ratio);
   });
-  const double history = given("solver.history_tolerance")
-                             ? scene.solver.history_tolerance
-                             : std::min(kLadders.history * accuracy, kLadders.loosest_history);
+  const double history = history_tolerance(scene, fixed, accuracy);
   std::vector<Settings> result;
   for (const double mesh : rungs<double>(kLadders.mesh, 1, mesh_given))
     for (const int harmonics : rungs<int>(kLadders.harmonics, scene.solver.harmonics, given("solver.harmonics")))

@@ -27,8 +27,11 @@ struct Settings {
 /// Keys of a study file that they set, with their values in the file's unit.
 [[nodiscard]] std::map<std::string, double> settings_by_key(const Scene& scene, const Settings& settings);
 
+/// Of wear histories, that leaves little of an accuracy asked for.
+[[nodiscard]] double history_tolerance(const Scene& scene, const std::set<std::string>& fixed, double accuracy);
+
 /// All combinations that are allowed, where keys in `fixed` stay as they are: any key of the mesh keeps all of it.
-/// Histories are to leave little of the `accuracy` asked for.
+/// Histories have the tolerance above.
 [[nodiscard]] std::vector<Settings> all_settings(const Scene& scene, const std::set<std::string>& fixed,
                                                  double accuracy);
 

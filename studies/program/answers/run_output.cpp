@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <optional>
 #include <ostream>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "studies/program/answers/field_export.hpp"
 #include "studies/program/answers/geometry_export.hpp"
 #include "studies/program/answers/version.hpp"
+#include "studies/program/engine/settled_study.hpp"
 #include "studies/program/study_file/best_file.hpp"
 #include "studies/program/study_file/export.hpp"
 #include "studies/report/pages/report_html.hpp"
@@ -35,6 +37,11 @@ Scene scene_of(const Study& study, const optimizer::Candidate& candidate) {
 
 namespace {
 
+std::string sentence(std::string words) {
+  words.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(words.front())));
+  return words + ".";
+}
+
 /// What the closer look says of a candidate. A search takes the direct worn state and no bars.
 void take_over(const Study& study, optimizer::Evaluation seen, optimizer::Candidate& candidate) {
   const double tolerance = study.optimizer.constraint_tolerance, before = candidate.judgement.objective;
@@ -56,15 +63,21 @@ void take_over(const Study& study, optimizer::Evaluation seen, optimizer::Candid
   candidate.judgement = now;
 }
 
-report::RunRecord record_of(const RunSite& site, OptimizationResult result, double seconds) {
+WrittenRun record_of(const RunSite& site, OptimizationResult result, double seconds) {
   const Study& study = site.study;
   const RunEngine& engine = site.engine;
   std::optional<report::DesignRecord> best, baseline;
+  std::string inaccurate;
   const auto look = [&](std::size_t index, std::optional<report::DesignRecord>& design) {
     optimizer::Candidate& candidate = result.evaluations[index];
     DescribedDesign seen = engine.describe(scene_of(study, candidate));
     const auto known = static_cast<std::ptrdiff_t>(seen.evaluation.messages.size());
     take_over(study, std::move(seen.evaluation), candidate);
+    if (site.goal) {
+      const AccuracyHeld held = accuracy_held(study.scene, *site.goal, candidate.evaluation);
+      candidate.evaluation.messages.push_back(sentence(held.words));
+      if (index == result.best && !held.reached) inaccurate = held.words;
+    }
     if (!site.settings.empty()) candidate.evaluation.messages.push_back(site.settings);
     design = std::move(seen.record);
     const std::vector<std::string>& messages = candidate.evaluation.messages;
@@ -86,25 +99,26 @@ report::RunRecord record_of(const RunSite& site, OptimizationResult result, doub
   record.provenance.study_text = study.text;
   record.best_design = std::move(best);
   record.baseline_design = std::move(baseline);
-  return record;
+  return {.record = std::move(record), .inaccurate = std::move(inaccurate)};
 }
 
 }  // namespace
 
-report::RunRecord write_run(const RunSite& site, const OptimizationResult& result, double seconds,
-                            const std::vector<report::VerificationRecord>& verifications) {
-  const auto& [study, engine, directory, err, settings, chosen] = site;
+WrittenRun write_run(const RunSite& site, const OptimizationResult& result, double seconds,
+                     const std::vector<report::VerificationRecord>& verifications) {
+  const auto& [study, engine, directory, err, settings, chosen, goal] = site;
   // The design first: it costs nothing and must not be lost when describing it is cut short.
   if (result.best) {
     const optimizer::Candidate& best = result.evaluations[*result.best];
     replace_file(directory / "best.toml",
                  with_values(parse_document(study.text, study.file), variable_values(study, best)));
   }
-  report::RunRecord record = record_of(site, result, seconds);
+  WrittenRun written = record_of(site, result, seconds);
+  report::RunRecord& record = written.record;
   record.verifications = verifications;
   report::write_results(directory / "results.h5", record);
   report::write_report(directory / "report.html", record);
-  if (!result.best) return record;
+  if (!result.best) return written;
   const Scene best = scene_of(study, result.evaluations[*result.best]);
   for (const ExportFormat format : study.exports) {
     const std::filesystem::path file = directory / ("best." + std::string(to_string(format)));
@@ -115,7 +129,7 @@ report::RunRecord write_run(const RunSite& site, const OptimizationResult& resul
     else
       err << "dovetail: " << file.string() << ": not written: the best design has no fields\n";
   }
-  return record;
+  return written;
 }
 
 }  // namespace dovetail::studies

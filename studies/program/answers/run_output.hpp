@@ -3,8 +3,10 @@
 #include <filesystem>
 #include <iosfwd>
 #include <map>
+#include <optional>
 #include <string>
 
+#include "optimizer/accuracy/forecast.hpp"
 #include "optimizer/search/run.hpp"
 #include "studies/program/engine/run_engine.hpp"
 
@@ -16,15 +18,21 @@ struct RunSite {
   const RunEngine& engine;
   std::filesystem::path directory;
   std::ostream& err;
-  std::string settings = {};  ///< a sentence on those of start and best design that an accuracy chose
-  std::map<std::string, std::string> chosen = {};  ///< those that an accuracy chose, key -> value as text
+  std::string settings = {};  ///< a sentence on those of start and best design where the search had others
+  std::map<std::string, std::string> chosen = {};    ///< those that an accuracy chose, key -> value as text
+  std::optional<optimizer::AccuracyGoal> goal = {};  ///< what is asked of start and best design
+};
+
+struct WrittenRun {
+  report::RunRecord record;
+  std::string inaccurate = {};  ///< what the best design misses of the accuracy asked for; empty: nothing
 };
 
 /// Writes what a run came to into its directory, finished or interrupted: best.toml and the exports the study asks for
 /// (when there is a feasible design), results.h5 and report.html. Each file whole or not at all. The start and the best
-/// design are recorded as evaluations with bars and the wear history have them; returns the record.
-report::RunRecord write_run(const RunSite& site, const optimizer::OptimizationResult& result, double seconds,
-                            const std::vector<report::VerificationRecord>& verifications);
+/// design are recorded as evaluations with bars and the wear history have them.
+WrittenRun write_run(const RunSite& site, const optimizer::OptimizationResult& result, double seconds,
+                     const std::vector<report::VerificationRecord>& verifications);
 
 /// The study's scene with the candidate's variables.
 [[nodiscard]] optimizer::Scene scene_of(const Study& study, const optimizer::Candidate& candidate);

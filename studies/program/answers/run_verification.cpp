@@ -96,7 +96,7 @@ std::vector<std::size_t> best_designs(const optimizer::Problem& problem, const o
 
 std::vector<VerificationRecord> verify_best(const RunSite& site, const optimizer::OptimizationResult& result,
                                             const std::string& fingerprint, const OrderlyInterrupt& interrupt) {
-  const auto& [study, engine, directory, err, settings, by_accuracy] = site;
+  const auto& [study, engine, directory, err, settings, chosen_settings, goal] = site;
   std::vector<VerificationRecord> records;
   if (!engine.verify) return records;
   const fs::path file = directory / "verification.jsonl";

@@ -90,7 +90,7 @@ std::string table(const BackboneOptions& options, const paths::Backbone& found) 
 int run_backbone(const BackboneOptions& options, const Streams& streams) {
   const std::vector<double> values = parameters(options);
   if (options.solver.automatic()) refuse("--harmonics, --samples", "must be whole numbers for a backbone", "auto");
-  LoadedModel loaded = load_model(options.input, options.set, options.solver);
+  LoadedModel loaded = load_model(options.input, options.set, options.solver, &streams.err);
   if (!loaded.failure.empty()) return not_converged(options.input, "not converged: " + loaded.failure, streams);
   paths::BackboneOptions settings;
   const int output = output_index(options, loaded);

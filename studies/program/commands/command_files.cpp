@@ -59,7 +59,7 @@ int run_import(const ImportOptions& options, const Streams& streams) {
 namespace {
 
 int export_model(const ExportOptions& options, const std::string& input, const Streams& streams) {
-  const LoadedModel loaded = load_model(input, options.set, {});
+  const LoadedModel loaded = load_model(input, options.set, {}, &streams.err);
   if (!loaded.failure.empty()) return not_converged(input, "not converged: " + loaded.failure, streams);
   write_model_document(options.file, loaded.model, options.input);
   streams.out << options.file << ": written, with three matrices beside it\n";

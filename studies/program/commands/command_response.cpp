@@ -149,7 +149,7 @@ bool contact_changes(const ResponseCurve& curve) {
 
 int run_response(const ResponseOptions& options, const Streams& streams) {
   const std::vector<double> hz = frequencies(options);
-  LoadedModel loaded = load_model(options.input, options.set, options.solver);
+  LoadedModel loaded = load_model(options.input, options.set, options.solver, &streams.err);
   const auto complain = [&](const std::string& what) { return not_converged(options.input, what, streams); };
   if (!loaded.failure.empty()) return complain("not converged: " + loaded.failure);
 

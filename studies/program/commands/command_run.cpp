@@ -106,7 +106,8 @@ std::string verified(const std::vector<report::VerificationRecord>& verification
 }
 
 /// What keeps the best design from being an answer, or nothing.
-std::string shortcoming(const Study& study, const OptimizationResult& result, const report::RunRecord& record) {
+std::string shortcoming(const Study& study, const OptimizationResult& result, const WrittenRun& written) {
+  const report::RunRecord& record = written.record;
   if (!result.best)
     return fmt::format("{}: no feasible design was found in {} evaluations", study.file, result.evaluations.size());
   const bool stands = !record.best_design || optimizer::converged(record.best_design->status);
@@ -116,6 +117,8 @@ std::string shortcoming(const Study& study, const OptimizationResult& result, co
   for (const report::VerificationRecord& v : record.verifications)
     if (v.evaluation == static_cast<std::int64_t>(*result.best) && !optimizer::converged(v.status))
       return fmt::format("the verification of the best design, evaluation {}: {}", v.evaluation + 1, v.status);
+  if (!written.inaccurate.empty())
+    return fmt::format("the best design, evaluation {}: {}", *result.best + 1, written.inaccurate);
   return {};
 }
 
@@ -124,13 +127,13 @@ std::string fingerprint_of(const Study& study) {
                                 std::string("dovetail ") + version() + "\n" + physics_text(study.scene));
 }
 
-/// On settings of start and best design that an accuracy chose; empty where none did.
-std::string settings_words(const Study& searched, const HandedOver& handed) {
+/// On settings of start and best design that an accuracy chose; empty where they are those of the search.
+std::string settings_words(const Study& searched, const SettledStudy& handed) {
   if (handed.accuracy.empty()) return {};
   const optimizer::SolverSettings& solver = handed.study.scene.solver;
   return fmt::format(
-      "{}. Computed with {} edges per flank, {} harmonics, {} samples, {} modes; the search had {}, {}, {} and {}.",
-      handed.accuracy, handed.study.scene.mesh.flank_elements, solver.harmonics, solver.samples, solver.modes,
+      "Computed with {} edges per flank, {} harmonics, {} samples, {} modes; the search had {}, {}, {} and {}.",
+      handed.study.scene.mesh.flank_elements, solver.harmonics, solver.samples, solver.modes,
       searched.scene.mesh.flank_elements, searched.scene.solver.harmonics, searched.scene.solver.samples,
       searched.scene.solver.modes);
 }
@@ -170,7 +173,8 @@ int run_study(const RunOptions& options, const Streams& streams, const RunEngine
   require_runnable(asked);
   for (const std::string& warning : warnings(asked)) streams.err << options.study << ": warning: " << warning << "\n";
   const fs::path directory = prepare_directory(options, asked, streams.err);
-  const Study study = settled_run(asked, directory, options.resume, make_engine, streams.err);
+  const SettledStudy settled = settled_run(asked, directory, options.resume, make_engine, streams.err);
+  const Study& study = settled.study;
   const RunEngine engine = make_engine(study);
   const RunSite site{.study = study, .engine = engine, .directory = directory, .err = streams.err, .settings = {}};
   const OrderlyInterrupt interrupt;
@@ -178,9 +182,9 @@ int run_study(const RunOptions& options, const Streams& streams, const RunEngine
 
   // What is handed over may ask for more than the search.
   const bool settles = result.best && !interrupt.requested();
-  const HandedOver over = settles ? settled_best(asked, study, result.evaluations[*result.best], directory,
-                                                 options.resume, interrupt, streams.err)
-                                  : HandedOver{.study = study};
+  const SettledStudy over = settles ? settled_best(asked, study, result.evaluations[*result.best], directory,
+                                                   options.resume, interrupt, streams.err)
+                                    : SettledStudy{.study = study};
   const Study& handed = over.study;
   const std::string settings = settings_words(study, over);
   const bool as_searched = physics_text(study.scene) == physics_text(handed.scene);
@@ -190,20 +194,21 @@ int run_study(const RunOptions& options, const Streams& streams, const RunEngine
                     .directory = directory,
                     .err = streams.err,
                     .settings = settings,
-                    .chosen = chosen_settings(asked, study, handed)};
+                    .chosen = chosen_settings(asked, settled, over),
+                    .goal = goal_at_best(asked)};
   std::vector<report::VerificationRecord> verifications;
   if (!interrupt.requested()) verifications = verify_best(end, result, fingerprint_of(handed), interrupt);
 
   if (interrupt.requested())
     streams.err << "dovetail: interrupted; writing what is finished (Ctrl-C again ends at once)" << std::endl;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  const report::RunRecord record = write_run(end, result, seconds, verifications);
-  streams.out << conclusion(study, result, record, site.directory) << verified(verifications);
+  const WrittenRun written = write_run(end, result, seconds, verifications);
+  streams.out << conclusion(study, result, written.record, site.directory) << verified(verifications);
   if (interrupt.requested()) {
     streams.err << "dovetail: everything finished is kept; go on with --resume\n";
     return kInterrupted;
   }
-  if (const std::string open = shortcoming(study, result, record); !open.empty()) {
+  if (const std::string open = shortcoming(study, result, written); !open.empty()) {
     streams.err << "dovetail: " << open << "\n";
     return kNotConverged;
   }

@@ -116,6 +116,14 @@ std::vector<std::string> keep_unworn(optimizer::Problem& problem, optimizer::Eva
   return unjudged;
 }
 
+/// Whether the last round of a choice was the evaluation asked for. Rounds ask no history.
+bool answers(const optimizer::SettingsChoice& choice, const optimizer::AccuracyGoal& goal,
+             const optimizer::Purpose& purpose) {
+  if (!choice.tried.by || goal.of_truncation || !purpose.bars) return false;
+  const bool as_far = goal.responses.empty() || optimizer::last_stage(goal.responses) == purpose.until;
+  return as_far && !(purpose.history && choice.evaluation.model.at("wear_history_may_differ") != 0);
+}
+
 /// Two ways to choose the same.
 void refuse_automatic(const SolverChoice& solver) {
   std::vector<Violation> found;
@@ -136,18 +144,19 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
   if (study.scene.solver.accuracy > 0) refuse_automatic(options.solver);
   const Study asked = study;
   const optimizer::Stage until = options.unworn ? optimizer::Stage::unworn : optimizer::Stage::worn_resonance;
-  const std::optional<optimizer::AccuracyGoal> goal =
+  std::optional<optimizer::AccuracyGoal> goal =
       study.scene.solver.accuracy > 0 ? accuracy_goal(study, until) : truncation_goal(study, options.solver, until);
+  if (goal) goal->many = false;
   const std::optional<optimizer::SettingsChoice> choice =
       settle(study, goal, [&](const optimizer::SettingsTried& tried) {
         streams.err << "dovetail: " << round_words(asked, tried) << "\n";
         return true;
       });
-  optimizer::Evaluation evaluation =
-      scene_evaluator(study)
-          ->evaluate(study.scene,
-                     {.bars = !options.no_bars && !options.unworn, .history = !options.no_history, .until = until})
-          .evaluation;
+  const optimizer::Purpose purpose{
+      .bars = !options.no_bars && !options.unworn, .history = !options.no_history, .until = until};
+  optimizer::Evaluation evaluation = choice && answers(*choice, *goal, purpose)
+                                         ? choice->evaluation
+                                         : scene_evaluator(study)->evaluate(study.scene, purpose).evaluation;
   const std::string inaccurate = choice ? accuracy_complaint(asked, *choice) : std::string();
   if (!inaccurate.empty() && !evaluation.infeasible()) evaluation.messages.push_back(inaccurate);
   // Rounds ask no history, and know nothing of what else no setting buys.
@@ -181,7 +190,7 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
 }
 
 int run_reduce(const ReduceOptions& options, const Streams& streams) {
-  const LoadedModel loaded = load_model(options.study, options.set, {});
+  const LoadedModel loaded = load_model(options.study, options.set, {}, &streams.err);
   if (!loaded.failure.empty()) return not_converged(options.study, "not converged: " + loaded.failure, streams);
   reduction::write_model(options.model, loaded.model);
   streams.out << fmt::format("{}: {} coordinates, {} contact nodes\n", options.model, loaded.model.size(),

@@ -20,7 +20,14 @@ CommandHelp evaluate() {
           .what = "Compute one design: all responses with error estimates",
           .footer = "JSON: {" + optimizer::listed_keys<optimizer::Evaluation>() +
                     "}; derivatives where they are known,\n"
-                    "parameters in the study file's units, all else SI; constraints hold when <= 0."};
+                    "parameters in the study file's units, all else SI; constraints hold when <= 0. With [solver] "
+                    "accuracy in the\n"
+                    "study, or --harmonics auto, --samples auto, also \"accuracy\": {\"status\", \"settings\", "
+                    "\"response\", \"source\",\n"
+                    "\"relative_bar\", \"relative_bar_total\", \"asked\", \"rounds\", \"one_more_digit\"[, "
+                    "\"whole_bar\"]}: what was chosen,\n"
+                    "and the response whose bar is largest over what was asked; exit status 3 where that is not "
+                    "reached."};
 }
 
 CommandHelp reduce() {

@@ -76,16 +76,18 @@ std::optional<Chosen> kept(const std::filesystem::path& file, const std::string&
 }
 
 /// Settings for the accuracy that the study asks for at its own design; nothing where it asks for none.
+/// @param many  many designs are computed at those settings
 /// @param stop  set: the choice ends after the round at hand
-std::optional<optimizer::SettingsChoice> choose(const Study& there, const std::atomic<bool>* stop, std::ostream& err,
-                                                Chosen& result) {
+std::optional<optimizer::SettingsChoice> choose(const Study& there, bool many, const std::atomic<bool>* stop,
+                                                std::ostream& err, Chosen& result) {
   Study settled = there;
   const auto stopped = [stop] { return stop != nullptr && stop->load(); };
-  std::optional<optimizer::SettingsChoice> choice =
-      settle(settled, accuracy_goal(settled), [&](const optimizer::SettingsTried& tried) {
-        err << "dovetail: " << round_words(there, tried) << "\n";
-        return !stopped();
-      });
+  std::optional<optimizer::AccuracyGoal> goal = accuracy_goal(settled);
+  if (goal) goal->many = many;
+  std::optional<optimizer::SettingsChoice> choice = settle(settled, goal, [&](const optimizer::SettingsTried& tried) {
+    err << "dovetail: " << round_words(there, tried) << "\n";
+    return !stopped();
+  });
   if (!choice || stopped()) return choice;
   for (const auto& [key, value] : settings_by_key(there.scene, choice->settings))
     if (!there.given.contains(key)) result.settings[key] = value;
@@ -120,7 +122,7 @@ Chosen chosen(const Study& asked, const RunEngineFactory& make_engine, std::ostr
   Chosen result{.settings = {}, .noise = asked.optimizer.noise};
   Study at_start = asked;
   at_start.scene = start_scene(asked);
-  const std::optional<optimizer::SettingsChoice> choice = choose(at_start, nullptr, err, result);
+  const std::optional<optimizer::SettingsChoice> choice = choose(at_start, true, nullptr, err, result);
   if (asked.optimizer.noise > 0) return result;
   const RunEngine engine = choice && choice->tried.by ? RunEngine{} : make_engine(asked);
   if (!engine.start && !choice) return result;
@@ -133,14 +135,12 @@ Chosen chosen(const Study& asked, const RunEngineFactory& make_engine, std::ostr
 }
 
 /// What an accuracy asked for came to, of what accuracy_json says of it.
-std::string came_to(const Json& accuracy, double asked) {
+std::string came_to(const Json& accuracy) {
   if (!accuracy.is_object() || !accuracy.contains("relative_bar") || !accuracy.at("relative_bar").is_number())
-    return fmt::format("An accuracy of {:.2g} % was asked for at the best design; no bar says what is reached",
-                       100 * asked);
+    return "no bar says what is reached";
   const bool reached = accuracy.at("status") == to_string(Status::converged);
-  return fmt::format("An accuracy of {:.2g} % was asked for at the best design and is {}: {} is known to {:.2g} %",
-                     100 * asked, reached ? "reached" : "not reached", accuracy.at("response").get<std::string>(),
-                     100 * accuracy.at("relative_bar").get<double>());
+  return fmt::format("{}: {} to {:.2g} %", reached ? "reached" : "not reached",
+                     accuracy.at("response").get<std::string>(), 100 * accuracy.at("relative_bar").get<double>());
 }
 
 /// Everything that the choice hangs on; which keys the file gives, too, for a key that is given stays.
@@ -153,10 +153,11 @@ std::string question_of(const Study& study) {
 
 }  // namespace
 
-Study settled_run(Study study, const std::filesystem::path& directory, bool resume, const RunEngineFactory& make_engine,
-                  std::ostream& err) {
-  if (study.scene.solver.accuracy == 0 && study.optimizer.noise > 0) return study;
-  const std::string question = question_of(study);
+SettledStudy settled_run(const Study& asked, const std::filesystem::path& directory, bool resume,
+                         const RunEngineFactory& make_engine, std::ostream& err) {
+  const bool chooses = asked.scene.solver.accuracy > 0;
+  if (!chooses && asked.optimizer.noise > 0) return {.study = asked};
+  const std::string question = question_of(asked);
   const std::filesystem::path file = directory / kFile;
   std::optional<Chosen> settled = resume ? kept(file, question) : std::nullopt;
   if (!settled && resume && std::filesystem::exists(file) && std::filesystem::exists(directory / "journal.jsonl"))
@@ -166,17 +167,28 @@ Study settled_run(Study study, const std::filesystem::path& directory, bool resu
                                .allowed = "was made for another study or accuracy than the one at hand: resume that "
                                           "one, or begin anew without --resume"});
   if (!settled) {
-    settled = chosen(study, make_engine, err);
+    settled = chosen(asked, make_engine, err);
     keep(file, question, *settled);
   }
-  return with_chosen(study, *settled);
+  return {.study = with_chosen(asked, *settled), .accuracy = chooses ? came_to(settled->accuracy) : ""};
 }
 
-std::map<std::string, std::string> chosen_settings(const Study& asked, const Study& searched, const Study& handed) {
+std::optional<optimizer::AccuracyGoal> goal_at_best(const Study& asked) {
+  return accuracy_goal(asked.optimizer.verify_accuracy > 0 ? verified(asked) : asked);
+}
+
+std::map<std::string, std::string> chosen_settings(const Study& asked, const SettledStudy& searched,
+                                                   const SettledStudy& handed) {
   std::map<std::string, std::string> result;
-  const double search = asked.scene.solver.accuracy, end = asked.optimizer.verify_accuracy;
-  if (search == 0 && end == 0) return result;
-  const auto values = [](const Study& study) { return settings_by_key(study.scene, settings_of(study.scene)); };
+  const auto add = [&](const char* key, const char* where, double accuracy, const SettledStudy& settled) {
+    if (!settled.accuracy.empty()) result[key] = fmt::format("{:g}, {} {}", accuracy, where, settled.accuracy);
+  };
+  add("solver.accuracy", "at the start", asked.scene.solver.accuracy, searched);
+  add("optimizer.verify_accuracy", "at the best design", asked.optimizer.verify_accuracy, handed);
+  if (result.empty()) return result;
+  const auto values = [](const SettledStudy& settled) {
+    return settings_by_key(settled.study.scene, settings_of(settled.study.scene));
+  };
   const auto by_search = values(searched), at_end = values(handed);
   for (const auto& [key, value] : by_search) {
     if (asked.given.contains(key)) continue;
@@ -186,9 +198,9 @@ std::map<std::string, std::string> chosen_settings(const Study& asked, const Stu
   return result;
 }
 
-HandedOver settled_best(const Study& asked, const Study& searched, const optimizer::Candidate& best,
-                        const std::filesystem::path& directory, bool resume, const OrderlyInterrupt& interrupt,
-                        std::ostream& err) {
+SettledStudy settled_best(const Study& asked, const Study& searched, const optimizer::Candidate& best,
+                          const std::filesystem::path& directory, bool resume, const OrderlyInterrupt& interrupt,
+                          std::ostream& err) {
   if (asked.optimizer.verify_accuracy == 0) return {.study = searched};
   Study there = searched;
   there.given = asked.given;
@@ -199,12 +211,11 @@ HandedOver settled_best(const Study& asked, const Study& searched, const optimiz
   if (!settled) {
     err << "dovetail: settings for the best design\n";
     settled = Chosen{.settings = {}, .noise = searched.optimizer.noise};
-    choose(verified(there), &interrupt.flag(), err, *settled);
+    choose(verified(there), false, &interrupt.flag(), err, *settled);
     if (interrupt.requested()) return {.study = searched};
     keep(file, question, *settled);
   }
-  return {.study = with_chosen(searched, *settled),
-          .accuracy = came_to(settled->accuracy, asked.optimizer.verify_accuracy)};
+  return {.study = with_chosen(searched, *settled), .accuracy = came_to(settled->accuracy)};
 }
 
 }  // namespace dovetail::studies

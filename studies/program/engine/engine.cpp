@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <ostream>
 #include <string_view>
 
 #include "dynamics/condensed_model.hpp"
@@ -43,10 +44,11 @@ std::shared_ptr<const SceneEvaluator> scene_evaluator(const Study& study) {
 namespace {
 
 /// A design that the evaluator refuses is one that failed: a run ends with a report all the same.
-optimizer::CandidateResult evaluated(const SceneEvaluator& evaluator, const Scene& scene) {
+optimizer::CandidateResult evaluated(const SceneEvaluator& evaluator, const Scene& scene,
+                                     const optimizer::Purpose& purpose) {
   optimizer::CandidateResult result;
   result.evaluation = optimizer::evaluated_or_refused([&] {
-    result = evaluator.evaluate(scene);
+    result = evaluator.evaluate(scene, purpose);
     return result.evaluation;
   });
   if (!result.evaluation.parameters.empty()) return result;
@@ -79,10 +81,14 @@ RunEngine study_engine(const Study& study) {
   engine.finer = [evaluator, scene_at, purpose](std::span<const double> x, int level) {
     return optimizer::evaluated_finer(*evaluator, scene_at(x), purpose, level).evaluation;
   };
-  engine.describe = [evaluator](const Scene& scene) {
-    const optimizer::CandidateResult result = evaluated(*evaluator, scene);
+  // Of what wears, all of it is shown.
+  const bool wears = purpose.until >= optimizer::Stage::worn_state;
+  const optimizer::Purpose closer{.until = wears ? optimizer::Stage::worn_resonance : purpose.until};
+  engine.describe = [evaluator, closer](const Scene& scene) {
+    const optimizer::CandidateResult result = evaluated(*evaluator, scene, closer);
     return DescribedDesign{.evaluation = result.evaluation, .record = report::make_design_record(scene, result)};
   };
+  if (!wears) return engine;
   engine.verify = [evaluator](const Scene& scene, const wear::Watcher& watcher) {
     const optimizer::Verification verification = optimizer::verify(*evaluator, scene, {}, watcher);
     return report::make_verification_record(verification, verification.model);
@@ -138,8 +144,12 @@ InputError infeasible(const std::string& file, const std::vector<std::string>& m
 
 namespace {
 
-LoadedModel from_study(const std::string& file, const std::vector<Override>& given) {
+LoadedModel from_study(const std::string& file, const std::vector<Override>& given, std::ostream* err) {
   const Study study = load_study(file, given);
+  if (err != nullptr && study.scene.solver.accuracy > 0)
+    *err << file
+         << ": warning: solver.accuracy chooses nothing here: mesh, modes, harmonics and samples are those of the file "
+            "(`dovetail evaluate` chooses and tells them).\n";
   optimizer::CandidateModel candidate = scene_evaluator(study)->builder().build(study.scene);
   if (candidate.infeasible()) throw infeasible(file, candidate.messages);
   LoadedModel loaded;
@@ -236,13 +246,14 @@ std::optional<reduction::ReducedModel> read_any_model(const std::string& input) 
   return read_model_document(document);
 }
 
-LoadedModel load_model(const std::string& input, const std::vector<std::string>& set, const SolverChoice& solver) {
+LoadedModel load_model(const std::string& input, const std::vector<std::string>& set, const SolverChoice& solver,
+                       std::ostream* err) {
   if (is_hdf5_file(input)) {
     const steady::Options steady = model_options(input, set, solver);
     return from_model(input, reduction::read_model(input), steady, solver);
   }
   const Document document = load_document(input);
-  if (!is_model_document(document)) return from_study(input, overrides(set, solver));
+  if (!is_model_document(document)) return from_study(input, overrides(set, solver), err);
   const steady::Options steady = model_options(input, set, solver);
   return from_model(input, read_model_document(document), steady, solver);
 }

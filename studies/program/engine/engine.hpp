@@ -1,5 +1,6 @@
 #pragma once
 
+#include <iosfwd>
 #include <limits>
 #include <memory>
 #include <numbers>
@@ -55,8 +56,9 @@ struct LoadedModel {
 [[nodiscard]] std::optional<reduction::ReducedModel> read_any_model(const std::string& input);
 
 /// Throws InputError for wrong input and for a study whose geometry is infeasible.
+/// @param err  hears what of a study does not count here; null: nobody does
 [[nodiscard]] LoadedModel load_model(const std::string& input, const std::vector<std::string>& set,
-                                     const SolverChoice& solver);
+                                     const SolverChoice& solver, std::ostream* err = nullptr);
 
 /// Those given with --set, and the solver's options as overrides of the keys of [solver]. Throws InputError with all
 /// that are not KEY=VALUE, and for numbers that are neither whole nor auto.

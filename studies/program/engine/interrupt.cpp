@@ -17,6 +17,8 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 extern "C" void on_interrupt(int) {
   if (orderly.load() && !stop_requested.exchange(true)) return;
   remove_unfinished_file();
+  constexpr char kWords[] = "\ndovetail: interrupted\n";
+  if (::write(STDERR_FILENO, kWords, sizeof kWords - 1) < 0) ::_exit(kInterrupted);  // nobody listens
   ::_exit(kInterrupted);
 }
 

@@ -23,8 +23,8 @@ struct RunEngine {
   std::function<optimizer::Evaluation()> start = {};
   /// The same on finer meshes; empty: limits are kept on one mesh.
   optimizer::FinerEvaluator finer = {};
-  /// The design with bars and what the wear history decides, and with the curves and fields that results and report
-  /// show; empty: they show none.
+  /// The design with bars and what the wear history decides, as far as the study's responses need, and with the curves
+  /// and fields that results and report show; empty: they show none.
   std::function<DescribedDesign(const optimizer::Scene&)> describe;
   /// The design's wear by the full history; empty: designs are not verified.
   std::function<report::VerificationRecord(const optimizer::Scene&, const wear::Watcher&)> verify = {};

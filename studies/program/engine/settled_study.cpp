@@ -94,6 +94,20 @@ std::optional<optimizer::Dominant> whole_bar(const optimizer::AccuracyGoal& goal
   return worst;
 }
 
+AccuracyHeld accuracy_held(const optimizer::Scene& scene, const optimizer::AccuracyGoal& goal,
+                           const optimizer::Evaluation& evaluation) {
+  std::optional<optimizer::Dominant> by;
+  if (!evaluation.error_sources.empty()) {
+    optimizer::Forecast bars(scene, goal);
+    bars.add(optimizer::settings_of(scene), evaluation);
+    by = bars.dominant();
+  }
+  if (!by) return {.reached = false, .words = "the accuracy asked for is not known to be reached: no bar says how"};
+  const bool reached = by->relative <= by->asked;
+  return {.reached = reached,
+          .words = fmt::format("the accuracy asked for is {}reached: {}", reached ? "" : "not ", known(*by))};
+}
+
 std::string round_words(const Study& study, const optimizer::SettingsTried& tried) {
   const optimizer::Scene there = optimizer::with_settings(study.scene, tried.settings);
   std::string text = fmt::format("{} edges per flank, {} harmonics, {} samples, {} modes: ", there.mesh.flank_elements,

@@ -31,6 +31,14 @@ std::optional<optimizer::SettingsChoice> settle(Study& study, const std::optiona
 [[nodiscard]] std::optional<optimizer::Dominant> whole_bar(const optimizer::AccuracyGoal& goal,
                                                            const optimizer::Evaluation& evaluation);
 
+/// What of an accuracy asked for holds at a design that was computed with bars.
+struct AccuracyHeld {
+  bool reached = false;  ///< as far as settings buy it
+  std::string words = {};
+};
+[[nodiscard]] AccuracyHeld accuracy_held(const optimizer::Scene& scene, const optimizer::AccuracyGoal& goal,
+                                         const optimizer::Evaluation& evaluation);
+
 /// A round in a line for people.
 [[nodiscard]] std::string round_words(const Study& study, const optimizer::SettingsTried& tried);
 /// What was not reached or not held to it, why, and which keys of the study file keep it from being bought; empty where

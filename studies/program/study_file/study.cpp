@@ -203,6 +203,11 @@ std::vector<std::string> warnings(const Study& study) {
   };
   for (const optimizer::ObjectiveTerm& term : study.problem.objective) leans_on(term.response, "an objective");
   for (const optimizer::ResponseConstraint& limit : study.problem.constraints) leans_on(limit.response, "a limit");
+  const double searched = study.scene.solver.accuracy, handed = study.optimizer.verify_accuracy;
+  if (searched > 0 && handed > searched)
+    result.push_back(
+        "optimizer.verify_accuracy asks for less at the best design than solver.accuracy does of the search: with the "
+        "settings of the search it is met.");
   return result;
 }
 

@@ -54,7 +54,8 @@ void add_opening(const RunRecord& record, Blanks& blanks) {
 }
 
 void add_designs(const Comparison& designs, Blanks& blanks) {
-  for (const char* name : {"shape", "contact", "maps", "vibration", "history", "history_end", "notes", "in_space"})
+  for (const char* name :
+       {"shape", "contact", "maps", "vibration", "wears", "history", "history_end", "notes", "in_space"})
     blanks[name];
   if (!designs.after) return;
   const DesignRecord& design = *designs.after;
@@ -62,7 +63,9 @@ void add_designs(const Comparison& designs, Blanks& blanks) {
   blanks["contact"] = figures_html(contact_plots(designs));
   if (in_space(design.contact)) blanks["maps"] = figures_html(contact_maps(design));
   blanks["in_space"] = blanks["maps"];
-  blanks["vibration"] = figures_html({response_plot(designs), nodal_diameter_plot(design)});
+  if (!design.unworn.frequency_hz.empty() || !design.nodal_diameters.frequency_hz.empty())
+    blanks["vibration"] = figures_html({response_plot(designs), nodal_diameter_plot(design)});
+  blanks["wears"] = when(!design.contact.depth_m.empty());
   blanks["notes"] = notes(designs);
   if (!design.history || design.history->cycles.empty()) return;
   blanks["history"] = figures_html(history_plots(design));

@@ -21,6 +21,7 @@ namespace {
 using optimizer::CandidateModel;
 using optimizer::CandidateResult;
 using optimizer::Scene;
+using optimizer::Stage;
 
 Numbers list(const Eigen::Ref<const Eigen::VectorXd>& values) {
   return {values.data(), values.data() + values.size()};
@@ -186,9 +187,16 @@ DesignRecord make_design_record(const Scene& scene, const CandidateResult& resul
   add_fillet("blade", sector.mesh, sector.blade_fillet_nodes, result.blade_fillet, record);
   add_fillet("disk", sector.mesh, sector.disk_fillet_nodes, result.disk_fillet, record);
   if (options.fields) record.fields = preload_fields(scene, model);
-  add_curves(scene, result, options, record);
-  add_nodal_diameters(scene, model, options, record);
-  add_history(scene, result, options, record);
+  const auto asked = [&result](Stage stage) { return !result.evaluation.converged() || *result.stage >= stage; };
+  if (asked(Stage::unworn)) {
+    add_curves(scene, result, options, record);
+    add_nodal_diameters(scene, model, options, record);
+  }
+  if (asked(Stage::worn_state)) add_history(scene, result, options, record);
+  if (!asked(Stage::worn_resonance))
+    record.notes.push_back(fmt::format(
+        "The study names no response of {}, so it was not computed; [optimizer] responses = \"all\" computes all.",
+        asked(Stage::unworn) ? "the worn joint" : "the vibrating joint"));
   return record;
 }
 

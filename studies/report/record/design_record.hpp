@@ -20,10 +20,10 @@ struct DesignRecordOptions {
 [[nodiscard]] ContactRecord contact_record(const optimizer::CandidateResult& result);
 
 /// A design with its curves. What the evaluation computed is copied; response curves (unworn, worn, glued) around the
-/// resonance, frequencies over nodal diameters and the wear history are computed. Never throws for what a candidate is
-/// like: pieces after the stage that failed stay empty, with a sentence in `notes`.
-/// Cost at the default sizes: about 2 curve_points warm-started steady states, a sparse factorisation per nodal
-/// diameter, and history_steps steady states.
+/// resonance, frequencies over nodal diameters and the wear history are computed; those of stages that were not asked
+/// for are left out. Never throws for what a candidate is like: pieces after the stage that failed stay empty, with a
+/// sentence in `notes`. Cost at the default sizes: about 2 curve_points warm-started steady states, a
+/// sparse factorisation per nodal diameter, and history_steps steady states.
 [[nodiscard]] DesignRecord make_design_record(const optimizer::Scene& scene, const optimizer::CandidateResult& result,
                                               const DesignRecordOptions& options = {});
 

@@ -98,6 +98,23 @@ TEST(SparseCholesky, ReusesTheAnalysisForNewValues) {
   }
 }
 
+TEST(SparseCholesky, TakesTheOrderOfAnother) {
+  const Eigen::SparseMatrix<double> one = laplacian<double>(20, 1.0), other = laplacian<double>(20, -0.5);
+  SparseCholesky<double> first, second;
+  ASSERT_EQ(first.factorise(one), Status::converged);
+  second.analyse(other, first);
+  ASSERT_EQ(second.factorise(other), Status::converged);
+  EXPECT_EQ(second.factor_entries(), first.factor_entries());
+  const Eigen::VectorXd exact = Eigen::VectorXd::LinSpaced(other.rows(), -1, 2);
+  EXPECT_LT((second.solve(Eigen::MatrixXd(other * exact)) - exact).norm(), 1e-12 * exact.norm());
+  // Of nothing, and of another size: its own.
+  const Eigen::SparseMatrix<double> small = laplacian<double>(5, 1.0);
+  second.analyse(small, first);
+  ASSERT_EQ(second.factorise(small), Status::converged);
+  second.analyse(other, SparseCholesky<double>());
+  ASSERT_EQ(second.factorise(other), Status::converged);
+}
+
 TEST(SparseCholesky, ReportsWhatIsNotPositiveDefinite) {
   const Eigen::SparseMatrix<double> a = laplacian<double>(10, 1.0);
   const Eigen::SparseMatrix<double> indefinite = a - 1.0 * identity<double>(100);

@@ -191,12 +191,19 @@ TEST(Report, SurvivesWhateverIsMissing) {
   RunRecord record = sample_record();
   record.status = "interrupted";
   record.best_design->history.reset();
-  record.best_design->unworn = {};
-  record.best_design->contact = {};
   std::string page = report_html(record);
   EXPECT_EQ(markup_error(page), "");
   EXPECT_THAT(page, HasSubstr("The run was interrupted"));
   EXPECT_THAT(page, HasSubstr("No wear history was computed"));
+
+  // Nor are there headings of what was not asked for.
+  record.best_design->unworn = {};
+  record.best_design->nodal_diameters = {};
+  record.best_design->contact = {};
+  page = report_html(record);
+  EXPECT_EQ(markup_error(page), "");
+  EXPECT_THAT(page, Not(HasSubstr("<h2>Wear history")));
+  EXPECT_THAT(page, Not(HasSubstr("<h2>Vibration")));
 
   record.best_design = DesignRecord{};
   page = report_html(record);

@@ -149,9 +149,13 @@ TEST_F(Run, HandsOverAtSettingsForTheAccuracyAskedFor) {
   std::string text = replaced(study_template("sample"), "max_evaluations = 100", "max_evaluations = 3");
   text = replaced(without(text, "harmonics"), "flank_elements = 24", "flank_elements = 10");
   replace_file(study(), replaced(text, "verify_accuracy = 0\n", "verify_accuracy = 0.2\n"));
-  const RunEngineFactory factory = [](const Study&) {
-    const auto describe = [](const optimizer::Scene&) {
+  double bar = 0.1;  // of the closer look, over the values
+  const RunEngineFactory factory = [&bar](const Study&) {
+    const auto describe = [bar](const optimizer::Scene&) {
       DescribedDesign seen{.evaluation = bowl(std::vector<double>{10, 3, 9}), .record = {}};
+      for (const auto& [name, value] : seen.evaluation.responses)
+        seen.evaluation.error_sources[name] = {{"mesh", bar * value}, {"edge", value}};
+      seen.evaluation.model = {{"dofs", 1e4}, {"contact_nodes", 20}, {"jacobians_spent", 9}};
       seen.record.status = "converged";
       return seen;
     };
@@ -160,7 +164,12 @@ TEST_F(Run, HandsOverAtSettingsForTheAccuracyAskedFor) {
   const auto says_what_was_chosen = [&] {
     const report::RunRecord record = report::read_results(results() / "results.h5");
     EXPECT_THAT(record.best_design->notes,
-                testing::Contains(HasSubstr("An accuracy of 20 % was asked for at the best design and is")));
+                testing::Contains(
+                    testing::ContainsRegex("The accuracy asked for is reached: .* to 10 % \\(asked: 20 %\\), most of "
+                                           "it by mesh; 1.1e\\+02 % with what this does not buy.")));
+    EXPECT_THAT(record.best_design->notes, testing::Contains(HasSubstr("Computed with 10 edges per flank")));
+    EXPECT_THAT(record.provenance.settings.at("optimizer.verify_accuracy"), HasSubstr("0.2, at the best design "));
+    EXPECT_EQ(record.provenance.settings.count("solver.accuracy"), 0U);
     EXPECT_EQ(record.provenance.settings.count("solver.harmonics"), 1U);
     EXPECT_EQ(record.provenance.settings.count("mesh.flank_elements"), 0U);  // it stands in the file
   };
@@ -177,6 +186,10 @@ TEST_F(Run, HandsOverAtSettingsForTheAccuracyAskedFor) {
   ASSERT_EQ(run(true, factory), kDone) << err_.str();
   says_what_was_chosen();
   EXPECT_THAT(err_.str(), Not(HasSubstr("edges per flank")));
+  // What is missed there is no answer.
+  bar = 0.3;
+  EXPECT_EQ(run(true, factory), kNotConverged);
+  EXPECT_THAT(err_.str(), HasSubstr("the accuracy asked for is not reached"));
 }
 
 // The wear history may say something else of the best design than the search, which does not ask it.

@@ -234,6 +234,22 @@ TEST(NodalDiameters, AreFoundFromModesOfAFewOfThem) {
   }
 }
 
+// A tolerance below rounding: no round settles, and every diameter is solved for itself.
+TEST(NodalDiameters, AreSolvedOneByOneWhereRoundsDoNotSettle) {
+  const SectorMesh sector = disk_sector(9, 10, 6);
+  const std::vector<Material> materials{Material{}};
+  const FullMatrices full = Assembler(sector.mesh).stiffness_and_mass(sector.mesh, materials);
+  const numerics::ModesOptions modes{.count = 2, .tolerance = 1e-11};
+  const auto found = [&](double tolerance) {
+    return nodal_diameter_frequencies(sector, full.stiffness, full.mass, BoreSupport::tangential,
+                                      {.modes = modes, .tolerance = tolerance});
+  };
+  const NodalDiameterFrequencies exact = found(0), rounds = found(1e-30);
+  EXPECT_EQ(rounds.status, exact.status);
+  EXPECT_EQ(std::count(rounds.solved.begin(), rounds.solved.end(), true), 5);
+  EXPECT_LT((rounds.frequency - exact.frequency).norm(), 1e-9 * exact.frequency.norm());
+}
+
 TEST(GluedModes, LowersTheShiftForAFloatingBody) {
   // A free annulus turns rigidly at diameter 0: one zero frequency, then the elastic ones.
   const SectorMesh sector = lopsided_sector();

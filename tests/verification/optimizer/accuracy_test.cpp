@@ -173,6 +173,32 @@ TEST(Accuracy, OutOfReachOfEverySettingCostsTwoRounds) {
   EXPECT_FALSE(choose_settings(Scene{}, kGoal, Laws{}.probe()).out_of_reach);
 }
 
+// What one evaluation would save by settings that are cheaper still pays for no round.
+TEST(Accuracy, OfOneEvaluationIsThatOfTheFirstSettingsThatWillDo) {
+  AccuracyGoal goal = kGoal;
+  goal.many = false;
+  for (const Laws& laws : {Laws{.mesh = 1e-4, .harmonics = 1e-4, .samples = 1e-4, .modes = 1e-4}, Laws{.mesh = 0.1}}) {
+    int calls = 0;
+    const SettingsChoice choice = choose_settings(Scene{}, goal, laws.probe(&calls));
+    ASSERT_EQ(choice.status, Status::converged);
+    EXPECT_TRUE(choice.settings == choice.rounds.back().settings);
+    EXPECT_EQ(calls == 1, laws.sum(settings_of(Scene{})) <= goal.relative);
+    for (std::size_t i = 0; i + 1 < choice.rounds.size(); ++i) EXPECT_GT(choice.rounds[i].excess, 1);
+    int more = 0;
+    EXPECT_LE(choose_settings(Scene{}, kGoal, laws.probe(&more)).tried.operations, choice.tried.operations);
+    EXPECT_LE(calls, more);
+  }
+}
+
+// One digit more is ten times the accuracy of histories, too.
+TEST(Accuracy, OneMoreDigitIsOneOfHistories) {
+  const Laws laws{.mesh = 2e-3, .harmonics = 2e-3, .samples = 1e-3};
+  const SettingsChoice choice = choose_settings(Scene{}, kGoal, laws.probe());
+  ASSERT_TRUE(choice.one_more_digit);
+  EXPECT_NEAR(choice.settings.history_tolerance, 2e-3, 1e-12);
+  EXPECT_NEAR(choice.one_more_digit->settings.history_tolerance, 2e-4, 1e-12);
+}
+
 TEST(Accuracy, EndsWhenToldTo) {
   int calls = 0;
   const SettingsChoice choice = choose_settings(Scene{}, {.relative = 3e-3, .responses = {kVolume}},
