@@ -74,7 +74,8 @@ std::string wear_down(const Scene& scene, const CandidateResult& fine, const Ver
 }
 
 /// Whether the three answers lie within their bars of each other.
-std::string judged(const Verification& v) {
+/// @param finer  edges of the finer mesh over those of the search
+std::string judged(const Verification& v, double finer) {
   const auto apart = [](double a, double b, double bars) { return !(std::abs(a - b) <= bars); };
   const auto words = [](const char* what, double a, const char* other, double b, double bars) {
     return fmt::format("{}: {} {:.4g} m^3, {} {:.4g} m^3, bars {:.2g} m^3", to_string(Outcome::disagrees), what, a,
@@ -84,14 +85,14 @@ std::string judged(const Verification& v) {
     return words("search", v.search_volume, "finer mesh", v.direct_volume, v.search_bar);
   if (apart(v.history_volume, v.search_volume, v.search_bar + v.history_bar))
     return words("search", v.search_volume, "history", v.history_volume, v.search_bar + v.history_bar);
-  // Twice the edges, harmonics and samples ought to leave no more than half of the search's bar.
-  const double direct_bar = v.search_bar / 2;
+  // Errors fall with the first power of the edges at least.
+  const double direct_bar = v.search_bar / finer;
   if (apart(v.history_volume, v.direct_volume, direct_bar + v.history_bar))
     return words("finer mesh", v.direct_volume, "history on it", v.history_volume, direct_bar + v.history_bar);
   return status_of(Outcome::converged);
 }
 
-std::string compare(const Scene& scene, const CandidateResult& fine, const VerificationOptions& options,
+std::string compare(const Scene& scene, const CandidateResult& fine, double finer, const VerificationOptions& options,
                     const wear::Watcher& watcher, Verification& verification) {
   if (!fine.evaluation.converged()) return failed_at("finer mesh", fine.evaluation.status);
   verification.frequency_hz = hertz(fine.unworn->omega);
@@ -103,7 +104,7 @@ std::string compare(const Scene& scene, const CandidateResult& fine, const Verif
   // Where every node sticks a history would not leave its first state.
   if (verification.direct_depth > 0)
     if (std::string ended = wear_down(scene, fine, options, watcher, verification); !converged(ended)) return ended;
-  return judged(verification);
+  return judged(verification, finer);
 }
 
 }  // namespace
@@ -127,14 +128,19 @@ CandidateResult evaluated_finer(const SceneEvaluator& evaluator, const Scene& sc
 
 Verification verify(const SceneEvaluator& evaluator, const Scene& scene, const VerificationOptions& options,
                     const wear::Watcher& watcher) {
+  return verify(evaluator, scene, {.scene = finer(scene, 1), .reference = finer(evaluator.reference(), 1)}, options,
+                watcher);
+}
+
+Verification verify(const SceneEvaluator& evaluator, const Scene& scene, const FinerDesign& there,
+                    const VerificationOptions& options, const wear::Watcher& watcher) {
   Stopwatch watch;
   Verification verification;
   verification.follow = scene.loading.follow;
   const CandidateResult result = evaluator.evaluate(scene);
-  const Scene scene_there = finer(scene, 1);
-  verification.flank_elements = scene_there.mesh.flank_elements;
-  verification.harmonics = scene_there.solver.harmonics;
-  verification.samples = scene_there.solver.samples;
+  verification.flank_elements = there.scene.mesh.flank_elements;
+  verification.harmonics = there.scene.solver.harmonics;
+  verification.samples = there.scene.solver.samples;
   if (!result.evaluation.converged()) {
     verification.status = result.evaluation.status;
   } else {
@@ -142,8 +148,10 @@ Verification verify(const SceneEvaluator& evaluator, const Scene& scene, const V
     verification.search_depth = result.asymptote->largest_depth;
     const auto bar = result.evaluation.error_estimates.find(std::string(kWornVolume.name));
     verification.search_bar = bar == result.evaluation.error_estimates.end() ? std::nan("") : bar->second;
-    CandidateResult fine = evaluated_finer(evaluator, scene, kSearch, 1);
-    verification.status = compare(scene_there, fine, options, watcher, verification);
+    CandidateResult fine =
+        computed(there.scene, ModelBuilder(there.reference).build(there.scene), until(kSearch.until, kSearch.history));
+    const double edges = static_cast<double>(there.scene.mesh.flank_elements) / scene.mesh.flank_elements;
+    verification.status = compare(there.scene, fine, edges, options, watcher, verification);
     verification.search_profile = on_grid(result.asymptote->depth, result.model.cells, fine.model.cells);
     verification.model = std::move(fine.model);
   }

@@ -23,9 +23,8 @@ struct VerificationOptions {
   double budgets = 4;
 };
 
-/// A design's wear on a mesh with twice as many edges along the flanks, with twice the harmonics plus one and twice the
-/// samples: directly, and by two explicit histories that know nothing of the direct answer, extrapolated to no
-/// increment. Agreement is judged against the bars.
+/// A design's wear at finer settings: directly, and by two explicit histories that know nothing of the direct answer,
+/// extrapolated to no increment. Agreement is judged against the bars.
 struct Verification {
   /// Converged: history, finer direct method and search agree within their bars; else they disagree, or what failed and
   /// why, or interrupted.
@@ -56,8 +55,18 @@ struct Verification {
 [[nodiscard]] CandidateResult evaluated_finer(const SceneEvaluator& evaluator, const Scene& scene,
                                               const Purpose& purpose, int level);
 
-/// Never throws for what a design is like; what could not be computed is in the status. Cost: two evaluations and some
-/// 100 to 300 steady states of four times the size.
+/// A design at finer settings, and the scene that fixes the topology of its mesh.
+struct FinerDesign {
+  Scene scene, reference;
+};
+
+/// @param there  settings of more edges along the flanks
+/// Never throws for what a design is like; what could not be computed is in the status. Cost: two evaluations and, at
+/// those settings, some 100 to 300 steady states.
+[[nodiscard]] Verification verify(const SceneEvaluator& evaluator, const Scene& scene, const FinerDesign& there,
+                                  const VerificationOptions& options = {}, const wear::Watcher& watcher = {});
+
+/// The same with twice the edges along the flanks, twice the harmonics plus one and twice the samples.
 [[nodiscard]] Verification verify(const SceneEvaluator& evaluator, const Scene& scene,
                                   const VerificationOptions& options = {}, const wear::Watcher& watcher = {});
 

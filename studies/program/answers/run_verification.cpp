@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "studies/program/answers/run_output.hpp"
+#include "studies/program/engine/engine.hpp"
 #include "studies/program/engine/json_values.hpp"
 #include "studies/report/record/record_tables.hpp"
 
@@ -95,7 +96,8 @@ std::vector<std::size_t> best_designs(const optimizer::Problem& problem, const o
 }
 
 std::vector<VerificationRecord> verify_best(const RunSite& site, const optimizer::OptimizationResult& result,
-                                            const std::string& fingerprint, const OrderlyInterrupt& interrupt) {
+                                            const Study* finer, const std::string& fingerprint,
+                                            const OrderlyInterrupt& interrupt) {
   const auto& [study, engine, directory, err, settings, chosen_settings, goal] = site;
   std::vector<VerificationRecord> records;
   if (!engine.verify) return records;
@@ -116,7 +118,10 @@ std::vector<VerificationRecord> verify_best(const RunSite& site, const optimizer
       err << fmt::format("dovetail: verifying evaluation {} by its wear history ({} of {})\n", index + 1,
                          records.size() + 1, chosen.size())
           << std::flush;
-      record = engine.verify(scene_of(study, candidate), watcher);
+      const optimizer::FinerDesign there =
+          finer != nullptr ? optimizer::FinerDesign{scene_of(*finer, candidate), reference_scene(*finer)}
+                           : optimizer::FinerDesign{};
+      record = engine.verify(scene_of(study, candidate), finer != nullptr ? &there : nullptr, watcher);
       if (interrupt.requested()) break;  // not finished: computed again when resumed
       keep(file, line_of(fingerprint, {.x = candidate.x, .record = record}));
     }

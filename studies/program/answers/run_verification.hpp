@@ -18,9 +18,10 @@ namespace dovetail::studies {
 /// The best designs verified, best first. Each is kept in the directory's verification.jsonl as soon as it is done, one
 /// JSON object per line, and taken from there when it was done before for the same study (`fingerprint`). A line that
 /// is cut short counts for nothing. Stops between designs, and inside one, when interrupted.
+/// @param finer  the study at the settings they are verified at; null: RunEngine::verify chooses them
 [[nodiscard]] std::vector<report::VerificationRecord> verify_best(const RunSite& site,
                                                                   const optimizer::OptimizationResult& result,
-                                                                  const std::string& fingerprint,
+                                                                  const Study* finer, const std::string& fingerprint,
                                                                   const OrderlyInterrupt& interrupt);
 
 }  // namespace dovetail::studies

@@ -25,6 +25,9 @@ namespace {
 namespace fs = std::filesystem;
 using optimizer::OptimizationResult;
 
+/// Edges of a mesh over those of another from which on one verifies the other: less and both may err alike.
+constexpr double kFiner = 1.5;
+
 void require_runnable(const Study& study) {
   Complaints wrong;
   for (const auto& [none, what] : {std::pair{study.problem.space.size() == 0, "variable"},
@@ -129,7 +132,7 @@ std::string fingerprint_of(const Study& study) {
 
 /// On settings of start and best design that an accuracy chose; empty where they are those of the search.
 std::string settings_words(const Study& searched, const SettledStudy& handed) {
-  if (handed.accuracy.empty()) return {};
+  if (handed.accuracy.empty() || physics_text(searched.scene) == physics_text(handed.study.scene)) return {};
   const optimizer::SolverSettings& solver = handed.study.scene.solver;
   return fmt::format(
       "Computed with {} edges per flank, {} harmonics, {} samples, {} modes; the search had {}, {}, {} and {}.",
@@ -197,7 +200,11 @@ int run_study(const RunOptions& options, const Streams& streams, const RunEngine
                     .chosen = chosen_settings(asked, settled, over),
                     .goal = goal_at_best(asked)};
   std::vector<report::VerificationRecord> verifications;
-  if (!interrupt.requested()) verifications = verify_best(end, result, fingerprint_of(handed), interrupt);
+  // Settings that are handed over verify those of the search where they are finer.
+  const bool finer = handed.scene.mesh.flank_elements >= kFiner * study.scene.mesh.flank_elements;
+  if (!interrupt.requested())
+    verifications = verify_best(finer ? site : end, result, finer ? &handed : nullptr,
+                                fingerprint_of(study) + fingerprint_of(handed), interrupt);
 
   if (interrupt.requested())
     streams.err << "dovetail: interrupted; writing what is finished (Ctrl-C again ends at once)" << std::endl;

@@ -27,6 +27,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kFile = "settings.json";
+/// Designs at which settings are chosen.
+constexpr const char *kStart = "the start", *kMiddle = "the middle of the variables' ranges",
+                     *kBest = "the best design";
 constexpr const char* kBestFile = "best_settings.json";
 
 /// What a run searches with and its study file does not give.
@@ -75,11 +78,12 @@ std::optional<Chosen> kept(const std::filesystem::path& file, const std::string&
   }
 }
 
-/// Settings for the accuracy that the study asks for at its own design; nothing where it asks for none.
+/// Settings for the accuracy that the study asks for at its own design, which is `where`; nothing where it asks for
+/// none.
 /// @param many  many designs are computed at those settings
 /// @param stop  set: the choice ends after the round at hand
-std::optional<optimizer::SettingsChoice> choose(const Study& there, bool many, const std::atomic<bool>* stop,
-                                                std::ostream& err, Chosen& result) {
+std::optional<optimizer::SettingsChoice> choose(const Study& there, const char* where, bool many,
+                                                const std::atomic<bool>* stop, std::ostream& err, Chosen& result) {
   Study settled = there;
   const auto stopped = [stop] { return stop != nullptr && stop->load(); };
   std::optional<optimizer::AccuracyGoal> goal = accuracy_goal(settled);
@@ -92,6 +96,7 @@ std::optional<optimizer::SettingsChoice> choose(const Study& there, bool many, c
   for (const auto& [key, value] : settings_by_key(there.scene, choice->settings))
     if (!there.given.contains(key)) result.settings[key] = value;
   result.accuracy = accuracy_json(there.scene, *choice);
+  result.accuracy["at"] = where;
   if (const std::string open = accuracy_complaint(there, *choice); !open.empty()) err << "dovetail: " << open << "\n";
   return choice;
 }
@@ -122,15 +127,22 @@ Chosen chosen(const Study& asked, const RunEngineFactory& make_engine, std::ostr
   Chosen result{.settings = {}, .noise = asked.optimizer.noise};
   Study at_start = asked;
   at_start.scene = start_scene(asked);
-  const std::optional<optimizer::SettingsChoice> choice = choose(at_start, true, nullptr, err, result);
+  const char* where = kStart;
+  std::optional<optimizer::SettingsChoice> choice = choose(at_start, where, true, nullptr, err, result);
+  if (choice && !choice->tried.by && asked.problem.space.size() > 0) {
+    where = kMiddle;
+    err << "dovetail: settings from " << where << " instead\n";
+    at_start.scene = reference_scene(asked);
+    choice = choose(at_start, where, true, nullptr, err, result);
+    if (!choice->tried.by) where = kStart;
+  }
   if (asked.optimizer.noise > 0) return result;
   const RunEngine engine = choice && choice->tried.by ? RunEngine{} : make_engine(asked);
   if (!engine.start && !choice) return result;
   const std::optional<double> noise = noise_of(asked, engine.start ? engine.start() : choice->evaluation);
   result.noise = noise.value_or(optimizer::NoiseParams{}.unknown_bar);
-  err << fmt::format("dovetail: noise of the objective{}: {:.2g}\n",
-                     noise ? ", from its error bar at the start" : ", which has no error bar at the start",
-                     result.noise);
+  err << fmt::format("dovetail: noise of the objective{}{}: {:.2g}\n",
+                     noise ? ", from its error bar at " : ", which has no error bar at ", where, result.noise);
   return result;
 }
 
@@ -139,7 +151,7 @@ std::string came_to(const Json& accuracy) {
   if (!accuracy.is_object() || !accuracy.contains("relative_bar") || !accuracy.at("relative_bar").is_number())
     return "no bar says what is reached";
   const bool reached = accuracy.at("status") == to_string(Status::converged);
-  return fmt::format("{}: {} to {:.2g} %", reached ? "reached" : "not reached",
+  return fmt::format("at {} {}: {} to {:.2g} %", accuracy.value("at", kStart), reached ? "reached" : "not reached",
                      accuracy.at("response").get<std::string>(), 100 * accuracy.at("relative_bar").get<double>());
 }
 
@@ -180,11 +192,11 @@ std::optional<optimizer::AccuracyGoal> goal_at_best(const Study& asked) {
 std::map<std::string, std::string> chosen_settings(const Study& asked, const SettledStudy& searched,
                                                    const SettledStudy& handed) {
   std::map<std::string, std::string> result;
-  const auto add = [&](const char* key, const char* where, double accuracy, const SettledStudy& settled) {
-    if (!settled.accuracy.empty()) result[key] = fmt::format("{:g}, {} {}", accuracy, where, settled.accuracy);
+  const auto add = [&](const char* key, double accuracy, const SettledStudy& settled) {
+    if (!settled.accuracy.empty()) result[key] = fmt::format("{:g}, {}", accuracy, settled.accuracy);
   };
-  add("solver.accuracy", "at the start", asked.scene.solver.accuracy, searched);
-  add("optimizer.verify_accuracy", "at the best design", asked.optimizer.verify_accuracy, handed);
+  add("solver.accuracy", asked.scene.solver.accuracy, searched);
+  add("optimizer.verify_accuracy", asked.optimizer.verify_accuracy, handed);
   if (result.empty()) return result;
   const auto values = [](const SettledStudy& settled) {
     return settings_by_key(settled.study.scene, settings_of(settled.study.scene));
@@ -211,7 +223,7 @@ SettledStudy settled_best(const Study& asked, const Study& searched, const optim
   if (!settled) {
     err << "dovetail: settings for the best design\n";
     settled = Chosen{.settings = {}, .noise = searched.optimizer.noise};
-    choose(verified(there), false, &interrupt.flag(), err, *settled);
+    choose(verified(there), kBest, false, &interrupt.flag(), err, *settled);
     if (interrupt.requested()) return {.study = searched};
     keep(file, question, *settled);
   }

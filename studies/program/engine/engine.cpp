@@ -89,8 +89,10 @@ RunEngine study_engine(const Study& study) {
     return DescribedDesign{.evaluation = result.evaluation, .record = report::make_design_record(scene, result)};
   };
   if (!wears) return engine;
-  engine.verify = [evaluator](const Scene& scene, const wear::Watcher& watcher) {
-    const optimizer::Verification verification = optimizer::verify(*evaluator, scene, {}, watcher);
+  engine.verify = [evaluator](const Scene& scene, const optimizer::FinerDesign* there, const wear::Watcher& watcher) {
+    const optimizer::Verification verification = there != nullptr
+                                                     ? optimizer::verify(*evaluator, scene, *there, {}, watcher)
+                                                     : optimizer::verify(*evaluator, scene, {}, watcher);
     return report::make_verification_record(verification, verification.model);
   };
   return engine;

@@ -4,6 +4,7 @@
 
 #include "optimizer/problem/evaluation.hpp"
 #include "optimizer/scene/scene.hpp"
+#include "optimizer/verification.hpp"
 #include "studies/program/study_file/study.hpp"
 #include "studies/report/record/run_record.hpp"
 #include "wear/watcher.hpp"
@@ -26,8 +27,11 @@ struct RunEngine {
   /// The design with bars and what the wear history decides, as far as the study's responses need, and with the curves
   /// and fields that results and report show; empty: they show none.
   std::function<DescribedDesign(const optimizer::Scene&)> describe;
-  /// The design's wear by the full history; empty: designs are not verified.
-  std::function<report::VerificationRecord(const optimizer::Scene&, const wear::Watcher&)> verify = {};
+  /// The design's wear by the full history, at settings that are handed over or, without them, at finer ones; empty:
+  /// designs are not verified.
+  std::function<report::VerificationRecord(const optimizer::Scene&, const optimizer::FinerDesign*,
+                                           const wear::Watcher&)>
+      verify = {};
 };
 
 /// Makes the engine of a study.

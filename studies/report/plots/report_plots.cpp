@@ -163,21 +163,25 @@ Series along_line(const Numbers& along_m, const Numbers& values, const std::vect
 }
 
 std::vector<Figure> contact_plots(const Comparison& designs) {
-  return {flank_plot(designs, &ContactRecord::depth_m, "m",
-                     {.title = "Wear depth when wear has come to rest",
-                      .description = "Depth worn off both surfaces together. Where it is zero, the surfaces stick or "
-                                     "do not touch.",
-                      .y = {.label = "worn depth"}}),
-          flank_plot(designs, &ContactRecord::preload_pressure_pa, "Pa",
-                     {.title = "Pressure after spin-up",
-                      .description = "Contact pressure under the centrifugal load alone, before any vibration.",
-                      .y = {.label = "pressure"}}),
-          flank_plot(designs, &ContactRecord::gap_m, "m",
-                     {.title = "Form of the flanks",
-                      .description = "Gap between blade and disk before loading: mismatch, crown, relief and rounded "
-                                     "ends together.",
-                      .y = {.label = "gap"}}),
-          fillet_plot(designs)};
+  std::vector<Figure> plots{
+      flank_plot(designs, &ContactRecord::depth_m, "m",
+                 {.title = "Wear depth when wear has come to rest",
+                  .description = "Depth worn off both surfaces together. Where it is zero, the surfaces stick or "
+                                 "do not touch.",
+                  .y = {.label = "worn depth"}}),
+      flank_plot(designs, &ContactRecord::preload_pressure_pa, "Pa",
+                 {.title = "Pressure after spin-up",
+                  .description = "Contact pressure under the centrifugal load alone, before any vibration.",
+                  .y = {.label = "pressure"}}),
+      flank_plot(designs, &ContactRecord::gap_m, "m",
+                 {.title = "Form of the flanks",
+                  .description = "Gap between blade and disk before loading: mismatch, crown, relief and rounded "
+                                 "ends together.",
+                  .y = {.label = "gap"}}),
+      fillet_plot(designs)};
+  if (designs.after && optimizer::converged(designs.after->status))
+    std::erase_if(plots, [](const Figure& plot) { return is_empty(std::get<Plot>(plot)); });
+  return plots;
 }
 
 Plot response_plot(const Comparison& designs) {

@@ -37,6 +37,7 @@ struct Comparison {
 // strokes tell the rest.
 /// Wear depth, pressure and form of the flanks; largest stress over a period along the fillets, of the side where it is
 /// larger.
+/// Of a design that came through without one of these, as its study does not ask for it, that figure is left out.
 [[nodiscard]] std::vector<Figure> contact_plots(const Comparison& designs);
 [[nodiscard]] Plot response_plot(const Comparison& designs);
 [[nodiscard]] Plot nodal_diameter_plot(const DesignRecord& design);

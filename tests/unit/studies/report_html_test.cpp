@@ -204,6 +204,10 @@ TEST(Report, SurvivesWhateverIsMissing) {
   EXPECT_EQ(markup_error(page), "");
   EXPECT_THAT(page, Not(HasSubstr("<h2>Wear history")));
   EXPECT_THAT(page, Not(HasSubstr("<h2>Vibration")));
+  EXPECT_THAT(page, Not(HasSubstr("Nothing to show: these values")));
+  record.best_design->status = "asymptote: stalled";
+  EXPECT_THAT(report_html(record), HasSubstr("Nothing to show: these values"));
+  record.best_design->status = "converged";
 
   record.best_design = DesignRecord{};
   page = report_html(record);

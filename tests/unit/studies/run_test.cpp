@@ -192,6 +192,22 @@ TEST_F(Run, HandsOverAtSettingsForTheAccuracyAskedFor) {
   EXPECT_THAT(err_.str(), HasSubstr("the accuracy asked for is not reached"));
 }
 
+// At a start that cannot be built there is nothing to choose settings by.
+TEST_F(Run, ChoosesSettingsInTheMiddleWhereTheStartIsInfeasible) {
+  std::string text = replaced(study_template("sample"), "max_evaluations = 100", "max_evaluations = 3");
+  text = replaced(without(text, "harmonics"), "flank_elements = 24", "flank_elements = 10");
+  text = replaced(replaced(text, "neck_width_mm = 8.5", "neck_width_mm = 12"), "upper = 9.5", "upper = 12");
+  replace_file(study(), replaced(text, "accuracy = 0\n", "accuracy = 0.5\n"));
+  int calls = 0;
+  ASSERT_EQ(run(false, counted(calls)), kDone) << err_.str();
+  EXPECT_THAT(err_.str(), HasSubstr("modes: infeasible\n"));
+  EXPECT_THAT(err_.str(), HasSubstr("settings from the middle of the variables' ranges instead"));
+  EXPECT_THAT(err_.str(), HasSubstr("(asked: 50 %)"));
+  const report::RunRecord record = report::read_results(results() / "results.h5");
+  EXPECT_THAT(record.provenance.settings.at("solver.accuracy"),
+              HasSubstr("0.5, at the middle of the variables' ranges reached"));
+}
+
 // The wear history may say something else of the best design than the search, which does not ask it.
 TEST_F(Run, RecordsTheBestDesignAsTheCloserLookHasIt) {
   const RunEngineFactory closer = [](const Study& study) {
@@ -287,7 +303,8 @@ TEST_F(Run, ResumesWithoutComputingAgain) {
 RunEngineFactory verified(int& calls, int stop_at = 0) {
   return [&calls, stop_at](const Study&) {
     RunEngine engine{.evaluate = bowl, .describe = {}};
-    engine.verify = [&calls, stop_at](const optimizer::Scene& scene, const wear::Watcher& watcher) {
+    engine.verify = [&calls, stop_at](const optimizer::Scene& scene, const optimizer::FinerDesign*,
+                                      const wear::Watcher& watcher) {
       if (++calls == stop_at) std::raise(SIGINT);
       report::VerificationRecord record;
       record.status = watcher.stopped() ? "interrupted" : "converged";

@@ -28,6 +28,24 @@ TEST(Verification, ThreeAnswersAgreeWithinTheirBars) {
   EXPECT_GT(v.history_solves, 20);
 }
 
+// Those that are handed over, say.
+TEST(Verification, MayBeAtGivenSettings) {
+  const Scene scene = coarse_scene();
+  FinerDesign there{.scene = scene, .reference = scene};
+  for (Scene* finer : {&there.scene, &there.reference}) {
+    finer->mesh.flank_elements = 18;
+    finer->solver.harmonics = 7;
+  }
+  const Verification v = verify(SceneEvaluator(scene), scene, there);
+  EXPECT_TRUE(v.converged()) << v.status;
+  EXPECT_EQ(v.flank_elements, 18);
+  EXPECT_EQ(v.harmonics, 7);
+  EXPECT_EQ(v.samples, scene.solver.samples);
+  EXPECT_EQ(v.direct_volume, SceneEvaluator(there.reference)
+                                 .evaluate(there.scene, kSearch)
+                                 .evaluation.responses.at("asymptotic_wear_volume_m3"));
+}
+
 TEST(Verification, NeitherHistoryGoesOnWithoutABudget) {
   const Scene scene = coarse_scene();
   const Verification v = verify(SceneEvaluator(scene), scene, {.budgets = 0.005});
