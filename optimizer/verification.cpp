@@ -126,18 +126,20 @@ CandidateResult evaluated_finer(const SceneEvaluator& evaluator, const Scene& sc
                   until(purpose.until, purpose.history));
 }
 
-Verification verify(const SceneEvaluator& evaluator, const Scene& scene, const VerificationOptions& options,
-                    const wear::Watcher& watcher) {
-  return verify(evaluator, scene, {.scene = finer(scene, 1), .reference = finer(evaluator.reference(), 1)}, options,
-                watcher);
+FinerDesign twice_as_fine(const SceneEvaluator& evaluator, const Scene& scene) {
+  return {.scene = finer(scene, 1), .reference = finer(evaluator.reference(), 1)};
 }
 
-Verification verify(const SceneEvaluator& evaluator, const Scene& scene, const FinerDesign& there,
+Verification verify(const SceneEvaluator& evaluator, const Scene& scene, const VerificationOptions& options,
+                    const wear::Watcher& watcher) {
+  return verify(scene, evaluator.evaluate(scene), twice_as_fine(evaluator, scene), options, watcher);
+}
+
+Verification verify(const Scene& scene, const CandidateResult& result, const FinerDesign& there,
                     const VerificationOptions& options, const wear::Watcher& watcher) {
   Stopwatch watch;
   Verification verification;
   verification.follow = scene.loading.follow;
-  const CandidateResult result = evaluator.evaluate(scene);
   verification.flank_elements = there.scene.mesh.flank_elements;
   verification.harmonics = there.scene.solver.harmonics;
   verification.samples = there.scene.solver.samples;

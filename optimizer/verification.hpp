@@ -60,13 +60,17 @@ struct FinerDesign {
   Scene scene, reference;
 };
 
+/// With twice the edges along the flanks, twice the harmonics plus one and twice the samples.
+[[nodiscard]] FinerDesign twice_as_fine(const SceneEvaluator& evaluator, const Scene& scene);
+
+/// @param result  the design as the search has it, with bars
 /// @param there  settings of more edges along the flanks
-/// Never throws for what a design is like; what could not be computed is in the status. Cost: two evaluations and, at
-/// those settings, some 100 to 300 steady states.
-[[nodiscard]] Verification verify(const SceneEvaluator& evaluator, const Scene& scene, const FinerDesign& there,
+/// Never throws for what a design is like; what could not be computed is in the status. Cost: an evaluation and some
+/// 100 to 300 steady states at those settings.
+[[nodiscard]] Verification verify(const Scene& scene, const CandidateResult& result, const FinerDesign& there,
                                   const VerificationOptions& options = {}, const wear::Watcher& watcher = {});
 
-/// The same with twice the edges along the flanks, twice the harmonics plus one and twice the samples.
+/// The same with twice as fine settings of a design that is computed first.
 [[nodiscard]] Verification verify(const SceneEvaluator& evaluator, const Scene& scene,
                                   const VerificationOptions& options = {}, const wear::Watcher& watcher = {});
 

@@ -32,11 +32,11 @@ struct NodalDiameterFrequencies {
 /// The constrained matrices depend on the phase between sectors as K0 + e^{i phase} K1 + e^{-i phase} K1^T, so the
 /// modes are smooth functions of it. With a tolerance, the sparse problem is solved at the two phases where it is real,
 /// 0 and pi. Between them Rayleigh-Ritz on the real and imaginary parts of what was found so far serves; residuals,
-/// divided by the factors of the nearer real phase, join that basis until the frequencies stay: at the ends of the list
-/// and in the middle of every interval in which those of the middle were missed by more than the tolerance. Ritz values
-/// are upper bounds of the frequencies.
-/// Cost: two real factorisations, and some hundred solves with them; without a tolerance, or where rounds do not come
-/// to an end, a complex factorisation for every diameter.
+/// turned to the nearer real phase, divided by its factors and turned back, join that basis until the frequencies stay:
+/// at the ends of the list and in the middle of every interval in which those of the middle were missed by more than
+/// the tolerance. Ritz values are upper bounds of the frequencies. Cost: two real factorisations, and some hundred
+/// solves with them; without a tolerance, or where rounds do not come to an end, a complex factorisation for every
+/// diameter.
 [[nodiscard]] NodalDiameterFrequencies nodal_diameter_frequencies(const SectorMesh& sector,
                                                                   const Eigen::SparseMatrix<double>& stiffness,
                                                                   const Eigen::SparseMatrix<double>& mass,

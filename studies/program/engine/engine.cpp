@@ -7,6 +7,7 @@
 #include <fstream>
 #include <ostream>
 #include <string_view>
+#include <utility>
 
 #include "dynamics/condensed_model.hpp"
 #include "optimizer/candidate/node_lines.hpp"
@@ -57,6 +58,35 @@ optimizer::CandidateResult evaluated(const SceneEvaluator& evaluator, const Scen
   return result;
 }
 
+/// Designs with bars and what the wear history decides. The best one is verified and then described: it is computed
+/// once.
+class CloserLook {
+ public:
+  CloserLook(std::shared_ptr<const SceneEvaluator> evaluator, optimizer::Stage until)
+      : evaluator_(std::move(evaluator)), purpose_{.until = until} {}
+
+  [[nodiscard]] const SceneEvaluator& evaluator() const { return *evaluator_; }
+
+  /// The first one is kept until it is taken.
+  std::shared_ptr<const optimizer::CandidateResult> look(const Scene& scene) {
+    if (kept_ && kept_->evaluation.parameters == optimizer::parameters(scene)) return kept_;
+    auto result = std::make_shared<const optimizer::CandidateResult>(evaluated(*evaluator_, scene, purpose_));
+    if (!kept_) kept_ = result;
+    return result;
+  }
+
+  std::shared_ptr<const optimizer::CandidateResult> take(const Scene& scene) {
+    auto result = look(scene);
+    if (kept_ == result) kept_.reset();
+    return result;
+  }
+
+ private:
+  std::shared_ptr<const SceneEvaluator> evaluator_;
+  optimizer::Purpose purpose_;
+  std::shared_ptr<const optimizer::CandidateResult> kept_;
+};
+
 }  // namespace
 
 RunEngine study_engine(const Study& study) {
@@ -83,16 +113,16 @@ RunEngine study_engine(const Study& study) {
   };
   // Of what wears, all of it is shown.
   const bool wears = purpose.until >= optimizer::Stage::worn_state;
-  const optimizer::Purpose closer{.until = wears ? optimizer::Stage::worn_resonance : purpose.until};
-  engine.describe = [evaluator, closer](const Scene& scene) {
-    const optimizer::CandidateResult result = evaluated(*evaluator, scene, closer);
-    return DescribedDesign{.evaluation = result.evaluation, .record = report::make_design_record(scene, result)};
+  const auto closer = std::make_shared<CloserLook>(evaluator, wears ? optimizer::Stage::worn_resonance : purpose.until);
+  engine.describe = [closer](const Scene& scene) {
+    const auto result = closer->take(scene);
+    return DescribedDesign{.evaluation = result->evaluation, .record = report::make_design_record(scene, *result)};
   };
   if (!wears) return engine;
-  engine.verify = [evaluator](const Scene& scene, const optimizer::FinerDesign* there, const wear::Watcher& watcher) {
-    const optimizer::Verification verification = there != nullptr
-                                                     ? optimizer::verify(*evaluator, scene, *there, {}, watcher)
-                                                     : optimizer::verify(*evaluator, scene, {}, watcher);
+  engine.verify = [closer](const Scene& scene, const optimizer::FinerDesign* given, const wear::Watcher& watcher) {
+    const optimizer::FinerDesign there =
+        given != nullptr ? *given : optimizer::twice_as_fine(closer->evaluator(), scene);
+    const optimizer::Verification verification = optimizer::verify(scene, *closer->look(scene), there, {}, watcher);
     return report::make_verification_record(verification, verification.model);
   };
   return engine;

@@ -187,7 +187,9 @@ DesignRecord make_design_record(const Scene& scene, const CandidateResult& resul
   add_fillet("blade", sector.mesh, sector.blade_fillet_nodes, result.blade_fillet, record);
   add_fillet("disk", sector.mesh, sector.disk_fillet_nodes, result.disk_fillet, record);
   if (options.fields) record.fields = preload_fields(scene, model);
-  const auto asked = [&result](Stage stage) { return !result.evaluation.converged() || *result.stage >= stage; };
+  const auto asked = [&result](Stage stage) {
+    return !result.evaluation.converged() || !result.stage || *result.stage >= stage;
+  };
   if (asked(Stage::unworn)) {
     add_curves(scene, result, options, record);
     add_nodal_diameters(scene, model, options, record);

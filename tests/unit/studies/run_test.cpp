@@ -167,7 +167,7 @@ TEST_F(Run, HandsOverAtSettingsForTheAccuracyAskedFor) {
                 testing::Contains(
                     testing::ContainsRegex("The accuracy asked for is reached: .* to 10 % \\(asked: 20 %\\), most of "
                                            "it by mesh; 1.1e\\+02 % with what this does not buy.")));
-    EXPECT_THAT(record.best_design->notes, testing::Contains(HasSubstr("Computed with 10 edges per flank")));
+    EXPECT_THAT(record.best_design->notes, Not(testing::Contains(HasSubstr("the search had"))));  // it had the same
     EXPECT_THAT(record.provenance.settings.at("optimizer.verify_accuracy"), HasSubstr("0.2, at the best design "));
     EXPECT_EQ(record.provenance.settings.count("solver.accuracy"), 0U);
     EXPECT_EQ(record.provenance.settings.count("solver.harmonics"), 1U);

@@ -36,7 +36,7 @@ TEST(Verification, MayBeAtGivenSettings) {
     finer->mesh.flank_elements = 18;
     finer->solver.harmonics = 7;
   }
-  const Verification v = verify(SceneEvaluator(scene), scene, there);
+  const Verification v = verify(scene, SceneEvaluator(scene).evaluate(scene), there);
   EXPECT_TRUE(v.converged()) << v.status;
   EXPECT_EQ(v.flank_elements, 18);
   EXPECT_EQ(v.harmonics, 7);
