@@ -147,5 +147,23 @@ expect 0 export o --format matrix-market -o best_model.toml
 expect 0 backbone s.toml --over force --from 1 --to 2 --points 2 --json -; is_json
 expect 0 evaluate s.toml --harmonics auto --samples auto --accuracy 0.01 --json -; is_json
 
+# An accuracy is asked of the responses that the study names, as far as they are known at all, and what it comes to is
+# told with what settings do not buy.
+grep -v -e '^harmonics' -e '^samples' s.toml > free.toml
+expect 0 evaluate free.toml --set solver.accuracy=0.5 --json -; is_json; cp out accurate.json
+expect 0 evaluate free.toml --set solver.accuracy=0.5 --unworn --json -; is_json; cp out unworn.json
+if command -v python3 > /dev/null; then
+  python3 - <<'PYTHON' || fail "evaluate does not tell what the accuracy asked for came to"
+import json
+worn, unworn = (json.load(open(name))["accuracy"] for name in ("accurate.json", "unworn.json"))
+assert worn["status"] == unworn["status"] == "converged"
+assert worn["response"] == worn["whole_bar"]["response"] == "asymptotic_wear_volume_m3"
+assert worn["whole_bar"]["relative_bar"] >= worn["relative_bar"] > 0
+assert unworn["response"] == "contact_pressure_mean_pa" and "whole_bar" not in unworn
+PYTHON
+fi
+"$dovetail" reduce free.toml -o free.h5 --set solver.accuracy=0.5 2>&1 > /dev/null | grep -q "solver.accuracy chooses nothing here" ||
+  fail "reduce does not say that it takes the settings of the file"
+
 [ "$failures" = 0 ] && echo "all passed"
 exit "$((failures > 0))"
