@@ -147,13 +147,18 @@ Eigen::VectorXd glued_frequencies(const TraceModel& trace) {
   return pairs.values.cwiseMax(0.0).cwiseSqrt();
 }
 
-TraceModel trace_model(const FullModel& full, const ReductionOptions& options) {
+TraceModel trace_model(const FullModel& full, const ReductionOptions& options, const Factor& known) {
   check(full, options);
   TraceModel result;
   Clock::time_point start = Clock::now();
   const Sparse mass = full.mass.pruned();
-  const auto stiffness = std::make_shared<numerics::PartialCholesky>();
-  const Status factorised = stiffness->factorise(full.stiffness, full.contact_size(), full.order.get());
+  Factor stiffness = known;
+  Status factorised = Status::converged;
+  if (!stiffness) {
+    const auto own = std::make_shared<numerics::PartialCholesky>();
+    factorised = own->factorise(full.stiffness, full.contact_size(), full.order.get());
+    stiffness = own;
+  }
   result.seconds_factorisation = lap(start);
   if (factorised != Status::converged)
     return failed(std::move(result), factorised, "the stiffness with the contact held is not positive definite");

@@ -68,8 +68,12 @@ struct TraceModel : ModesRecord {
   std::shared_ptr<const StiffnessChange> change;  ///< null: none
 };
 
+using Factor = std::shared_ptr<const numerics::PartialCholesky>;
+
 /// First half of `reduce`, for `full` with its trace as contact. Cost and statuses as there.
-[[nodiscard]] TraceModel trace_model(const FullModel& full, const ReductionOptions& options = {});
+/// @param known  the factor of its stiffness, if there is one
+[[nodiscard]] TraceModel trace_model(const FullModel& full, const ReductionOptions& options = {},
+                                     const Factor& known = {});
 
 /// @param forced  displacements to unit forces on the trace, X [n, nt], or empty: back-solves for every grid of contact
 ///                nodes instead

@@ -24,6 +24,7 @@ class ResidualFlexibility {
   /// `singular`: K is not positive definite on the complement of the basis.
   [[nodiscard]] Status status() const { return status_; }
   [[nodiscard]] const RitzBasis& basis() const { return basis_; }
+  [[nodiscard]] const std::shared_ptr<const numerics::PartialCholesky>& factor() const { return stiffness_; }
   [[nodiscard]] const Eigen::MatrixXd& on_contact() const { return flexibility_; }  ///< G [nc, nc] m/N, symmetric
 
   /// Phi q + X f [n, k]; q [m, k], f [nc, k] or empty (no forces: no back-solve).

@@ -35,9 +35,9 @@ void refuse_worn_state(const std::string& status, Evaluation& evaluation) {
       "none.");
 }
 
-Evaluation companion(const Scene& scene, CandidateModel model, const Computation& how) {
+CandidateResult companion(const Scene& scene, CandidateModel model, const Computation& how) {
   if (model.converged()) renew_budget(scene.solver, model);
-  return computed(scene, std::move(model), how).evaluation;
+  return computed(scene, std::move(model), how);
 }
 
 /// Asks companions of one design and gathers what they say.
@@ -46,6 +46,7 @@ class ErrorBarSources {
   ErrorBarSources(const Scene& scene, const ModelBuilder& builder, const OtherMeshes* others, const Computation& how,
                   CandidateResult& result)
       : scene_(scene), builder_(builder), others_(others), result_(result), bars_(scene, result), as_here_(how) {
+    as_here_.from = &result_;
     // Where the history decided, it does so for the companions.
     as_here_.history = result.asymptote && result.asymptote->decided_by == wear::FoundBy::history;
   }
@@ -57,12 +58,12 @@ class ErrorBarSources {
       return bars_.total();
     }
     ask_meshes();
-    const Evaluation longer = on_nodes(kCompanion.longer_nodes);
+    const CandidateResult longer = on_nodes(kCompanion.longer_nodes);
     const std::string slides = failed_at("asymptote", Status::gross_sliding);
-    const auto does = [&slides](const Evaluation& answer) { return answer.status == slides; };
+    const auto does = [&slides](const CandidateResult& answer) { return answer.evaluation.status == slides; };
     if (worn() && result_.asymptote->bearing.doubtful() && (does(longer) || std::ranges::any_of(answers_, does)))
       return refuse_worn_state(slides, result_.evaluation);
-    add_contact_grid(longer);
+    add_contact_grid(longer.evaluation);
     if (as_here_.until >= Stage::unworn) {
       add_slip();
       bars_.add("search", LeftOpen{.frequency = scene_.solver.resonance_tolerance});
@@ -85,11 +86,10 @@ class ErrorBarSources {
   struct Base {
     const ModelBuilder* builder;
     Scene scene;
-    const Evaluation* answer;
-    std::optional<CandidateModel> model;
+    const CandidateResult* answer;
   };
 
-  [[nodiscard]] Base own_mesh() const { return {&builder_, scene_, &result_.evaluation, result_.model}; }
+  [[nodiscard]] Base own_mesh() const { return {&builder_, scene_, &result_}; }
 
   void ask_meshes() {
     std::vector<Companion> meshes;
@@ -100,8 +100,8 @@ class ErrorBarSources {
       const double ratio = static_cast<double>(scene_.mesh.flank_elements) / there.mesh.flank_elements;
       answers_.push_back(companion(there, on_it.build(there), as_here_));
       if (finer_ || ratio == 1) continue;  // 1: a mesh that is as large as meshes may be
-      meshes.push_back({&answers_.back(), by_mesh(ratio)});
-      finer_ = ratio < 1 && answers_.back().converged();
+      meshes.push_back({&answers_.back().evaluation, by_mesh(ratio)});
+      finer_ = ratio < 1 && answers_.back().evaluation.converged();
     }
     bars_.add("mesh", meshes, result_.evaluation);
     ask_sections();
@@ -115,8 +115,8 @@ class ErrorBarSources {
     Computation how = as_here_;
     how.until = std::min(how.until, Stage::unworn);
     const Scene few = with_few_layers(scene_), fine = resized_section(few, kRatio);
-    const Evaluation own = on_them->own ? companion(few, on_them->own->build(few), how) : result_.evaluation;
-    const Evaluation finer = companion(fine, on_them->finer.build(fine), how);
+    const Evaluation own = on_them->own ? companion(few, on_them->own->build(few), how).evaluation : result_.evaluation;
+    const Evaluation finer = companion(fine, on_them->finer.build(fine), how).evaluation;
     if (own.converged()) return bars_.add("mesh", {{&finer, by_mesh(kRatio)}}, own);
     bars_.add("mesh", {{&own, by_mesh(kRatio)}}, result_.evaluation);
   }
@@ -129,7 +129,7 @@ class ErrorBarSources {
   }
 
   /// The design on contact nodes that are `longer` times as long on the same mesh.
-  [[nodiscard]] Evaluation on_nodes(double longer) const {
+  [[nodiscard]] CandidateResult on_nodes(double longer) const {
     Computation how = as_here_;
     how.contact.lengths.finest *= longer;
     how.contact.lengths.coarsest *= longer;
@@ -155,7 +155,7 @@ class ErrorBarSources {
   void add_slip() {
     double left_open = slip_at_zone_ends(result_);  // J per cycle
     if (worn() && result_.asymptote->worn_volume == 0 && worn_per_energy(result_, left_open) > 0) {
-      const Evaluation shorter = on_nodes(kCompanion.shorter_nodes);
+      const Evaluation shorter = on_nodes(kCompanion.shorter_nodes).evaluation;
       bars_.add("contact_grid", {{&shorter, same_for_all(kCompanion.shorter_factor)}}, result_.evaluation);
       left_open += add_unseen_zones(scene_, result_, bars_);
     }
@@ -168,11 +168,11 @@ class ErrorBarSources {
   void ask_settings() {
     std::vector<Base> bases;
     for (std::size_t i = answers_.size(); i-- > 0;)  // the coarsest one stands last
-      if (const auto& [ratio, on_it] = others_->meshes()[i]; ratio > 1 && answers_[i].converged())
-        bases.push_back({&on_it, resized(scene_, ratio), &answers_[i], {}});
+      if (const auto& [ratio, on_it] = others_->meshes()[i]; ratio > 1 && answers_[i].evaluation.converged())
+        bases.push_back({&on_it, resized(scene_, ratio), &answers_[i]});
     bases.push_back(own_mesh());
-    const std::span<Base> of_contact =
-        scene_.kind->coarse_answers ? std::span<Base>(bases) : std::span<Base>(bases).last(1);
+    const std::span<const Base> of_contact =
+        scene_.kind->coarse_answers ? std::span<const Base>(bases) : std::span<const Base>(bases).last(1);
     ask(bases, "modes", kCompanion.modes_factor, {[](Scene& changed, Computation&) {
           changed.solver.modes = std::max(2 * changed.solver.modes, changed.solver.modes + kCompanion.more_modes);
         }});
@@ -181,7 +181,7 @@ class ErrorBarSources {
     if (as_here_.until >= Stage::unworn) ask_truncation(of_contact);  // else nothing moves
   }
 
-  void ask_truncation(std::span<Base> of_contact) {
+  void ask_truncation(std::span<const Base> of_contact) {
     // Contact nodes of a study have no mass.
     const quality::TruncationFactors factors = quality::truncation_factors(true);
     ask(of_contact, "harmonics", factors.harmonics, {[](Scene& changed, Computation&) {
@@ -195,18 +195,19 @@ class ErrorBarSources {
   }
 
   /// Of the first base and the first of `changes` to it that has an answer.
-  void ask(std::span<Base> bases, const char* source, double factor, const std::vector<Change>& changes) {
+  void ask(std::span<const Base> bases, const char* source, double factor, const std::vector<Change>& changes) {
     Evaluation answer;
-    for (Base& base : bases)
+    for (const Base& base : bases)
       for (const Change& change : changes) {
         Scene changed = base.scene;
         Computation how = as_here_;
+        how.from = base.answer;
+        how.grid_from = true;
         change(changed, how);
-        if (!base.model) base.model = base.builder->build(base.scene);
         const bool same =
             changed.solver.modes == base.scene.solver.modes && changed.solver.prestress == base.scene.solver.prestress;
-        answer = companion(changed, same ? *base.model : base.builder->build(changed), how);
-        if (answer.converged()) return bars_.add(source, {{&answer, same_for_all(factor)}}, *base.answer);
+        answer = companion(changed, same ? base.answer->model : base.builder->build(changed), how).evaluation;
+        if (answer.converged()) return bars_.add(source, {{&answer, same_for_all(factor)}}, base.answer->evaluation);
       }
     bars_.add(source, {{&answer, same_for_all(factor)}}, result_.evaluation);
   }
@@ -217,8 +218,8 @@ class ErrorBarSources {
   CandidateResult& result_;
   Bars bars_;
   Computation as_here_;
-  std::vector<Evaluation> answers_;  // of the other meshes
-  bool finer_ = false;               // one of them is finer and has an answer
+  std::vector<CandidateResult> answers_;  // of the other meshes
+  bool finer_ = false;                    // one of them is finer and has an answer
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "optimizer/candidate/carried_over.hpp"
 #include "optimizer/candidate/params.hpp"
 #include "optimizer/candidate/stopwatch.hpp"
 #include "optimizer/candidate/worn_state.hpp"
@@ -67,9 +68,28 @@ std::string ended(const char* stage, const CandidateModel& model) {
   return spent(model.budget) ? failed_at(stage, Status::budget_spent) : status_of(Outcome::converged);
 }
 
+/// The peak that the unworn one has become: it is looked for where the design to begin with has it, else from where the
+/// joint wore.
+paths::Resonance worn_resonance(const Scene& scene, const Computation& how, const steady::Joint& joint,
+                                const CandidateResult& result) {
+  const wear::Asymptote& asymptote = *result.asymptote;
+  const auto from = [&](const steady::State& known) {
+    return wear::resonance_drift(joint.worn(asymptote.depth), *result.unworn, resonance_options(scene), &known).worn;
+  };
+  if (how.from != nullptr && how.from->worn && how.from->worn->status == Status::converged) {
+    steady::State known;
+    known.omega = omega_as(*how.from, how.from->worn->omega, scene, result.model);
+    known.displacement = displacement_as(*how.from, how.from->worn->state, scene, result.model);
+    paths::Resonance found = from(known);
+    if (found.status == Status::converged) return found;
+  }
+  return from(asymptote.steady);
+}
+
 /// The physics after the model; returns the status of the evaluation.
-std::string dynamics(const Scene& scene, const Computation& how, const ContactFit& fit, CandidateResult& result) {
+std::string dynamics(const Scene& scene, const Computation& how, CandidateResult& result) {
   Evaluation& evaluation = result.evaluation;
+  const ContactFit& fit = result.fit;
   const CandidateModel& model = result.model;
   const steady::Joint joint = joint_of(scene, model, how.penalty_scale);
   Stopwatch watch;
@@ -105,10 +125,7 @@ std::string dynamics(const Scene& scene, const Computation& how, const ContactFi
   if (how.until <= Stage::worn_state) return ended("asymptote", model);
 
   // A joint that does not wear stays as it is.
-  result.worn = asymptote.largest_depth == 0 ? *result.unworn
-                                             : wear::resonance_drift(joint.worn(asymptote.depth), *result.unworn,
-                                                                     resonance_options(scene), &asymptote.steady)
-                                                   .worn;
+  result.worn = asymptote.largest_depth == 0 ? *result.unworn : worn_resonance(scene, how, joint, result);
   evaluation.timings_s["worn_resonance"] = watch.lap();
   if (result.worn->status != Status::converged) return failed_at("worn_resonance", result.worn->status);
   result.stage = Stage::worn_resonance;
@@ -133,6 +150,18 @@ steady::Joint joint_of(const Scene& scene, const CandidateModel& model, double p
   joint.options.budget = model.budget;
   joint.options.penalty_scale = penalty_scale;
   return joint;
+}
+
+double omega_as(const CandidateResult& from, double omega, const Scene& scene, const CandidateModel& model) {
+  const int mode = scene.loading.mode - 1;
+  return omega * (model.glued_frequencies(mode) / from.model.glued_frequencies(mode));
+}
+
+Eigen::MatrixXd displacement_as(const CandidateResult& from, const steady::State& state, const Scene& scene,
+                                const CandidateModel& model) {
+  return paths::padded(
+      carried_over(state.displacement, from.model.cells.strips(), model.cells.strips(), model.condensed->directions()),
+      scene.solver.harmonics);
 }
 
 double worn_per_energy(const CandidateResult& result, double more) {
@@ -170,7 +199,7 @@ void go_through_stages(const Scene& scene, const Computation& how, CandidateResu
   evaluation.feasible = result.model.feasibility.feasible;
   if (!result.model.converged()) return;
   Stopwatch watch;
-  const ContactFit fit = fit_contact(scene, how, result.model);
+  const ContactFit& fit = result.fit = fit_contact(scene, how, result.model);
   evaluation.timings_s["contact_fit"] = watch.lap();
   evaluation.model["contact_grids"] = fit.grids;
   evaluation.model["contact_edges"] = fit.edges;
@@ -180,7 +209,7 @@ void go_through_stages(const Scene& scene, const Computation& how, CandidateResu
   evaluation.status = result.model.status;
   if (!result.model.converged()) return;
   result.stage = Stage::model;
-  evaluation.status = how.until == Stage::model ? status_of(Outcome::converged) : dynamics(scene, how, fit, result);
+  evaluation.status = how.until == Stage::model ? status_of(Outcome::converged) : dynamics(scene, how, result);
   if (!fit.settled && result.unworn->status == Status::converged)
     evaluation.messages.push_back(
         fit.spent ? "Contact nodes need not end where worn zones do: the share of the budget (solver.max_jacobians, "

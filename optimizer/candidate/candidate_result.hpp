@@ -18,6 +18,7 @@ struct CandidateResult {
   Evaluation evaluation;
   std::optional<Stage> stage;  ///< the last one that was come through
   CandidateModel model;
+  ContactFit fit;
   std::optional<paths::Resonance> unworn, worn;
   std::optional<wear::Asymptote> asymptote;
   std::optional<wear::Asymptote> held;  ///< where the resonance was followed: the one at the unworn resonance
@@ -45,6 +46,13 @@ struct CandidateResult {
 [[nodiscard]] inline paths::ResonanceOptions resonance_options(const Scene& scene) {
   return {.frequency_tolerance = scene.solver.resonance_tolerance};
 }
+
+/// Where a state of a design with other settings is looked for on this model: its frequency, rad/s - stuck flanks are
+/// stiffer than those that slip, by about as much there as here - and its displacement.
+[[nodiscard]] double omega_as(const CandidateResult& from, double omega, const Scene& scene,
+                              const CandidateModel& model);
+[[nodiscard]] Eigen::MatrixXd displacement_as(const CandidateResult& from, const steady::State& state,
+                                              const Scene& scene, const CandidateModel& model);
 
 /// The joint of a candidate with these options, on its budget.
 [[nodiscard]] steady::Joint joint_of(const Scene& scene, const CandidateModel& model, double penalty_scale = 1);

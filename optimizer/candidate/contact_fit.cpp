@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "optimizer/candidate/candidate_result.hpp"
+#include "optimizer/candidate/carried_over.hpp"
 #include "optimizer/candidate/edge_search.hpp"
 #include "paths/resonance.hpp"
 #include "paths/steady_state.hpp"
@@ -14,36 +15,14 @@ namespace dovetail::optimizer {
 
 namespace {
 
-/// Displacements U [nc, 2H+1] of one grid carried over to another with the same strips, linear between the middles of
-/// cells: a start for the state there.
-Eigen::MatrixXd carried_over(const Eigen::MatrixXd& from, const std::vector<fem::CellStrip>& before,
-                             const std::vector<fem::CellStrip>& after, Eigen::Index directions) {
-  const std::size_t cells = after.back().first + after.back().count();
-  Eigen::MatrixXd to(static_cast<Eigen::Index>(cells) * directions, from.cols());
-  const auto rows = [directions](std::size_t node) { return static_cast<Eigen::Index>(node) * directions; };
-  for (std::size_t s = 0; s < after.size(); ++s) {
-    const fem::CellStrip& old = before[s];
-    for (std::size_t cell = 0; cell < after[s].count(); ++cell) {
-      const double at = after[s].middle(cell);
-      std::size_t low = 0;
-      while (low + 2 < old.count() && old.middle(low + 1) < at) ++low;
-      const std::size_t high = std::min(low + 1, old.count() - 1);
-      const double t =
-          high == low ? 0 : std::clamp((at - old.middle(low)) / (old.middle(high) - old.middle(low)), 0.0, 1.0);
-      to.middleRows(rows(after[s].first + cell), directions) =
-          (1 - t) * from.middleRows(rows(old.first + low), directions) +
-          t * from.middleRows(rows(old.first + high), directions);
-    }
-  }
-  return to;
-}
-
 /// Lays grid after grid on a candidate until the edges of worn zones stay where cells end.
 class GridSearch {
  public:
   GridSearch(const Scene& scene, const Computation& how, CandidateModel& candidate)
       : scene_(scene),
         options_(how.contact),
+        from_(how.from != nullptr && how.from->unworn ? how.from : nullptr),
+        grid_from_(how.grid_from),
         candidate_(candidate),
         cells_(cell_lengths(scene, options_.lengths)),
         joint_(joint_of(scene, candidate, how.penalty_scale)) {
@@ -53,31 +32,33 @@ class GridSearch {
   ContactFit run() {
     ContactFit fit = laid();
     if (has_own_budget()) candidate_.budget->spend(joint_.options.budget->used());
+    if (!candidate_.converged()) return fit;
+    if (fit.known) fit.grid = {.edges = laid_, .counts = counts_, .search = search_};
     return fit;
   }
 
  private:
   ContactFit laid() {
-    lay(cell_grid(scene_, candidate_.mesh.sector, cells_));
+    for (const fem::CellStrip& strip : candidate_.cells.strips())
+      lengths_.emplace_back(fem::trace_lines(candidate_.mesh.sector.flanks[strip.flank]));
+    laid_.resize(lengths_.size());
+    counts_.resize(lengths_.size());
+    const bool begun = lay_first();
     if (!candidate_.converged()) return fit_;
     // Where the law lets nodes rest in slip the history says which ones wear.
     rests_in_slip_ = wear::rests_in_slip(*candidate_.condensed);
     // A history on each grid is dear: what is asked of the design itself is left the rest.
     if (rests_in_slip_) joint_.options.budget = new_budget(scene_.solver, candidate_, options_.share_of_budget);
     release_.arbitration = rests_in_slip_ ? wear::Arbitration::unsettled : wear::Arbitration::never;
-    for (const fem::CellStrip& strip : candidate_.cells.strips())
-      lengths_.emplace_back(fem::trace_lines(candidate_.mesh.sector.flanks[strip.flank]));
-    laid_.resize(lengths_.size());
-    counts_.resize(lengths_.size());
     // At the resonance of the first grid on all of them: it hardly moves, and edges move less.
-    if (!find_resonance(candidate_.glued_frequencies(scene_.loading.mode - 1))) return fit_;
+    if (!find_first_resonance()) return fit_;
     for (bool at_resonance = false;; ++fit_.grids) {
       if (!find_edges()) return unsettled();
       // A zone that the finer cells beside its edge make vanish is none.
       const bool vanished = fit_.edges == 0 && fit_.grids > 0;
       fit_.settled = vanished || fit_.moved <= options_.tolerance;
       // Edges that happen to lie at ends of cells of the first grid have no short cells beside them yet.
-      const bool laid_for = fit_.grids > 0 || fit_.edges == 0;
+      const bool laid_for = begun || fit_.grids > 0 || fit_.edges == 0;
       if (vanished || (laid_for && fit_.moved <= options_.aim)) {
         // Where nodes beyond an edge hardly stick, do they at the resonance of this grid?
         if (!search_.holds() || at_resonance || vanished) return fit_;
@@ -99,8 +80,28 @@ class GridSearch {
     joint_.model = candidate_.condensed;
   }
 
-  [[nodiscard]] bool find_resonance(double start) {
-    peak_ = paths::resonance(joint_, start, resonance_options(scene_));
+  /// False where the grid is that to begin with, without edges.
+  bool lay_first() {
+    std::vector<fem::FlankCells> flanks = cell_grid(scene_, candidate_.mesh.sector, cells_);
+    const bool begun = grid_from_ && from_ != nullptr && from_->fit.grid.edges.size() == lengths_.size();
+    if (begun) {
+      laid_ = from_->fit.grid.edges;
+      counts_ = from_->fit.grid.counts;
+      search_ = from_->fit.grid.search;
+      end_cells_at_edges(flanks);
+    }
+    lay(flanks);
+    return begun;
+  }
+
+  [[nodiscard]] bool find_first_resonance() {
+    if (from_ == nullptr) return find_resonance(candidate_.glued_frequencies(scene_.loading.mode - 1));
+    return find_resonance(omega_as(*from_, from_->unworn->omega, scene_, candidate_),
+                          displacement_as(*from_, from_->unworn->state, scene_, candidate_));
+  }
+
+  [[nodiscard]] bool find_resonance(double start, const Eigen::MatrixXd& guess = {}) {
+    peak_ = paths::resonance(joint_, start, resonance_options(scene_), guess);
     unworn_ = peak_.state;
     return peak_.status == Status::converged;
   }
@@ -139,6 +140,8 @@ class GridSearch {
       best_ = {.misfit = misfit,
                .grid = fit_.grids,
                .flanks = candidate_.cells.flanks,
+               .laid = laid_,
+               .counts = counts_,
                .displacement = unworn_.displacement};
     return true;
   }
@@ -148,6 +151,8 @@ class GridSearch {
   [[nodiscard]] ContactFit best_grid(bool another_is_laid) {
     if (another_is_laid) {
       lay(best_.flanks);
+      laid_ = best_.laid;
+      counts_ = best_.counts;
       fit_.displacement = best_.displacement;
     }
     fit_.moved = best_.misfit.moved;
@@ -160,15 +165,7 @@ class GridSearch {
   [[nodiscard]] bool lay_next() {
     laid_ = search_.next(found_, laid_);
     std::vector<fem::FlankCells> flanks = candidate_.cells.flanks;
-    std::size_t strip = 0;
-    for (fem::FlankCells& flank : flanks)
-      for (std::vector<double>& ends : flank.across) {
-        std::vector<double>& edges = laid_[strip];
-        std::sort(edges.begin(), edges.end());
-        widen_narrow(lengths_[strip], cells_, edges);
-        ends = cell_ends(lengths_[strip], edges, cells_, counts_[strip]);
-        ++strip;
-      }
+    end_cells_at_edges(flanks);
     const std::vector<fem::CellStrip> before = candidate_.cells.strips();
     lay(flanks);
     fit_.displacement.resize(0, 0);
@@ -179,15 +176,31 @@ class GridSearch {
     return unworn_.status == Status::converged;
   }
 
+  void end_cells_at_edges(std::vector<fem::FlankCells>& flanks) {
+    std::size_t strip = 0;
+    for (fem::FlankCells& flank : flanks)
+      for (std::vector<double>& ends : flank.across) {
+        std::vector<double>& edges = laid_[strip];
+        std::sort(edges.begin(), edges.end());
+        widen_narrow(lengths_[strip], cells_, edges);
+        ends = cell_ends(lengths_[strip], edges, cells_, counts_[strip]);
+        ++strip;
+      }
+  }
+
   struct Best {
     Misfit misfit{.foreign = std::numeric_limits<int>::max()};
     int grid = 0;
     std::vector<fem::FlankCells> flanks;
+    EdgeSearch::Places laid;
+    std::vector<std::vector<int>> counts;
     Eigen::MatrixXd displacement;
   };
 
   const Scene& scene_;
   const ContactFitOptions& options_;
+  const CandidateResult* from_;
+  bool grid_from_;
   CandidateModel& candidate_;
   CellLengths cells_;
   steady::Joint joint_;

@@ -2,9 +2,12 @@
 
 #include "optimizer/candidate/candidate_model.hpp"
 #include "optimizer/candidate/cell_grid.hpp"
+#include "optimizer/candidate/edge_search.hpp"
 #include "optimizer/candidate/stage.hpp"
 
 namespace dovetail::optimizer {
+
+struct CandidateResult;
 
 struct ContactFitOptions {
   /// False: contact nodes stay where the first grid has them, for responses that know of no vibration.
@@ -17,21 +20,12 @@ struct ContactFitOptions {
   CellLengths lengths;
 };
 
-/// How a design is computed on a model of it.
-struct Computation {
-  ContactFitOptions contact = {};
-  double penalty_scale = 1;             ///< of the pseudo-penalty
-  bool history = false;                 ///< where the direct worn state is in doubt the wear history decides
-  Stage until = Stage::worn_resonance;  ///< the last one that is gone through
+/// What a grid of contact nodes was laid for.
+struct LaidGrid {
+  EdgeSearch::Places edges;              ///< of worn zones
+  std::vector<std::vector<int>> counts;  ///< of cells between edges
+  EdgeSearch search;                     ///< that led to them
 };
-
-/// Through this stage and no further. Contact nodes follow worn zones where anything moves: what does not wear yet is
-/// then the same as with all stages.
-[[nodiscard]] inline Computation until(Stage stage, bool history) {
-  Computation how{.history = history, .until = stage};
-  how.contact.to_worn_zones = stage >= Stage::unworn;
-  return how;
-}
 
 struct ContactFit {
   int grids = 0;     ///< laid, the first not counted
@@ -46,7 +40,27 @@ struct ContactFit {
   /// rad/s and m. No displacement where there is none.
   double omega = 0;
   Eigen::MatrixXd displacement = {};
+  LaidGrid grid = {};
 };
+
+/// How a design is computed on a model of it.
+struct Computation {
+  ContactFitOptions contact = {};
+  double penalty_scale = 1;             ///< of the pseudo-penalty
+  bool history = false;                 ///< where the direct worn state is in doubt the wear history decides
+  Stage until = Stage::worn_resonance;  ///< the last one that is gone through
+  /// The same design with other settings: its states are begun with, and its grid where `grid_from` says so.
+  const CandidateResult* from = nullptr;
+  bool grid_from = false;
+};
+
+/// Through this stage and no further. Contact nodes follow worn zones where anything moves: what does not wear yet is
+/// then the same as with all stages.
+[[nodiscard]] inline Computation until(Stage stage, bool history) {
+  Computation how{.history = history, .until = stage};
+  how.contact.to_worn_zones = stage >= Stage::unworn;
+  return how;
+}
 
 /// Lays contact nodes on a candidate so that the worn zones of its asymptote at the unworn resonance end where nodes
 /// end: edges are found on one grid, a grid is laid with an end of a cell on each of them, and so on until they stay.

@@ -91,6 +91,10 @@ reduction::FullModel MatricesStages::full_model(Eigen::SparseMatrix<double> stif
   return full;
 }
 
+void MatricesStages::go_on_from(const Matrices& same) {
+  matrices_ = same;
+}
+
 void MatricesStages::assemble() {
   matrices_.system = fem::build_sector_system(sector_, materials(scene_), *matrices_.assembler);
 }
@@ -109,9 +113,11 @@ void MatricesStages::add_prestress() {
 }
 
 void MatricesStages::reduce() {
+  // Of the same stiffness, where other modes of it were asked for before.
+  const reduction::Factor factor = matrices_.trace.structure ? matrices_.trace.structure->factor() : nullptr;
   matrices_.trace =
       reduction::trace_model(full_model(fem::constrain(matrices_.stiffness, matrices_.system.constraints)),
-                             {.modes = scene_.solver.modes, .damping_ratio = scene_.loading.damping_ratio});
+                             {.modes = scene_.solver.modes, .damping_ratio = scene_.loading.damping_ratio}, factor);
   if (matrices_.trace.status != Status::converged)
     matrices_.status = failed_at("reduction", matrices_.trace.status) + " " + matrices_.trace.message;
   else if (scene_.solver.prestress == Prestress::shared)
@@ -120,13 +126,17 @@ void MatricesStages::reduce() {
 
 namespace {
 
-Matrices computed(MatricesStages stages, std::map<std::string, double>& timings_s) {
+Matrices computed(MatricesStages stages, const Matrices* same, std::map<std::string, double>& timings_s) {
   Stopwatch watch;
-  stages.assemble();
-  timings_s["assembly"] = watch.lap();
-  stages.add_prestress();
-  if (outcome_of(stages.matrices().status) != Outcome::converged) return std::move(stages).matrices();
-  timings_s["prestress"] = watch.lap();
+  if (same != nullptr) {
+    stages.go_on_from(*same);
+  } else {
+    stages.assemble();
+    timings_s["assembly"] = watch.lap();
+    stages.add_prestress();
+    if (outcome_of(stages.matrices().status) != Outcome::converged) return std::move(stages).matrices();
+    timings_s["prestress"] = watch.lap();
+  }
   stages.reduce();
   timings_s["reduction"] = watch.lap();
   return std::move(stages).matrices();
@@ -148,7 +158,6 @@ Status add_own_preload(const Scene& scene, const fem::SectorMesh& sector, const 
 
 MatricesOf asked_for(const Scene& scene, const fem::SectorMesh& sector, const PreloadedContact& by) {
   std::vector<double> numbers{scene.loading.speed,
-                              static_cast<double>(scene.solver.modes),
                               by.contact.friction,
                               by.contact.normal_stiffness,
                               by.contact.tangential_stiffness,
@@ -161,12 +170,13 @@ MatricesOf asked_for(const Scene& scene, const fem::SectorMesh& sector, const Pr
   return {.nodes = sector.mesh.nodes,
           .connectivity = sector.mesh.connectivity,
           .region = sector.mesh.region,
-          .numbers = std::move(numbers)};
+          .numbers = std::move(numbers),
+          .modes = scene.solver.modes};
 }
 
 }  // namespace
 
-bool MatricesOf::operator==(const MatricesOf& other) const {
+bool MatricesOf::same_but_modes(const MatricesOf& other) const {
   return numbers == other.numbers && connectivity == other.connectivity && region == other.region &&
          nodes.rows() == other.nodes.rows() && nodes.cols() == other.nodes.cols() && nodes == other.nodes;
 }
@@ -219,13 +229,17 @@ std::shared_ptr<const Matrices> MatricesStore::shared(const Scene& scene, const 
                                                       std::map<std::string, double>& timings_s) {
   const PreloadedContact by = stressed(scene, cells, friction_);
   MatricesOf asked = asked_for(scene, sector, by);
+  std::shared_ptr<const Matrices> same;  // but for the modes
   {
     const std::lock_guard lock(mutex_);
-    if (last_ && of_ == asked) return last_;
+    if (last_ && of_.same_but_modes(asked)) {
+      if (of_.modes == asked.modes) return last_;
+      if (outcome_of(last_->status) == Outcome::converged) same = last_;
+    }
     last_.reset();  // before the next ones are there: both need not fit into memory
   }
-  auto result =
-      std::make_shared<const Matrices>(computed({scene, sector, cells, by, patterns(sector.mesh)}, timings_s));
+  auto result = std::make_shared<const Matrices>(
+      computed({scene, sector, cells, by, patterns(sector.mesh)}, same.get(), timings_s));
   const std::lock_guard lock(mutex_);
   of_ = std::move(asked);
   last_ = result;

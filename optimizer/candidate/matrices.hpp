@@ -56,6 +56,8 @@ class MatricesStages {
   MatricesStages(const Scene& scene, const fem::SectorMesh& sector, const fem::ContactCells& cells,
                  const PreloadedContact& by, const KeptPatterns& patterns);
 
+  /// Those of the same scene and mesh but for the number of modes: all but reduce() is done then.
+  void go_on_from(const Matrices& same);
   void assemble();
   void add_prestress();  ///< preload without geometric stiffness, and the stiffness that its stress leaves
   void reduce();         ///< to the trace
@@ -98,7 +100,8 @@ struct MatricesOf {
   Eigen::MatrixXd nodes;
   std::vector<int> connectivity, region;  ///< of the mesh
   std::vector<double> numbers;            ///< of bodies, loading, solver and the preload that the prestress comes from
-  bool operator==(const MatricesOf& other) const;
+  int modes = 0;
+  [[nodiscard]] bool same_but_modes(const MatricesOf& other) const;
 };
 
 /// Computes matrices and keeps the last ones. May be called from several threads.
