@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "optimizer/accuracy/params.hpp"
+#include "optimizer/bars/bars.hpp"
 #include "optimizer/responses/response_table.hpp"
 
 namespace dovetail::optimizer {
@@ -15,7 +16,7 @@ namespace {
 constexpr SettingsParams kParams;
 
 /// Those whose parts of bars are foreseen by orders that may be off.
-constexpr std::array kKnobs{Knob::mesh, Knob::harmonics, Knob::samples, Knob::modes};
+constexpr std::array kKnobs{Knob::mesh, Knob::beside, Knob::harmonics, Knob::samples, Knob::modes};
 
 /// The cheapest that should do; where none should, of those that are as good as the most accurate one.
 Settings cheapest(const std::vector<Settings>& all, const Forecast& forecast, double allowed) {
@@ -78,6 +79,21 @@ const Known& best_of(const std::vector<Known>& rounds) {
   return *std::ranges::min_element(rounds, {}, rank);
 }
 
+/// What the mesh beside the flanks leaves of each response, from the design on one that is coarser there.
+std::map<std::string, double> left_beside(const Scene& reference, const Scene& scene, Settings settings,
+                                          Purpose purpose, const Evaluation& here) {
+  settings.beside /= kParams.coarser_beside;
+  purpose.bars = false;
+  const Evaluation there =
+      SceneEvaluator(with_settings(reference, settings)).evaluate(with_settings(scene, settings), purpose).evaluation;
+  std::map<std::string, double> leaves;
+  for (const auto& [name, value] : there.responses)
+    if (const auto own = here.responses.find(name); own != here.responses.end())
+      leaves[name] =
+          std::abs(value - own->second) * left_over(find_response(name)->mesh_order.in_plane, kParams.coarser_beside);
+  return leaves;
+}
+
 }  // namespace
 
 SettingsChoice choose_settings(const Scene& scene, const AccuracyGoal& goal, const AccuracyProbe& probe,
@@ -91,10 +107,10 @@ SettingsChoice choose_settings(const Scene& scene, const AccuracyGoal& goal, con
   next.history_tolerance = all.front().history_tolerance;
   if (std::ranges::find(all, next) == all.end()) next = all.front();  // samples that alias
   while (static_cast<int>(choice.rounds.size()) < kParams.rounds) {
-    Evaluation evaluation = probe(next);
+    auto [evaluation, beside] = probe(next);
     SettingsTried tried{.settings = next, .status = evaluation.status};
     if (evaluation.converged()) {
-      forecast.add(next, evaluation);
+      forecast.add(next, evaluation, beside);
       tried.by = forecast.dominant();
       if (tried.by) tried.excess = forecast.excess(next);
       tried.operations = forecast.operations(next);
@@ -139,12 +155,16 @@ SettingsChoice choose_settings(const Scene& reference, const Scene& scene, const
                                const AccuracyListener& told) {
   Purpose purpose{.truncation_alone = goal.of_truncation, .history = false};
   if (!goal.responses.empty()) purpose.until = last_stage(goal.responses);
+  const bool beside = chooses_beside(scene, goal.fixed) && !goal.of_truncation;
   return choose_settings(
       scene, goal,
-      [&](const Settings& settings) {
-        return SceneEvaluator(with_settings(reference, settings), goal.responses)
-            .evaluate(with_settings(scene, settings), purpose)
-            .evaluation;
+      [&](const Settings& settings) -> AccuracyAnswer {
+        Evaluation found = SceneEvaluator(with_settings(reference, settings), goal.responses)
+                               .evaluate(with_settings(scene, settings), purpose)
+                               .evaluation;
+        std::map<std::string, double> leaves;
+        if (beside && found.converged()) leaves = left_beside(reference, scene, settings, purpose, found);
+        return {std::move(found), std::move(leaves)};
       },
       told);
 }

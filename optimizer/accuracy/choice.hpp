@@ -1,8 +1,10 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "optimizer/accuracy/forecast.hpp"
@@ -42,7 +44,15 @@ struct SettingsChoice {
 };
 
 /// A design with bars at other settings.
-using AccuracyProbe = std::function<Evaluation(const Settings&)>;
+struct AccuracyAnswer {
+  Evaluation evaluation;
+  std::map<std::string, double> beside;  ///< what the mesh beside the flanks leaves of each response, where it is known
+
+  // What a probe that knows nothing of the latter returns is one.
+  AccuracyAnswer(Evaluation with_bars, std::map<std::string, double> leaves = {})
+      : evaluation(std::move(with_bars)), beside(std::move(leaves)) {}
+};
+using AccuracyProbe = std::function<AccuracyAnswer(const Settings&)>;
 /// Hears of every round and says whether to go on.
 using AccuracyListener = std::function<bool(const SettingsTried&)>;
 

@@ -41,6 +41,8 @@ double finer(Knob knob, const Settings& there, const Settings& here) {
   switch (knob) {
     case Knob::mesh:
       return there.mesh / here.mesh;
+    case Knob::beside:
+      return there.beside / here.beside;
     case Knob::harmonics:
       return (2.0 * there.harmonics + 1) / (2 * here.harmonics + 1);
     case Knob::samples:
@@ -57,7 +59,7 @@ double finer(Knob knob, const Settings& there, const Settings& here) {
 
 Forecast::Forecast(const Scene& scene, const AccuracyGoal& goal) : goal_(&goal), in_space_(scene.kind->in_space) {}
 
-void Forecast::add(const Settings& at, const Evaluation& evaluation) {
+void Forecast::add(const Settings& at, const Evaluation& evaluation, const std::map<std::string, double>& beside) {
   const std::vector<Part> before = std::exchange(parts_, {});
   const Settings was = std::exchange(at_, at);
   dofs_ = evaluation.model.at("dofs");
@@ -70,11 +72,14 @@ void Forecast::add(const Settings& at, const Evaluation& evaluation) {
   std::vector<std::string> names = goal_->responses;
   if (names.empty())
     for (const Response& response : responses()) names.emplace_back(response.name);
-  for (const std::string& name : names)
-    if (const Response* response = find_response(name)) add(*response, evaluation);
+  for (const std::string& name : names) {
+    const auto part = beside.find(name);
+    if (const Response* response = find_response(name))
+      add(*response, evaluation, part == beside.end() ? 0 : part->second);
+  }
   for (Part& part : parts_)
     for (const Part& old : before) {
-      if (part.response != old.response || part.source != old.source) continue;
+      if (part.response != old.response || part.source != old.source || part.knob != old.knob) continue;
       part.order = old.order;
       const double ratio = finer(part.knob, at_, was), expected = order(*part.response, part.source, part.knob);
       if (ratio != 1 && old.share > 0 && part.share > 0)
@@ -109,12 +114,11 @@ std::optional<Dominant> Forecast::dominant() const {
   const auto worst = std::ranges::max_element(sums, {}, [](const auto& s) { return s.second; });
   if (worst == sums.end()) return {};
   Dominant result{.response = std::string(worst->first->name)};
-  double largest = 0;
+  std::map<std::string, double> by_source;
   for (const Part& part : parts_)
-    if (part.response == worst->first && part.share > largest) {
-      largest = part.share;
-      result.source = part.source;
-    }
+    if (part.response == worst->first) by_source[part.source] += part.share;
+  const auto largest = std::ranges::max_element(by_source, {}, [](const auto& s) { return s.second; });
+  if (largest->second > 0) result.source = largest->first;
   result.asked = goal_->asked(result.response);
   result.relative = worst->second * result.asked;
   result.whole = whole_.at(result.response);
@@ -122,8 +126,10 @@ std::optional<Dominant> Forecast::dominant() const {
 }
 
 double Forecast::operations(const Settings& there) const {
-  const double mesh = there.mesh / at_.mesh;
-  const double dofs = dofs_ * std::pow(mesh, in_space_ ? kForecast.dofs_in_space : kForecast.dofs);
+  const double mesh = finer(Knob::mesh, there, at_), beside = finer(Knob::beside, there, at_);
+  const double dofs =
+      dofs_ * (in_space_ ? std::pow(mesh, kForecast.dofs_in_space)
+                         : std::pow(mesh, kForecast.dofs_along) * std::pow(beside, kForecast.dofs_beside));
   const double matrices = (in_space_ ? kForecast.matrices_by_in_space : kForecast.matrices_by) *
                           std::pow(dofs, in_space_ ? kForecast.matrices_in_space : kForecast.matrices_in_plane) *
                           (1 - kForecast.modes_share + kForecast.modes_share * there.modes / kForecast.modes);
@@ -134,7 +140,7 @@ double Forecast::operations(const Settings& there) const {
 }
 
 /// A response without a value has no accuracy, one without a limit none that could be bought.
-void Forecast::add(const Response& response, const Evaluation& evaluation) {
+void Forecast::add(const Response& response, const Evaluation& evaluation, double beside) {
   const std::string name(response.name);
   const auto value = evaluation.responses.find(name);
   const auto bars = evaluation.error_sources.find(name);
@@ -145,18 +151,24 @@ void Forecast::add(const Response& response, const Evaluation& evaluation) {
   for (const auto& [source, bar] : bars->second)
     if (source != "history") whole += bar;  // no round asks a history: what it would settle is not known here
   whole_[name] = whole / std::abs(value->second);
-  for (const auto& [source, bar] : bars->second)
-    if (const Knob knob = knob_of(source); counts(knob, *goal_))
-      parts_.push_back({.response = &response,
-                        .source = source,
-                        .knob = knob,
-                        .order = order(response, source, knob),
-                        .share = bar / std::abs(value->second) / goal_->asked(name)});
+  for (const auto& [source, bar] : bars->second) {
+    const Knob knob = knob_of(source);
+    if (!counts(knob, *goal_)) continue;
+    const double there = source == "mesh" ? std::min(bar, beside) : 0;
+    for (const auto& [of, size] : {std::pair{knob, bar - there}, {Knob::beside, there}})
+      if (of == knob || size > 0)
+        parts_.push_back({.response = &response,
+                          .source = source,
+                          .knob = of,
+                          .order = order(response, source, of),
+                          .share = size / std::abs(value->second) / goal_->asked(name)});
+  }
 }
 
 double Forecast::order(const Response& response, const std::string& source, Knob knob) const {
   switch (knob) {
     case Knob::mesh:
+    case Knob::beside:
       if (source == "contact_grid") return response.grid_order;
       return in_space_ ? response.mesh_order.in_space : response.mesh_order.in_plane;
     case Knob::harmonics:

@@ -38,7 +38,7 @@ struct Dominant {
 };
 
 /// Which of the settings a part of a bar falls with.
-enum class Knob { none, mesh, harmonics, samples, modes, resonance };
+enum class Knob { none, mesh, beside, harmonics, samples, modes, resonance };
 
 /// Of every knob, over what it is elsewhere: larger is finer.
 [[nodiscard]] double finer(Knob knob, const Settings& there, const Settings& here);
@@ -52,7 +52,8 @@ class Forecast {
 
   /// The last one is what others are foreseen from. Where one before it differs in a knob the two say the order of a
   /// part.
-  void add(const Settings& at, const Evaluation& evaluation);
+  /// @param beside  of each response's bar by the mesh: what the mesh beside the flanks leaves, where it is known
+  void add(const Settings& at, const Evaluation& evaluation, const std::map<std::string, double>& beside = {});
 
   /// Responses asked for by name of which nothing is known.
   [[nodiscard]] std::vector<std::string> not_held() const;
@@ -71,7 +72,7 @@ class Forecast {
     double share;  ///< of the bar that is allowed
   };
 
-  void add(const Response& response, const Evaluation& evaluation);
+  void add(const Response& response, const Evaluation& evaluation, double beside);
   [[nodiscard]] double order(const Response& response, const std::string& source, Knob knob) const;
 
   const AccuracyGoal* goal_;

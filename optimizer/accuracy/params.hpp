@@ -11,6 +11,7 @@ namespace dovetail::optimizer {
 struct SettingLadders {
   std::array<double, 11> mesh{0.5, 0.667, 0.833, 1, 1.333, 1.667,
                               2,   2.667, 3.333, 4, 5.333};      ///< edges over the study's
+  std::array<double, 6> beside{0.5, 0.707, 1, 1.414, 2, 2.828};  ///< the same beside the flanks
   std::array<int, 9> harmonics{3, 5, 7, 9, 11, 15, 19, 23, 31};  ///< even ones hardly move of flanks under pressure
   std::array<int, 9> samples{64, 96, 128, 192, 256, 384, 512, 768, 1024};
   std::array<int, 9> modes{4, 6, 8, 12, 16, 20, 30, 45, 60};
@@ -33,7 +34,11 @@ struct SettingsParams {
   /// another. A part grows with the modes kept; the unit is that of steady::jacobian_operations.
   double matrices_by = 1.6e4, matrices_by_in_space = 1.2e3;
   double matrices_in_plane = 1.2, matrices_in_space = 1.6;
-  double dofs = 1.8, dofs_in_space = 2.5;
+  double dofs_in_space = 2.5;
+  /// In the plane, by the edges along the flanks and by those beside them: 24 and 48 along them, half as many to twice
+  /// as many beside.
+  double dofs_along = 0.4, dofs_beside = 0.8;
+  double coarser_beside = 1.5;  ///< sizes of elements beside the flanks of the mesh that says what they leave
   double modes_share = 0.4;
   double modes = 20;  ///< with which it was measured
   /// Steady states of the searches of resonances grow by so much with each digit of their tolerance, of their number at

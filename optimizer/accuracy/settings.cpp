@@ -4,6 +4,7 @@
 #include <array>
 #include <span>
 #include <string_view>
+#include <utility>
 
 #include "optimizer/accuracy/params.hpp"
 #include "optimizer/bars/other_meshes.hpp"
@@ -20,10 +21,28 @@ constexpr SettingLadders kLadders;
 constexpr std::array<std::string_view, 5> kSolverKeys{"solver.harmonics", "solver.samples", "solver.modes",
                                                       "solver.resonance_tolerance", "solver.history_tolerance"};
 
-std::vector<std::string_view> mesh_keys(const Scene& scene) {
-  std::vector<std::string_view> keys(scene.kind->counts.begin(), scene.kind->counts.end());
+/// Of the mesh beside the flanks.
+std::vector<std::string_view> keys_beside(const Scene& scene) {
+  std::vector<std::string_view> keys(scene.kind->beside.begin(), scene.kind->beside.end());
   keys.insert(keys.end(), scene.kind->lengths.begin(), scene.kind->lengths.end());
   return keys;
+}
+
+std::vector<std::string_view> keys_along(const Scene& scene) {
+  std::vector<std::string_view> keys(scene.kind->counts.begin(), scene.kind->counts.end());
+  std::erase_if(keys, [&](std::string_view key) { return std::ranges::count(scene.kind->beside, key) > 0; });
+  return keys;
+}
+
+std::vector<std::string_view> mesh_keys(const Scene& scene) {
+  std::vector<std::string_view> keys = keys_along(scene);
+  const std::vector<std::string_view> beside = keys_beside(scene);
+  keys.insert(keys.end(), beside.begin(), beside.end());
+  return keys;
+}
+
+bool any_given(const std::vector<std::string_view>& keys, const std::set<std::string>& fixed) {
+  return std::ranges::any_of(keys, [&](std::string_view key) { return fixed.contains(std::string(key)); });
 }
 
 /// The rungs of a ladder and the value there is, rising; that value alone where it is fixed.
@@ -40,6 +59,7 @@ std::vector<T> rungs(std::span<const T> ladder, T own, bool fixed) {
 
 Settings settings_of(const Scene& scene) {
   return {.mesh = 1,
+          .beside = 1,
           .harmonics = scene.solver.harmonics,
           .samples = scene.solver.samples,
           .modes = scene.solver.modes,
@@ -48,7 +68,8 @@ Settings settings_of(const Scene& scene) {
 }
 
 Scene with_settings(Scene scene, const Settings& settings) {
-  if (settings.mesh != 1) scene = resized(std::move(scene), 1 / settings.mesh);
+  if (settings.mesh != 1 || settings.beside != 1)
+    scene = resized(std::move(scene), 1 / settings.mesh, 1 / settings.beside);
   scene.solver.harmonics = settings.harmonics;
   scene.solver.samples = settings.samples;
   scene.solver.modes = settings.modes;
@@ -71,9 +92,13 @@ double history_tolerance(const Scene& scene, const std::set<std::string>& fixed,
   return std::min(kLadders.history * accuracy, kLadders.loosest_history);
 }
 
+bool chooses_beside(const Scene& scene, const std::set<std::string>& fixed) {
+  return !scene.kind->lengths.empty() && !any_given(keys_beside(scene), fixed);
+}
+
 std::vector<Settings> all_settings(const Scene& scene, const std::set<std::string>& fixed, double accuracy) {
   const auto given = [&](std::string_view key) { return fixed.contains(std::string(key)); };
-  const bool mesh_given = std::ranges::any_of(mesh_keys(scene), given);
+  const bool mesh_given = any_given(keys_along(scene), fixed), beside_given = !chooses_beside(scene, fixed);
   std::vector<double> tolerances = rungs<double>(kLadders.resonance_tolerance, scene.solver.resonance_tolerance,
                                                  given("solver.resonance_tolerance"));
   std::erase_if(tolerances, [&](double tolerance) {
@@ -81,7 +106,10 @@ std::vector<Settings> all_settings(const Scene& scene, const std::set<std::strin
   });
   const double history = history_tolerance(scene, fixed, accuracy);
   std::vector<Settings> result;
+  std::vector<std::pair<double, double>> meshes;
   for (const double mesh : rungs<double>(kLadders.mesh, 1, mesh_given))
+    for (const double beside : rungs<double>(kLadders.beside, 1, beside_given)) meshes.emplace_back(mesh, beside);
+  for (const auto& [mesh, beside] : meshes)
     for (const int harmonics : rungs<int>(kLadders.harmonics, scene.solver.harmonics, given("solver.harmonics")))
       for (const int samples : rungs<int>(kLadders.samples, scene.solver.samples, given("solver.samples"))) {
         // Aliases are kept out, but where both numbers are the user's.
@@ -91,6 +119,7 @@ std::vector<Settings> all_settings(const Scene& scene, const std::set<std::strin
           if (modes >= scene.loading.mode || given("solver.modes"))
             for (const double tolerance : tolerances)
               result.push_back({.mesh = mesh,
+                                .beside = beside,
                                 .harmonics = harmonics,
                                 .samples = samples,
                                 .modes = modes,

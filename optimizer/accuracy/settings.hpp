@@ -11,7 +11,8 @@ namespace dovetail::optimizer {
 
 /// What accuracy is bought with.
 struct Settings {
-  double mesh = 1;  ///< edges of the mesh over those of the scene
+  double mesh = 1;    ///< edges of the mesh over those of the scene, along the flanks
+  double beside = 1;  ///< and beside them, where they are chosen on their own
   int harmonics = 0, samples = 0, modes = 0;
   double resonance_tolerance = 0;  ///< of the frequency of a resonance, relative
   double history_tolerance = 0;    ///< of a wear history, relative
@@ -30,8 +31,11 @@ struct Settings {
 /// Of wear histories, that leaves little of an accuracy asked for.
 [[nodiscard]] double history_tolerance(const Scene& scene, const std::set<std::string>& fixed, double accuracy);
 
-/// All combinations that are allowed, where keys in `fixed` stay as they are: any key of the mesh keeps all of it.
-/// Histories have the tolerance above.
+/// Whether the mesh beside the flanks may be chosen on its own.
+[[nodiscard]] bool chooses_beside(const Scene& scene, const std::set<std::string>& fixed);
+
+/// All combinations that are allowed, where keys in `fixed` stay as they are: any key of the mesh along the flanks
+/// keeps all of that, any beside them all of what is there. Histories have the tolerance above.
 [[nodiscard]] std::vector<Settings> all_settings(const Scene& scene, const std::set<std::string>& fixed,
                                                  double accuracy);
 

@@ -42,13 +42,17 @@ Scene with_few_layers(Scene scene) {
 }
 
 Scene resized(Scene scene, double ratio) {
+  return resized(std::move(scene), ratio, ratio);
+}
+
+Scene resized(Scene scene, double ratio, double beside) {
   const SceneKind& kind = *scene.kind;
   for (const std::string_view key : kind.counts) {
-    const double count = parameter(scene, key);
+    const double count = parameter(scene, key), times = std::ranges::count(kind.beside, key) > 0 ? beside : ratio;
     if (count > 0)
-      set_within_range(scene, key, std::max(2.0, std::round(count / ratio)));  // 0: as many as the mesh has
+      set_within_range(scene, key, std::max(2.0, std::round(count / times)));  // 0: as many as the mesh has
   }
-  return lengthened(std::move(scene), kind.lengths, ratio);
+  return lengthened(std::move(scene), kind.lengths, beside);
 }
 
 OtherMeshes::OtherMeshes(const Scene& reference, bool finer) {

@@ -11,6 +11,9 @@ namespace dovetail::optimizer {
 /// large.
 [[nodiscard]] Scene resized(Scene scene, double ratio);
 
+/// The same with another ratio beside the flanks, where the kind lets these have sizes of their own.
+[[nodiscard]] Scene resized(Scene scene, double ratio, double beside);
+
 /// The design on a mesh whose elements in the section, but for those along the flanks, are `ratio` times as large.
 [[nodiscard]] Scene resized_section(Scene scene, double ratio);
 

@@ -29,9 +29,11 @@ struct SceneKind {
   /// What contradicts between keys that have a meaning for this kind alone.
   std::vector<Violation> (*contradictions)(const Scene& scene);
 
-  std::span<const std::string_view> counts;   ///< keys of numbers of elements, which another mesh has more or fewer of
-  std::span<const std::string_view> layers;   ///< those of them along the slot
-  std::span<const std::string_view> lengths;  ///< keys of sizes of elements, which it has larger or smaller
+  std::span<const std::string_view> counts;  ///< keys of numbers of elements, which another mesh has more or fewer of
+  std::span<const std::string_view> layers;  ///< those of them along the slot
+  std::span<const std::string_view> beside;  ///< those of them beside the flanks, where these have sizes of their own
+  std::span<const std::string_view>
+      lengths;          ///< keys of sizes of elements beside the flanks, which it has larger or smaller
   int finer_below;      ///< edges along the flanks from which on coarser meshes say what finer ones would; 0: always
   bool contact_grid;    ///< mesh.contact_flank_elements and mesh.contact_slot_elements count
   bool rough_peaks;     ///< the mesh is known to resolve the pressure at the ends of rough flanks

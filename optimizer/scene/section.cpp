@@ -13,6 +13,7 @@ Mesher mesher(const Scene& reference) {
 }
 
 constexpr std::array<std::string_view, 2> kCounts{"mesh.flank_elements", "mesh.aerofoil_elements"};
+constexpr std::array<std::string_view, 1> kBeside{"mesh.aerofoil_elements"};
 constexpr std::array<std::string_view, 3> kLengths{"mesh.fillet_fraction", "mesh.blend_fraction", "mesh.bulk_size_mm"};
 
 geometry::Feasibility feasibility(const Scene& scene, const geometry::FeasibilityLimits& limits) {
@@ -33,6 +34,7 @@ const SceneKind kSection{.name = "section",
                          .contradictions = [](const Scene&) { return std::vector<Violation>{}; },
                          .counts = kCounts,
                          .layers = {},
+                         .beside = kBeside,
                          .lengths = kLengths,
                          .finer_below = 48,  // measured from there on (studies/error_bars)
                          .contact_grid = false,

@@ -40,6 +40,7 @@ const SceneKind kSector{.name = "sector",
                         .contradictions = too_fine,
                         .counts = kCounts,
                         .layers = kLayers,
+                        .beside = {},
                         .lengths = {},     // the section beside the flanks is as coarse as elements of the sweep allow
                         .finer_below = 0,  // a finer one would cost more than all else
                         .contact_grid = true,

@@ -38,7 +38,7 @@ AutomaticChoice choose(MeasuredDesign& design, double accuracy, double limit) {
       choice.relative_bar = tried.by->relative;
     }
   choice.point.label = fmt::format("{:g} %", 100 * accuracy);
-  choice.point.run = design(with_choice(own, settings));
+  choice.point.run = design(with_choice(own, design.study().scene, settings));
   return choice;
 }
 

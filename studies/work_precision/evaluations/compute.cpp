@@ -110,6 +110,7 @@ class Measurement {
     const Ladders& alone = plan_.alone;
     line(WholeSweep::mesh, alone.mesh, &WholeSetting::mesh,
          [&](const WholeSetting& s) { return fmt::format("{} edges", edges(s, diagram_.edges_of_file)); });
+    line(WholeSweep::beside, alone.beside, &WholeSetting::beside, beside_words);
     line(WholeSweep::harmonics, alone.harmonics, &WholeSetting::harmonics,
          [](const WholeSetting& s) { return fmt::format("H = {}", s.harmonics); });
     line(WholeSweep::samples, alone.samples, &WholeSetting::samples,
@@ -154,6 +155,7 @@ class Measurement {
     for (int tries = 0; tries < 50 * plan_.combinations && std::ssize(drawn) < plan_.combinations; ++tries) {
       WholeSetting setting = own_;
       setting.mesh = pick(plan_.joint.mesh);
+      setting.beside = pick(plan_.joint.beside);
       setting.harmonics = pick(plan_.joint.harmonics);
       setting.samples = pick(plan_.joint.samples);
       setting.modes = pick(plan_.joint.modes);
@@ -165,8 +167,8 @@ class Measurement {
     tell();
   }
 
-  [[nodiscard]] std::array<WholeSetting, 6> neighbours(const WholeSetting& at, Way way) const {
-    std::array<WholeSetting, 6> next;
+  [[nodiscard]] std::array<WholeSetting, 7> neighbours(const WholeSetting& at, Way way) const {
+    std::array<WholeSetting, 7> next;
     next.fill(at);
     const Ladders& joint = plan_.joint;
     const bool down = way == Way::coarser;
@@ -176,6 +178,7 @@ class Measurement {
     next[3].modes = neighbour(joint.modes, at.modes, down);
     next[4].resonance_tolerance = neighbour(joint.resonance_tolerance, at.resonance_tolerance, !down);
     next[5].tolerance = neighbour(joint.tolerance, at.tolerance, !down);
+    next[6].beside = neighbour(joint.beside, at.beside, down);
     return next;
   }
 

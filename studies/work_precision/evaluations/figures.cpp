@@ -30,8 +30,9 @@ struct Look {
   Role role;
   Stroke stroke;
 };
-constexpr std::array<Look, 6> kKnobs{
+constexpr std::array<Look, 7> kKnobs{
     {{WholeSweep::mesh, "mesh", Role::one, Stroke::solid},
+     {WholeSweep::beside, "mesh beside the flanks", Role::one, Stroke::dashed},
      {WholeSweep::harmonics, "harmonics", Role::two, Stroke::solid},
      {WholeSweep::samples, "samples", Role::three, Stroke::solid},
      {WholeSweep::modes, "modes", Role::four, Stroke::solid},

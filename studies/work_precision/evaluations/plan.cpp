@@ -15,6 +15,7 @@ EvaluationPlan quick_section(bool own_design) {
                   .resonance_tolerance = {1e-4, 1e-7},
                   .tolerance = {1e-3, 1e-9}};
   plan.joint = {.mesh = {0.75, 1, 1.25},
+                .beside = {1},
                 .harmonics = {1, 3},
                 .samples = {32, 64},
                 .modes = {4, 8},
@@ -39,12 +40,14 @@ EvaluationPlan section_plan(bool quick, bool own_design) {
   plan.alone = {.mesh = {0.5, 1, 2}, .harmonics = {1, 5, 9}, .samples = {64, 256}, .modes = {6, 30}};
   if (own_design)
     plan.alone = {.mesh = {0.333, 0.5, 0.667, 1, 1.333, 2, 2.667, 4},
+                  .beside = {0.25, 0.5, 2},
                   .harmonics = {1, 2, 3, 5, 7, 11, 15},
                   .samples = {32, 64, 96, 128, 256, 512},
                   .modes = {3, 4, 6, 8, 12, 20, 40},
                   .resonance_tolerance = {1e-4, 1e-5, 1e-6, 1e-7, 1e-8},
                   .tolerance = {1e-3, 1e-5, 1e-7, 1e-9, 1e-11}};
   plan.joint = {.mesh = {0.5, 0.667, 0.833, 1, 1.333, 1.667, 2, 2.667, 3.333},
+                .beside = {0.354, 0.5, 0.707, 1},
                 .harmonics = {1, 3, 5, 7, 9, 11, 15},
                 .samples = {48, 64, 96, 128, 192, 256, 384},
                 .modes = {3, 4, 6, 8, 12, 16, 20},
@@ -68,6 +71,7 @@ EvaluationPlan sector_plan(bool quick) {
                 .modes = {6, 20},
                 .resonance_tolerance = {1e-5, 1e-7}};
   plan.joint = {.mesh = {0.5, 0.667, 0.833, 1, 1.25},
+                .beside = {1},
                 .harmonics = {1, 3, 5},
                 .samples = {64, 96, 128},
                 .modes = {6, 10, 20},

@@ -9,6 +9,7 @@ namespace dovetail::work_precision {
 /// Values of each knob, coarse to fine. Those of the mesh are edges over the file's.
 struct Ladders {
   std::vector<double> mesh = {};
+  std::vector<double> beside = {};  ///< over those along the flanks
   std::vector<int> harmonics = {}, samples = {}, modes = {};
   std::vector<double> resonance_tolerance = {}, tolerance = {};
 };

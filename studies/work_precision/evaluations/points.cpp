@@ -27,8 +27,9 @@ void judge(const WholeDiagram& diagram, WholePoint& point) {
 }
 
 bool as_fine(const WholeSetting& a, const WholeSetting& b) {
-  return a.mesh >= b.mesh && a.harmonics >= b.harmonics && a.samples >= b.samples && a.modes >= b.modes &&
-         a.resonance_tolerance <= b.resonance_tolerance && a.tolerance <= b.tolerance;
+  return a.mesh >= b.mesh && a.mesh * a.beside >= b.mesh * b.beside && a.harmonics >= b.harmonics &&
+         a.samples >= b.samples && a.modes >= b.modes && a.resonance_tolerance <= b.resonance_tolerance &&
+         a.tolerance <= b.tolerance;
 }
 
 }  // namespace

@@ -26,6 +26,7 @@ struct WholePoint {
 /// What a line of points varies.
 enum class WholeSweep {
   mesh,
+  beside,  ///< the mesh beside the flanks
   harmonics,
   samples,
   modes,
@@ -35,8 +36,9 @@ enum class WholeSweep {
   descent,       ///< from the cheapest known setting to coarser ones
   paper
 };
-constexpr EnumNames<WholeSweep, 9> enum_names(WholeSweep) {
+constexpr EnumNames<WholeSweep, 10> enum_names(WholeSweep) {
   return {{{WholeSweep::mesh, "mesh"},
+           {WholeSweep::beside, "beside"},
            {WholeSweep::harmonics, "harmonics"},
            {WholeSweep::samples, "samples"},
            {WholeSweep::modes, "modes"},

@@ -16,6 +16,7 @@ using work_precision::WholeRun, work_precision::WholeSetting;
 template <>
 inline constexpr auto kFields<WholeSetting> =
     std::tuple{RecordField{"mesh", &WholeSetting::mesh},
+               RecordField{"beside", &WholeSetting::beside},
                RecordField{"harmonics", &WholeSetting::harmonics},
                RecordField{"samples", &WholeSetting::samples},
                RecordField{"modes", &WholeSetting::modes},
@@ -80,11 +81,8 @@ Json json_of(const WholePoint& point) {
 
 Json json_of(const optimizer::SettingsTried& tried) {
   const optimizer::Settings& s = tried.settings;
-  Json json{{"mesh", s.mesh},
-            {"harmonics", s.harmonics},
-            {"samples", s.samples},
-            {"modes", s.modes},
-            {"status", tried.status}};
+  Json json{{"mesh", s.mesh},       {"beside", s.beside}, {"harmonics", s.harmonics},
+            {"samples", s.samples}, {"modes", s.modes},   {"status", tried.status}};
   json["bar_over_allowed"] = optimizer::json_value<Json>(tried.excess);
   if (tried.by) {
     json["most_by"] = {{"response", tried.by->response}, {"source", tried.by->source}};

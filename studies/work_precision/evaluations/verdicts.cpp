@@ -25,6 +25,9 @@ std::string differences(const WholeDiagram& diagram, const WholeSetting& chosen,
   if (chosen.mesh != cheap.mesh)
     add(chosen.mesh > cheap.mesh,
         fmt::format("{} edges ({})", edges(chosen, diagram.edges_of_file), edges(cheap, diagram.edges_of_file)));
+  if (chosen.beside != cheap.beside)
+    add(chosen.beside > cheap.beside,
+        fmt::format("{:.2g} times as many beside the flanks ({:.2g})", chosen.beside, cheap.beside));
   if (chosen.harmonics != cheap.harmonics)
     add(chosen.harmonics > cheap.harmonics, fmt::format("H = {} ({})", chosen.harmonics, cheap.harmonics));
   if (chosen.samples != cheap.samples)

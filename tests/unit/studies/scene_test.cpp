@@ -43,7 +43,7 @@ TEST(SceneKind, EveryOneHasANameAndChangesKeysThatThereAre) {
     Scene scene;
     scene.kind = kind;
     EXPECT_TRUE(violations(scene).empty());
-    for (const auto& keys : {kind->counts, kind->lengths})
+    for (const auto& keys : {kind->counts, kind->lengths, kind->beside})
       for (const std::string_view key : keys) EXPECT_NE(find_parameter(key), nullptr) << key;
   }
 }
