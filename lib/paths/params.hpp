@@ -59,7 +59,7 @@ struct ClosingInParams {
   int cautious = 3, tries = 5;  ///< halvings of a step by Newton's method alone, and with all rescues
   int off_pole = 4;  ///< tries beside a start at an undamped pole of the glued joint, by turns on both sides,
   double off_pole_step = 1e-6;  ///< the first so far away, over frequency, each ten times as far as the one before
-  int many_harmonics = 9;       ///< from so many on half of them find the way: a Jacobian costs their cube
+  int many_harmonics = 7;       ///< from so many on half of them find the way: a Jacobian costs their cube
   /// Where a peak found at another pseudo-penalty is looked for again, over frequency: the half width of one with
   /// little damping; and the amplitude, over the first one's, that it must have.
   double beside = 1e-3, no_lower = 0.999;

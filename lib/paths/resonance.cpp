@@ -67,8 +67,8 @@ Resonance resonance(const steady::Joint& joint, double omega_start, const Resona
                      .value = std::to_string(resonance_options.output),
                      .allowed = "must be < " + std::to_string(outputs)});
   if (!found.empty()) throw InputError(std::move(found));
-  const PeakStart start = with_fewer_harmonics(
-      joint, {.omega = omega_start, .guess = guess, .solves = 0, .jacobians = 0}, resonance_options);
+  PeakStart start{.omega = omega_start, .guess = guess, .solves = 0, .jacobians = 0};
+  if (!resonance_options.begins_near) start = with_fewer_harmonics(joint, std::move(start), resonance_options);
   Resonance near = search_peak(joint, start.omega, resonance_options, start.guess);
   near.solves += start.solves;
   near.jacobians += start.jacobians;

@@ -13,6 +13,8 @@ struct ResonanceOptions {
   double sweep_range = 0.9;           ///< when it fails, the branch is followed within this fraction, [0, 1); 0: no
   int max_solves = 80;                ///< steady states of the search next to the start, >= 1
   int max_sweep_jacobians = 5000;     ///< of following the branch, >= 1
+  /// The guess is next to the peak: no way to it is looked for with fewer harmonics.
+  bool begins_near = false;
 };
 
 struct Resonance {

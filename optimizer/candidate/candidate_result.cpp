@@ -73,15 +73,18 @@ std::string ended(const char* stage, const CandidateModel& model) {
 paths::Resonance worn_resonance(const Scene& scene, const Computation& how, const steady::Joint& joint,
                                 const CandidateResult& result) {
   const wear::Asymptote& asymptote = *result.asymptote;
+  paths::ResonanceOptions options = resonance_options(scene);
   const auto from = [&](const steady::State& known) {
-    return wear::resonance_drift(joint.worn(asymptote.depth), *result.unworn, resonance_options(scene), &known).worn;
+    return wear::resonance_drift(joint.worn(asymptote.depth), *result.unworn, options, &known).worn;
   };
   if (how.from != nullptr && how.from->worn && how.from->worn->status == Status::converged) {
     steady::State known;
     known.omega = omega_as(*how.from, how.from->worn->omega, scene, result.model);
     known.displacement = displacement_as(*how.from, how.from->worn->state, scene, result.model);
+    options.begins_near = true;
     paths::Resonance found = from(known);
     if (found.status == Status::converged) return found;
+    options.begins_near = false;
   }
   return from(asymptote.steady);
 }
@@ -94,8 +97,10 @@ std::string dynamics(const Scene& scene, const Computation& how, CandidateResult
   const steady::Joint joint = joint_of(scene, model, how.penalty_scale);
   Stopwatch watch;
 
-  const double start = fit.displacement.size() > 0 ? fit.omega : model.glued_frequencies(scene.loading.mode - 1);
-  result.unworn = paths::resonance(joint, start, resonance_options(scene), fit.displacement);
+  paths::ResonanceOptions near_fit = resonance_options(scene);
+  near_fit.begins_near = fit.displacement.size() > 0;
+  const double start = near_fit.begins_near ? fit.omega : model.glued_frequencies(scene.loading.mode - 1);
+  result.unworn = paths::resonance(joint, start, near_fit, fit.displacement);
   evaluation.timings_s["unworn_resonance"] = watch.lap();
   if (result.unworn->status != Status::converged) return failed_at("unworn_resonance", result.unworn->status);
   add_fillet_stresses(scene, result);

@@ -15,14 +15,30 @@ namespace dovetail::optimizer {
 
 namespace {
 
+/// Where a search of a grid begins: a state of the joint and the grid it was laid on, and a grid to lay first.
+struct FitStart {
+  double omega = 0;  ///< rad/s
+  Eigen::MatrixXd displacement = {};
+  std::vector<fem::CellStrip> strips = {};
+  const LaidGrid* grid = nullptr;
+};
+
+FitStart start_of(const Scene& scene, const Computation& how, const CandidateModel& candidate) {
+  if (how.from == nullptr || !how.from->unworn) return {};
+  const CandidateResult& from = *how.from;
+  return {.omega = omega_as(from, from.unworn->omega, scene, candidate),
+          .displacement = from.unworn->state.displacement,
+          .strips = from.model.cells.strips(),
+          .grid = how.grid_from ? &from.fit.grid : nullptr};
+}
+
 /// Lays grid after grid on a candidate until the edges of worn zones stay where cells end.
 class GridSearch {
  public:
-  GridSearch(const Scene& scene, const Computation& how, CandidateModel& candidate)
+  GridSearch(const Scene& scene, const Computation& how, const FitStart& start, CandidateModel& candidate)
       : scene_(scene),
         options_(how.contact),
-        from_(how.from != nullptr && how.from->unworn ? how.from : nullptr),
-        grid_from_(how.grid_from),
+        start_(start),
         candidate_(candidate),
         cells_(cell_lengths(scene, options_.lengths)),
         joint_(joint_of(scene, candidate, how.penalty_scale)) {
@@ -62,7 +78,7 @@ class GridSearch {
       if (vanished || (laid_for && fit_.moved <= options_.aim)) {
         // Where nodes beyond an edge hardly stick, do they at the resonance of this grid?
         if (!search_.holds() || at_resonance || vanished) return fit_;
-        if (!find_resonance(peak_.omega)) return unsettled();
+        if (!find_resonance(peak_.omega, unworn_.displacement)) return unsettled();
         at_resonance = true;
         --fit_.grids;
       } else if (fit_.grids == options_.grids) {
@@ -83,11 +99,11 @@ class GridSearch {
   /// False where the grid is that to begin with, without edges.
   bool lay_first() {
     std::vector<fem::FlankCells> flanks = cell_grid(scene_, candidate_.mesh.sector, cells_);
-    const bool begun = grid_from_ && from_ != nullptr && from_->fit.grid.edges.size() == lengths_.size();
+    const bool begun = start_.grid != nullptr && start_.grid->edges.size() == lengths_.size();
     if (begun) {
-      laid_ = from_->fit.grid.edges;
-      counts_ = from_->fit.grid.counts;
-      search_ = from_->fit.grid.search;
+      laid_ = start_.grid->edges;
+      counts_ = start_.grid->counts;
+      search_ = start_.grid->search;
       end_cells_at_edges(flanks);
     }
     lay(flanks);
@@ -95,13 +111,14 @@ class GridSearch {
   }
 
   [[nodiscard]] bool find_first_resonance() {
-    if (from_ == nullptr) return find_resonance(candidate_.glued_frequencies(scene_.loading.mode - 1));
-    return find_resonance(omega_as(*from_, from_->unworn->omega, scene_, candidate_),
-                          displacement_as(*from_, from_->unworn->state, scene_, candidate_));
+    if (start_.displacement.size() == 0) return find_resonance(candidate_.glued_frequencies(scene_.loading.mode - 1));
+    return find_resonance(start_.omega, carried(start_.displacement, start_.strips));
   }
 
   [[nodiscard]] bool find_resonance(double start, const Eigen::MatrixXd& guess = {}) {
-    peak_ = paths::resonance(joint_, start, resonance_options(scene_), guess);
+    paths::ResonanceOptions peak = resonance_options(scene_);
+    peak.begins_near = guess.size() > 0;
+    peak_ = paths::resonance(joint_, start, peak, guess);
     unworn_ = peak_.state;
     return peak_.status == Status::converged;
   }
@@ -170,10 +187,15 @@ class GridSearch {
     lay(flanks);
     fit_.displacement.resize(0, 0);
     if (!candidate_.converged()) return false;
-    const Eigen::MatrixXd guess =
-        carried_over(unworn_.displacement, before, candidate_.cells.strips(), candidate_.condensed->directions());
-    unworn_ = paths::steady_state(joint_, peak_.omega, guess);
+    unworn_ = paths::steady_state(joint_, peak_.omega, carried(unworn_.displacement, before));
     return unworn_.status == Status::converged;
+  }
+
+  [[nodiscard]] Eigen::MatrixXd carried(const Eigen::MatrixXd& displacement,
+                                        const std::vector<fem::CellStrip>& before) const {
+    return paths::padded(
+        carried_over(displacement, before, candidate_.cells.strips(), candidate_.condensed->directions()),
+        scene_.solver.harmonics);
   }
 
   void end_cells_at_edges(std::vector<fem::FlankCells>& flanks) {
@@ -199,8 +221,7 @@ class GridSearch {
 
   const Scene& scene_;
   const ContactFitOptions& options_;
-  const CandidateResult* from_;
-  bool grid_from_;
+  const FitStart& start_;
   CandidateModel& candidate_;
   CellLengths cells_;
   steady::Joint joint_;
@@ -220,7 +241,8 @@ class GridSearch {
 
 ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateModel& candidate) {
   if (!how.contact.to_worn_zones) return {.moved = 0, .share = 0, .settled = true, .known = true};
-  return GridSearch(scene, how, candidate).run();
+  const FitStart start = start_of(scene, how, candidate);
+  return GridSearch(scene, how, start, candidate).run();
 }
 
 }  // namespace dovetail::optimizer
