@@ -226,7 +226,7 @@ TEST(Accuracy, WhatNoSettingBuysIsLeftOut) {
 // Of a response without a value, or without a bar, no settings are known to be accurate enough.
 TEST(Accuracy, IsNotReachedWhereNothingIsHeldToIt) {
   const SettingsChoice none = choose_settings(Scene{}, kGoal, [](const Settings& s) {
-    Evaluation evaluation = Laws{}.probe()(s);
+    Evaluation evaluation = Laws{}.probe()(s).evaluation;
     evaluation.responses[kVolume] = 0;
     return evaluation;
   });
@@ -259,7 +259,7 @@ TEST(Accuracy, TurnsNoKnobThatBuysNothing) {
   goal.fixed = {"mesh.flank_elements", "solver.harmonics", "solver.samples"};
   const Laws laws{.mesh = 0.05, .modes = 2e-4};
   const SettingsChoice choice = choose_settings(Scene{}, goal, [&](const Settings& s) {
-    Evaluation evaluation = laws.probe()(s);
+    Evaluation evaluation = laws.probe()(s).evaluation;
     evaluation.error_sources[kVolume]["edge"] = 0.07;
     return evaluation;
   });
@@ -285,7 +285,7 @@ TEST(Accuracy, SettingsWithoutAnAnswerAreLeftAside) {
   ASSERT_GE(without.rounds.size(), 2U);
   const Settings bad = without.rounds[1].settings;
   const SettingsChoice choice = choose_settings(Scene{}, kGoal, [&](const Settings& s) {
-    Evaluation evaluation = laws.probe()(s);
+    Evaluation evaluation = laws.probe()(s).evaluation;
     if (s == bad) evaluation.status = failed_at("asymptote", to_string(Status::iteration_limit));
     return evaluation;
   });
