@@ -32,6 +32,7 @@ Rows multiplied(const Eigen::Map<const SparseRows>& a, const Rows& x) {
   Rows product(a.rows(), x.cols());
   Eigen::Index first = 0;
   for (; first + 8 <= x.cols(); first += 8) multiply<8>(a, x, first, product);
+  for (; first + 6 <= x.cols(); first += 6) multiply<6>(a, x, first, product);  // a block of modes
   for (; first + 2 <= x.cols(); first += 2) multiply<2>(a, x, first, product);
   for (; first < x.cols(); ++first) multiply<1>(a, x, first, product);
   return product;

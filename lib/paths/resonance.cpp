@@ -21,7 +21,7 @@ struct PeakStart {
 PeakStart with_fewer_harmonics(steady::Joint joint, PeakStart start, const ResonanceOptions& peak) {
   if (joint.options.harmonics < kClosingIn.many_harmonics) return start;
   const Eigen::Index all = 2 * joint.options.harmonics + 1;
-  joint.options.harmonics /= 2;
+  joint.options.harmonics = (joint.options.harmonics / 2) | 1;  // even ones hardly move of flanks under pressure
   const Eigen::Index few = 2 * joint.options.harmonics + 1;
   PeakStart first = start;
   if (first.guess.cols() > few) first.guess.conservativeResize(Eigen::NoChange, few);

@@ -46,7 +46,8 @@ class ErrorBarSources {
   ErrorBarSources(const Scene& scene, const ModelBuilder& builder, const OtherMeshes* others, const Computation& how,
                   CandidateResult& result)
       : scene_(scene), builder_(builder), others_(others), result_(result), bars_(scene, result), as_here_(how) {
-    as_here_.from = &result_;
+    // Where hardly anything bears the question is what other settings come to on their own.
+    if (!result.asymptote || !result.asymptote->bearing.doubtful()) as_here_.from = &result_;
     // Where the history decided, it does so for the companions.
     as_here_.history = result.asymptote && result.asymptote->decided_by == wear::FoundBy::history;
   }
@@ -201,7 +202,7 @@ class ErrorBarSources {
       for (const Change& change : changes) {
         Scene changed = base.scene;
         Computation how = as_here_;
-        how.from = base.answer;
+        if (as_here_.from != nullptr) how.from = base.answer;
         how.grid_from = true;
         change(changed, how);
         const bool same =

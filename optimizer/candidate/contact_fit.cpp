@@ -49,7 +49,7 @@ class GridSearch {
     ContactFit fit = laid();
     if (has_own_budget()) candidate_.budget->spend(joint_.options.budget->used());
     if (!candidate_.converged()) return fit;
-    if (fit.known) fit.grid = {.edges = laid_, .counts = counts_, .search = search_};
+    if (fit.known) fit.grid = {.edges = laid_, .counts = counts_, .search = search_, .moved = fit.moved};
     return fit;
   }
 
@@ -75,7 +75,7 @@ class GridSearch {
       fit_.settled = vanished || fit_.moved <= options_.tolerance;
       // Edges that happen to lie at ends of cells of the first grid have no short cells beside them yet.
       const bool laid_for = begun || fit_.grids > 0 || fit_.edges == 0;
-      if (vanished || (laid_for && fit_.moved <= options_.aim)) {
+      if (vanished || (laid_for && fit_.moved <= aim(begun))) {
         // Where nodes beyond an edge hardly stick, do they at the resonance of this grid?
         if (!search_.holds() || at_resonance || vanished) return fit_;
         if (!find_resonance(peak_.omega, unworn_.displacement)) return unsettled();
@@ -87,6 +87,12 @@ class GridSearch {
         return unsettled();
       }
     }
+  }
+
+  /// How far edges may be left. The grid to begin with stays where it is left no further than it was there, or than
+  /// edges that have settled: else what another grid changes would count as what the settings do.
+  [[nodiscard]] double aim(bool begun) const {
+    return begun && fit_.grids == 0 ? std::max(options_.tolerance, start_.grid->moved) : options_.aim;
   }
 
   [[nodiscard]] bool has_own_budget() const { return joint_.options.budget != candidate_.budget; }

@@ -25,6 +25,7 @@ struct LaidGrid {
   EdgeSearch::Places edges;              ///< of worn zones
   std::vector<std::vector<int>> counts;  ///< of cells between edges
   EdgeSearch search;                     ///< that led to them
+  double moved = 0;                      ///< by how much they were left, see ContactFit
 };
 
 struct ContactFit {

@@ -44,6 +44,15 @@ TEST(Companions, OnAnotherMeshEndWhereTheyWouldFromNothing) {
   expect_the_same(resized(coarse_scene(), 1 / 1.5), false);
 }
 
+// On its own grid, from its own state, a design is what it was: to the digits to which its states are known.
+TEST(Companions, WithNothingChangedAreTheDesign) {
+  const CandidateResult again = computed(coarse_scene(), own().model, {.from = &own(), .grid_from = true});
+  ASSERT_TRUE(again.evaluation.converged()) << again.evaluation.status;
+  EXPECT_EQ(again.model.cells.flanks, own().model.cells.flanks);
+  for (const auto& [name, value] : own().evaluation.responses)
+    EXPECT_NEAR(again.evaluation.responses.at(name), value, 1e-5 * std::abs(value)) << name;
+}
+
 // Mesh, prestress and factor are those of the design with fewer modes.
 TEST(Companions, WithMoreModesAreThoseOfTheSameStiffness) {
   const ModelBuilder builder(coarse_scene());
