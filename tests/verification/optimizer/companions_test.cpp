@@ -49,8 +49,12 @@ TEST(Companions, WithNothingChangedAreTheDesign) {
   const CandidateResult again = computed(coarse_scene(), own().model, {.from = &own(), .grid_from = true});
   ASSERT_TRUE(again.evaluation.converged()) << again.evaluation.status;
   EXPECT_EQ(again.model.cells.flanks, own().model.cells.flanks);
-  for (const auto& [name, value] : own().evaluation.responses)
-    EXPECT_NEAR(again.evaluation.responses.at(name), value, 1e-5 * std::abs(value)) << name;
+  for (const auto& [name, value] : own().evaluation.responses) {
+    const bool drifts = name.ends_with("drift");
+    EXPECT_NEAR(again.evaluation.responses.at(name), value,
+                drifts ? coarse_scene().solver.resonance_tolerance : 1e-5 * std::abs(value))
+        << name;
+  }
 }
 
 // Mesh, prestress and factor are those of the design with fewer modes.
