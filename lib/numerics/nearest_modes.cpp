@@ -160,13 +160,17 @@ class Krylov {
     solves_ += added;
     const Dense<Scalar> weighted = weight_(image);
     const double scale = joint_length<Scalar>(image, weighted);
-    const auto basis = space_.leftCols(size_);
-    const Dense<Scalar> overlap = adjoint_product(basis, weighted);
+    // The image of a block is orthogonal to all blocks but the last two and what a restart kept.
+    const auto near = space_.middleCols(coupled_, size_ - coupled_);
+    const Dense<Scalar> overlap = adjoint_product(near, weighted);
     projected_.conservativeResize(before + added, before + added);
-    projected_.rightCols(added) = overlap;
-    projected_.bottomRows(added) = overlap.adjoint();
-    image -= product(basis, overlap);
-    // Small remainders carry rounding along the basis, which normalising magnifies: again.
+    projected_.rightCols(added).setZero();
+    projected_.rightCols(added).bottomRows(overlap.rows()) = overlap;
+    projected_.bottomRows(added) = projected_.rightCols(added).adjoint();
+    image -= product(near, overlap);
+    coupled_ = before;
+    // Small remainders carry rounding along the whole basis, which normalising magnifies.
+    const auto basis = space_.leftCols(size_);
     Orthonormal<Scalar> first = orthonormal(image, weight_(image), kParams.remainder * scale);
     first.vectors -= product(basis, adjoint_product(basis, first.weighted));
     block_ = orthonormal(first.vectors, weight_(first.vectors), kParams.second);
@@ -198,6 +202,7 @@ class Krylov {
     const Dense<Scalar> best = product(space_.leftCols(size_), Dense<Scalar>(rotation_.leftCols(kept)));
     space_.leftCols(kept) = best;
     size_ = kept;
+    coupled_ = 0;
     projected_ = values_.head(kept).template cast<Scalar>().asDiagonal();
   }
 
@@ -217,6 +222,7 @@ class Krylov {
   double tolerance_;
   Status status_ = Status::converged;
   Eigen::Index block_size_, limit_, most_, solves_ = 0, last_ = 0, size_ = 0;
+  Eigen::Index coupled_ = 0;         // first column of the space that the image of the next block may overlap with
   Dense<Scalar> space_, projected_;  // V, its first size_ columns, and V^H M (K - sigma M)^{-1} M V
   Orthonormal<Scalar> block_;        // the next one
   Eigen::VectorXd values_;
