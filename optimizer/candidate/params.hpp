@@ -28,7 +28,7 @@ struct AsperityParams {
 
 /// What is kept of matrices for designs that share them.
 struct MatricesParams {
-  double largest_fields = 4e7;  ///< numbers: 320 MB
+  double largest_fields = 1e8;  ///< numbers: 800 MB. Without them every grid of a sector costs back-solves of its own
 };
 
 /// At which instants a stress is looked at.
