@@ -111,9 +111,9 @@ AccuracyHeld accuracy_held(const optimizer::Scene& scene, const optimizer::Accur
 std::string round_words(const Study& study, const optimizer::SettingsTried& tried) {
   const optimizer::Scene there = optimizer::with_settings(study.scene, tried.settings);
   std::string text = fmt::format("{} edges per flank", there.mesh.flank_elements);
-  if (const double beside = tried.settings.beside / tried.settings.mesh;
-      beside != 1 && optimizer::chooses_beside(study.scene, {}))
-    text += fmt::format(" ({:.2g} times as many beside them)", beside);
+  if (const double beside = tried.settings.beside;
+      beside != tried.settings.mesh && optimizer::chooses_beside(study.scene, {}))
+    text += fmt::format(" (beside them {:.2g} times the file's)", beside);
   text += fmt::format(", {} harmonics, {} samples, {} modes: ", there.solver.harmonics, there.solver.samples,
                       there.solver.modes);
   return text + (tried.by ? known(*tried.by) : tried.status);
