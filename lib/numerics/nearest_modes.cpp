@@ -165,8 +165,9 @@ class Krylov {
     const Dense<Scalar> overlap = adjoint_product(near, weighted);
     projected_.conservativeResize(before + added, before + added);
     projected_.rightCols(added).setZero();
+    projected_.bottomRows(added).setZero();
+    projected_.bottomRows(added).rightCols(overlap.rows()) = overlap.adjoint();
     projected_.rightCols(added).bottomRows(overlap.rows()) = overlap;
-    projected_.bottomRows(added) = projected_.rightCols(added).adjoint();
     image -= product(near, overlap);
     coupled_ = before;
     // Small remainders carry rounding along the whole basis, which normalising magnifies.

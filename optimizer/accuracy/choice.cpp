@@ -87,6 +87,10 @@ std::map<std::string, double> left_beside(const Scene& reference, const Scene& s
   const Evaluation there =
       SceneEvaluator(with_settings(reference, settings)).evaluate(with_settings(scene, settings), purpose).evaluation;
   std::map<std::string, double> leaves;
+  // Without an answer there as much may be left beside the flanks as along them.
+  if (!there.converged())
+    for (const auto& [name, bars] : here.error_sources)
+      if (const auto mesh = bars.find("mesh"); mesh != bars.end()) leaves[name] = mesh->second / 2;
   for (const auto& [name, value] : there.responses)
     if (const auto own = here.responses.find(name); own != here.responses.end())
       leaves[name] =

@@ -75,7 +75,7 @@ void Forecast::add(const Settings& at, const Evaluation& evaluation, const std::
   for (const std::string& name : names) {
     const auto part = beside.find(name);
     if (const Response* response = find_response(name))
-      add(*response, evaluation, part == beside.end() ? 0 : part->second);
+      add(*response, evaluation, part == beside.end() ? std::nullopt : std::optional(part->second));
   }
   for (Part& part : parts_)
     for (const Part& old : before) {
@@ -140,7 +140,7 @@ double Forecast::operations(const Settings& there) const {
 }
 
 /// A response without a value has no accuracy, one without a limit none that could be bought.
-void Forecast::add(const Response& response, const Evaluation& evaluation, double beside) {
+void Forecast::add(const Response& response, const Evaluation& evaluation, std::optional<double> beside) {
   const std::string name(response.name);
   const auto value = evaluation.responses.find(name);
   const auto bars = evaluation.error_sources.find(name);
@@ -154,7 +154,8 @@ void Forecast::add(const Response& response, const Evaluation& evaluation, doubl
   for (const auto& [source, bar] : bars->second) {
     const Knob knob = knob_of(source);
     if (!counts(knob, *goal_)) continue;
-    const double there = source == "mesh" ? std::min(bar, beside) : 0;
+    constexpr double kLeast = kForecast.least_share;
+    const double there = source == "mesh" && beside ? std::clamp(*beside, kLeast * bar, (1 - kLeast) * bar) : 0;
     for (const auto& [of, size] : {std::pair{knob, bar - there}, {Knob::beside, there}})
       if (of == knob || size > 0)
         parts_.push_back({.response = &response,

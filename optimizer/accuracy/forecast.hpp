@@ -72,7 +72,7 @@ class Forecast {
     double share;  ///< of the bar that is allowed
   };
 
-  void add(const Response& response, const Evaluation& evaluation, double beside);
+  void add(const Response& response, const Evaluation& evaluation, std::optional<double> beside);
   [[nodiscard]] double order(const Response& response, const std::string& source, Knob knob) const;
 
   const AccuracyGoal* goal_;

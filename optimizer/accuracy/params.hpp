@@ -38,6 +38,7 @@ struct SettingsParams {
   /// In the plane, by the edges along the flanks and by those beside them: 24 and 48 along them, half as many to twice
   /// as many beside.
   double dofs_along = 0.4, dofs_beside = 0.8;
+  double least_share = 0.1;     ///< of what a mesh leaves, that either part of it counts for at least: none is free
   double coarser_beside = 1.5;  ///< sizes of elements beside the flanks of the mesh that says what they leave
   double modes_share = 0.4;
   double modes = 20;  ///< with which it was measured

@@ -89,10 +89,10 @@ class GridSearch {
     }
   }
 
-  /// How far edges may be left. The grid to begin with stays where it is left no further than it was there, or than
-  /// edges that have settled: else what another grid changes would count as what the settings do.
+  /// How far edges may be left. A grid that another fit has left further than it aims at stays where it is left no
+  /// further now: else what another grid changes would count as what the settings do.
   [[nodiscard]] double aim(bool begun) const {
-    return begun && fit_.grids == 0 ? std::max(options_.tolerance, start_.grid->moved) : options_.aim;
+    return begun && fit_.grids == 0 ? std::max(options_.aim, start_.grid->moved) : options_.aim;
   }
 
   [[nodiscard]] bool has_own_budget() const { return joint_.options.budget != candidate_.budget; }
@@ -102,7 +102,7 @@ class GridSearch {
     joint_.model = candidate_.condensed;
   }
 
-  /// False where the grid is that to begin with, without edges.
+  /// Whether that is the grid another fit ended with, and not one without edges.
   bool lay_first() {
     std::vector<fem::FlankCells> flanks = cell_grid(scene_, candidate_.mesh.sector, cells_);
     const bool begun = start_.grid != nullptr && start_.grid->edges.size() == lengths_.size();
@@ -118,7 +118,8 @@ class GridSearch {
 
   [[nodiscard]] bool find_first_resonance() {
     if (start_.displacement.size() == 0) return find_resonance(candidate_.glued_frequencies(scene_.loading.mode - 1));
-    return find_resonance(start_.omega, carried(start_.displacement, start_.strips));
+    return find_resonance(start_.omega, carried(start_.displacement, start_.strips)) ||
+           find_resonance(candidate_.glued_frequencies(scene_.loading.mode - 1));
   }
 
   [[nodiscard]] bool find_resonance(double start, const Eigen::MatrixXd& guess = {}) {
@@ -165,6 +166,7 @@ class GridSearch {
                .flanks = candidate_.cells.flanks,
                .laid = laid_,
                .counts = counts_,
+               .search = search_,
                .displacement = unworn_.displacement};
     return true;
   }
@@ -176,6 +178,7 @@ class GridSearch {
       lay(best_.flanks);
       laid_ = best_.laid;
       counts_ = best_.counts;
+      search_ = best_.search;
       fit_.displacement = best_.displacement;
     }
     fit_.moved = best_.misfit.moved;
@@ -222,6 +225,7 @@ class GridSearch {
     std::vector<fem::FlankCells> flanks;
     EdgeSearch::Places laid;
     std::vector<std::vector<int>> counts;
+    EdgeSearch search;
     Eigen::MatrixXd displacement;
   };
 

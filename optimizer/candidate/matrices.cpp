@@ -92,7 +92,12 @@ reduction::FullModel MatricesStages::full_model(Eigen::SparseMatrix<double> stif
 }
 
 void MatricesStages::go_on_from(const Matrices& same) {
-  matrices_ = same;
+  matrices_.assembler = same.assembler;
+  matrices_.system = same.system;
+  matrices_.stiffness = same.stiffness;
+  matrices_.trace.structure = same.trace.structure;  // for its factor
+  matrices_.at_rest = same.at_rest;
+  matrices_.preloaded = same.preloaded;
 }
 
 void MatricesStages::assemble() {
@@ -236,7 +241,7 @@ std::shared_ptr<const Matrices> MatricesStore::shared(const Scene& scene, const 
       if (of_.modes == asked.modes) return last_;
       if (outcome_of(last_->status) == Outcome::converged) same = last_;
     }
-    last_.reset();  // before the next ones are there: both need not fit into memory
+    last_.reset();  // before the next ones are there: both need not fit into memory, unless one goes on from the other
   }
   auto result = std::make_shared<const Matrices>(
       computed({scene, sector, cells, by, patterns(sector.mesh)}, same.get(), timings_s));
