@@ -83,6 +83,10 @@ class ErrorBarSources {
 
   [[nodiscard]] bool worn() const { return as_here_.until >= Stage::worn_state; }
 
+  /// What changes next to nothing goes the way that the base went: from elsewhere it may come to another of two maxima
+  /// that lie side by side.
+  enum class Way { from_base, of_base };
+
   /// A mesh on which other settings may be asked for.
   struct Base {
     const ModelBuilder* builder;
@@ -178,7 +182,8 @@ class ErrorBarSources {
           changed.solver.modes = std::max(2 * changed.solver.modes, changed.solver.modes + kCompanion.more_modes);
         }});
     if (scene_.solver.prestress == Prestress::shared)
-      ask(bases, "prestress", 1, {[](Scene& changed, Computation&) { changed.solver.prestress = Prestress::own; }});
+      ask(bases, "prestress", 1, {[](Scene& changed, Computation&) { changed.solver.prestress = Prestress::own; }},
+          Way::of_base);
     if (as_here_.until >= Stage::unworn) ask_truncation(of_contact);  // else nothing moves
   }
 
@@ -196,7 +201,8 @@ class ErrorBarSources {
   }
 
   /// Of the first base and the first of `changes` to it that has an answer.
-  void ask(std::span<const Base> bases, const char* source, double factor, const std::vector<Change>& changes) {
+  void ask(std::span<const Base> bases, const char* source, double factor, const std::vector<Change>& changes,
+           Way way = Way::from_base) {
     Evaluation answer;
     for (const Base& base : bases)
       for (const Change& change : changes) {
@@ -204,6 +210,10 @@ class ErrorBarSources {
         Computation how = as_here_;
         if (as_here_.from != nullptr) how.from = base.answer;
         how.grid_from = true;
+        if (way == Way::of_base) {
+          how.from = base.answer == &result_ ? nullptr : as_here_.from;
+          how.grid_from = false;
+        }
         change(changed, how);
         const bool same =
             changed.solver.modes == base.scene.solver.modes && changed.solver.prestress == base.scene.solver.prestress;
