@@ -85,18 +85,11 @@ struct Blocks {
         glued(glued_stiffness(basis, on_contact, coupling)) {}
 
   /// Adds Psi^T D Psi, with the fields of unit coordinates Psi = [X A^T, Phi] [[G^-1, -G^-1 Phi_r], [0, I]].
-  void add(const StiffnessChange& change, const ResidualFlexibility& structure, const Sparse& average) {
+  void add(const StiffnessChange& change, const Sparse& average) {
     const Eigen::Index nc = contact.rows(), m = coupling.cols();
-    Eigen::MatrixXd forced;
-    if (change.forced.size() > 0)
-      forced = change.forced * average.transpose();
-    else
-      forced =
-          structure.field(Eigen::MatrixXd::Zero(m, nc), Eigen::MatrixXd(average.transpose()))(change.rows, Eigen::all);
     Eigen::MatrixXd of_fields(nc + m, nc + m);
-    of_fields.topLeftCorner(nc, nc) =
-        numerics::transposed_product(forced, Eigen::MatrixXd(numerics::product(change.near, numerics::Rows(forced))));
-    of_fields.topRightCorner(nc, m) = numerics::transposed_product(forced, change.basis);
+    of_fields.topLeftCorner(nc, nc) = average * change.on_trace * average.transpose();
+    of_fields.topRightCorner(nc, m) = average * change.between;
     of_fields.bottomLeftCorner(m, nc) = of_fields.topRightCorner(nc, m).transpose();
     of_fields.bottomRightCorner(m, m) = change.on_basis;
     Eigen::MatrixXd coordinates = Eigen::MatrixXd::Identity(nc + m, nc + m);
@@ -198,36 +191,63 @@ TraceModel trace_model(const FullModel& full, const ReductionOptions& options, c
   return result;
 }
 
-StiffnessChange stiffness_change(const TraceModel& trace, Sparse change, const Eigen::MatrixXd& forced) {
-  StiffnessChange result;
-  Eigen::VectorXd largest = Eigen::VectorXd::Zero(change.cols());
-  for (Eigen::Index column = 0; column < change.outerSize(); ++column)
-    for (Sparse::InnerIterator entry(change, column); entry; ++entry)
+namespace {
+
+/// X^T D X and X^T D Phi, from X. Fields of forces decay: rows count where D is not negligible.
+void act_on_kept(const Eigen::MatrixXd& forced, const Eigen::MatrixXd& on_phi, StiffnessChange& change) {
+  const Sparse& whole = change.whole;
+  Eigen::VectorXd largest = Eigen::VectorXd::Zero(whole.cols());
+  for (Eigen::Index column = 0; column < whole.outerSize(); ++column)
+    for (Sparse::InnerIterator entry(whole, column); entry; ++entry)
       largest(column) = std::max(largest(column), std::abs(entry.value()));
   const double negligible = ChangeParams{}.negligible * largest.maxCoeff();
-  std::vector<int> place(static_cast<std::size_t>(change.cols()), -1);
-  for (Eigen::Index column = 0; column < change.cols(); ++column)
+  std::vector<int> place(static_cast<std::size_t>(whole.cols()), -1), rows;
+  for (Eigen::Index column = 0; column < whole.cols(); ++column)
     if (largest(column) > negligible) {
-      place[static_cast<std::size_t>(column)] = static_cast<int>(result.rows.size());
-      result.rows.push_back(static_cast<int>(column));
+      place[static_cast<std::size_t>(column)] = static_cast<int>(rows.size());
+      rows.push_back(static_cast<int>(column));
     }
-  const auto r = static_cast<Eigen::Index>(result.rows.size());
+  const auto r = static_cast<Eigen::Index>(rows.size());
   std::vector<Eigen::Triplet<double>> entries;
-  for (const int column : result.rows)
-    for (Sparse::InnerIterator entry(change, column); entry; ++entry) {
+  for (const int column : rows)
+    for (Sparse::InnerIterator entry(whole, column); entry; ++entry) {
       // Of a row left out, on the diagonal: a stress does nothing where bodies only move along.
       const int row = place[static_cast<std::size_t>(entry.row())], here = place[static_cast<std::size_t>(column)];
       entries.emplace_back(row >= 0 ? row : here, here, entry.value());
     }
-  result.near.resize(r, r);
-  result.near.setFromTriplets(entries.begin(), entries.end());
+  Eigen::SparseMatrix<double, Eigen::RowMajor> near(r, r);
+  near.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::MatrixXd x = forced(rows, Eigen::all);
+  change.on_trace = numerics::transposed_product(x, Eigen::MatrixXd(numerics::product(near, numerics::Rows(x))));
+  change.between = numerics::transposed_product(x, Eigen::MatrixXd(on_phi(rows, Eigen::all)));
+}
 
-  const Eigen::MatrixXd& phi = trace.structure->basis().vectors;
-  const Eigen::MatrixXd on_phi = numerics::symmetric_product(change, phi);
-  result.on_basis = symmetric(numerics::transposed_product(phi, on_phi));
-  result.basis = on_phi(result.rows, Eigen::all);
-  if (forced.size() > 0) result.forced = forced(result.rows, Eigen::all);
+/// The same where X is too large to be kept, some columns at a time.
+void act_on_solved(const ResidualFlexibility& structure, const Eigen::MatrixXd& on_phi, StiffnessChange& change) {
+  const Eigen::Index nt = structure.on_contact().rows(), m = on_phi.cols();
+  change.on_trace.resize(nt, nt);
+  for (Eigen::Index first = 0; first < nt; first += ChangeParams{}.fields_at_once) {
+    const Eigen::Index count = std::min<Eigen::Index>(ChangeParams{}.fields_at_once, nt - first);
+    const Eigen::MatrixXd forces = Eigen::MatrixXd::Identity(nt, nt).middleCols(first, count);
+    const Eigen::MatrixXd fields = structure.field(Eigen::MatrixXd::Zero(m, count), forces);
+    change.on_trace.middleCols(first, count) =
+        structure.response_on_contact(numerics::symmetric_product(change.whole, fields));
+  }
+  change.between = structure.response_on_contact(on_phi);
+}
+
+}  // namespace
+
+StiffnessChange stiffness_change(const TraceModel& trace, Sparse change, const Eigen::MatrixXd& forced) {
+  StiffnessChange result;
   result.whole.swap(change);
+  const Eigen::MatrixXd& phi = trace.structure->basis().vectors;
+  const Eigen::MatrixXd on_phi = numerics::symmetric_product(result.whole, phi);
+  result.on_basis = symmetric(numerics::transposed_product(phi, on_phi));
+  if (forced.size() > 0)
+    act_on_kept(forced, on_phi, result);
+  else
+    act_on_solved(*trace.structure, on_phi, result);
   return result;
 }
 
@@ -246,7 +266,7 @@ Reduction reduce(const TraceModel& trace, const Sparse& average, ContactNodes co
     return result;
   }
   Blocks blocks(basis, g, a * basis.vectors.bottomRows(a.cols()));
-  if (trace.change) blocks.add(*trace.change, *trace.structure, a);
+  if (trace.change) blocks.add(*trace.change, a);
   const numerics::SymmetricPairs glued = numerics::all_pairs<double>(blocks.glued);
   if (glued.status != Status::converged || (basis.vectors.cols() > 0 && !(glued.values(0) > 0))) {
     result.status = Status::singular;

@@ -45,15 +45,13 @@ struct Reduction : ModesRecord {
   Eigen::VectorXd glued_frequencies;  ///< [m] angular frequencies of the glued modes, rad/s, ascending
 };
 
-/// A small change D of the stiffness since a structure was reduced, as reduced models take it to first order.
+/// A small change D of the stiffness since a structure was reduced, as reduced models take it to first order: what it
+/// does on the modes of its basis and on the fields of unit forces on its trace, X [n, nt].
 struct StiffnessChange {
   Eigen::SparseMatrix<double> whole;  ///< D [n, n]
   Eigen::MatrixXd on_basis;           ///< Phi^T D Phi [m, m]
-  // Fields of contact forces decay: for them the rows count where D is not negligible.
-  std::vector<int> rows;                              ///< [r]
-  Eigen::SparseMatrix<double, Eigen::RowMajor> near;  ///< of D [r, r]
-  Eigen::MatrixXd forced;                             ///< X [r, nt]; empty: too large to be kept
-  Eigen::MatrixXd basis;                              ///< D Phi [r, m]
+  Eigen::MatrixXd on_trace;           ///< X^T D X [nt, nt]
+  Eigen::MatrixXd between;            ///< X^T D Phi [nt, m]
 };
 
 /// What a structure is at the trace of its contact, before contact nodes are laid on it: free-interface modes and the
@@ -75,8 +73,7 @@ using Factor = std::shared_ptr<const numerics::PartialCholesky>;
 [[nodiscard]] TraceModel trace_model(const FullModel& full, const ReductionOptions& options = {},
                                      const Factor& known = {});
 
-/// @param forced  displacements to unit forces on the trace, X [n, nt], or empty: back-solves for every grid of contact
-///                nodes instead
+/// @param forced  displacements to unit forces on the trace, X [n, nt], or empty: two back-solves for each instead
 [[nodiscard]] StiffnessChange stiffness_change(const TraceModel& trace, Eigen::SparseMatrix<double> change,
                                                const Eigen::MatrixXd& forced);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "optimizer/accuracy/params.hpp"
@@ -79,6 +80,28 @@ const Known& best_of(const std::vector<Known>& rounds) {
   return *std::ranges::min_element(rounds, {}, rank);
 }
 
+struct Foreseen {
+  Settings settings;
+  double excess;
+};
+
+/// What should do by the last round; where by that one nothing would, by the round before that foresees the least: one
+/// may be out of line.
+Foreseen foreseen(const std::vector<Settings>& all, const Forecast& last, std::span<const Known> rounds) {
+  const auto by = [&](const Forecast& forecast) {
+    const Settings there = cheapest(all, forecast, kParams.aim);
+    return Foreseen{.settings = there, .excess = forecast.excess(there)};
+  };
+  Foreseen least = by(last);
+  for (const Known& round : rounds) {
+    if (least.excess <= 1) break;
+    Forecast before = round.forecast;
+    before.take_orders(last);
+    if (const Foreseen other = by(before); other.excess < least.excess) least = other;
+  }
+  return least;
+}
+
 /// What the mesh beside the flanks leaves of each response, from the design on one that is coarser there.
 std::map<std::string, double> left_beside(const Scene& reference, const Scene& scene, Settings settings,
                                           Purpose purpose, const Evaluation& here) {
@@ -122,19 +145,18 @@ SettingsChoice choose_settings(const Scene& scene, const AccuracyGoal& goal, con
     }
     if (tried.by)
       known.push_back({.tried = tried, .evaluation = std::move(evaluation), .forecast = forecast});
-    else
-      std::erase(all, next);
+    if (tried.excess > 1 && all.size() > 1) std::erase(all, next);  // known not to do
     choice.rounds.push_back(tried);
     const bool go_on = !told || told(tried);
     if (known.empty() || !go_on) break;
     const SettingsTried& best = best_of(known).tried;
     if (best.excess <= 1 && !goal.many) break;
-    const Settings there = cheapest(all, forecast, kParams.aim);
-    if (const double least = forecast.excess(there); least > 1 && best.excess > 1 && known.size() > 1) {
-      choice.out_of_reach = least;
+    const Foreseen there = foreseen(all, forecast, best.excess > 1 ? known : std::span<const Known>());
+    if (there.excess > 1 && best.excess > 1 && known.size() > 1) {
+      choice.out_of_reach = there.excess;
       break;
     }
-    const Settings wanted = towards(there, all, next);
+    const Settings wanted = towards(there.settings, all, next);
     const bool tried_before = std::ranges::find(choice.rounds, wanted, &SettingsTried::settings) != choice.rounds.end();
     const bool hardly_cheaper = best.excess <= 1 && forecast.operations(wanted) > kParams.worth * best.operations;
     if (tried_before || hardly_cheaper) break;

@@ -64,11 +64,8 @@ void Forecast::add(const Settings& at, const Evaluation& evaluation, const std::
   const Settings was = std::exchange(at_, at);
   dofs_ = evaluation.model.at("dofs");
   const auto nodes = static_cast<Eigen::Index>(evaluation.model.at("contact_nodes"));
-  const Eigen::Index directions = in_space_ ? 3 : 2;
-  const double jacobian = steady::jacobian_operations(nodes, directions, at.harmonics, at.samples);
-  const double factorisation = steady::factorisation_operations(nodes * directions * (2 * at.harmonics + 1));
-  factorisations_ = evaluation.model.at("jacobians_spent") * factorisation;
-  marches_ = evaluation.model.at("jacobians_spent") * (jacobian - factorisation);
+  contact_ = evaluation.model.at("jacobians_spent") *
+             steady::jacobian_operations(nodes, in_space_ ? 3 : 2, at.harmonics, at.samples);
   std::vector<std::string> names = goal_->responses;
   if (names.empty())
     for (const Response& response : responses()) names.emplace_back(response.name);
@@ -82,10 +79,18 @@ void Forecast::add(const Settings& at, const Evaluation& evaluation, const std::
       if (part.response != old.response || part.source != old.source || part.knob != old.knob) continue;
       part.order = old.order;
       const double ratio = finer(part.knob, at_, was), expected = order(*part.response, part.source, part.knob);
-      if (ratio != 1 && old.share > 0 && part.share > 0)
+      // A part that grows where it should fall is off by more than its order could say.
+      if (ratio != 1 && old.share > 0 && part.share > 0 && (old.share > part.share) == (ratio > 1))
         part.order = std::clamp(std::log(old.share / part.share) / std::log(ratio), expected / kForecast.order_off,
                                 expected * kForecast.order_off);
     }
+}
+
+void Forecast::take_orders(const Forecast& later) {
+  for (Part& part : parts_)
+    for (const Part& known : later.parts_)
+      if (part.response == known.response && part.source == known.source && part.knob == known.knob)
+        part.order = known.order;
 }
 
 std::vector<std::string> Forecast::not_held() const {
@@ -132,11 +137,11 @@ double Forecast::operations(const Settings& there) const {
                          : std::pow(mesh, kForecast.dofs_along) * std::pow(beside, kForecast.dofs_beside));
   const double matrices = (in_space_ ? kForecast.matrices_by_in_space : kForecast.matrices_by) *
                           std::pow(dofs, in_space_ ? kForecast.matrices_in_space : kForecast.matrices_in_plane) *
-                          (1 - kForecast.modes_share + kForecast.modes_share * there.modes / kForecast.modes);
-  const double unknowns = std::pow(mesh, in_space_ ? 2 : 1) * finer(Knob::harmonics, there, at_);
-  const double states = states_by(there) / states_by(at_);
-  return matrices + states * (factorisations_ * std::pow(unknowns, kForecast.contact) +
-                              marches_ * unknowns * finer(Knob::samples, there, at_));
+                          std::pow(there.modes / kForecast.modes, kForecast.modes_power);
+  const double nodes = std::pow(mesh, in_space_ ? kForecast.nodes_in_space : kForecast.nodes_in_plane);
+  return matrices + contact_ * states_by(there) / states_by(at_) * std::pow(nodes, kForecast.contact_by_nodes) *
+                        std::pow(finer(Knob::harmonics, there, at_), kForecast.contact_by_harmonics) *
+                        std::pow(finer(Knob::samples, there, at_), kForecast.contact_by_samples);
 }
 
 /// A response without a value has no accuracy, one without a limit none that could be bought.

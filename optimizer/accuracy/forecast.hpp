@@ -55,12 +55,16 @@ class Forecast {
   /// @param beside  of each response's bar by the mesh: what the mesh beside the flanks leaves, where it is known
   void add(const Settings& at, const Evaluation& evaluation, const std::map<std::string, double>& beside = {});
 
+  /// The orders that a later one came to.
+  void take_orders(const Forecast& later);
+
   /// Responses asked for by name of which nothing is known.
   [[nodiscard]] std::vector<std::string> not_held() const;
   /// Largest bar over what is allowed of it.
   [[nodiscard]] double excess(const Settings& there) const;
   [[nodiscard]] std::optional<Dominant> dominant() const;
-  /// Of an evaluation without bars. Counted and not timed, so that the same is chosen on every machine.
+  /// Of an evaluation without bars, to compare settings by. Counted and not timed, so that the same is chosen on every
+  /// machine.
   [[nodiscard]] double operations(const Settings& there) const;
 
  private:
@@ -78,8 +82,8 @@ class Forecast {
   const AccuracyGoal* goal_;
   bool in_space_;
   Settings at_;
-  double dofs_ = 0;                          // unknowns of the mesh
-  double factorisations_ = 0, marches_ = 0;  // operations of all that follows the matrices
+  double dofs_ = 0;                      // unknowns of the mesh
+  double contact_ = 0;                   // operations of all that follows the matrices
   std::map<std::string, double> whole_;  // bars over values, with what no setting buys but what a history would settle
   std::vector<Part> parts_;              // those of a response one after the other
 };

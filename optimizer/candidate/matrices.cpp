@@ -122,7 +122,7 @@ void MatricesStages::reduce() {
   const reduction::Factor factor = matrices_.trace.structure ? matrices_.trace.structure->factor() : nullptr;
   matrices_.trace =
       reduction::trace_model(full_model(fem::constrain(matrices_.stiffness, matrices_.system.constraints)),
-                             {.modes = scene_.solver.modes, .damping_ratio = scene_.loading.damping_ratio}, factor);
+                             {.modes = scene_.solver.modes}, factor);
   if (matrices_.trace.status != Status::converged)
     matrices_.status = failed_at("reduction", matrices_.trace.status) + " " + matrices_.trace.message;
   else if (scene_.solver.prestress == Prestress::shared)

@@ -30,6 +30,7 @@ void add_dominant(const std::optional<optimizer::Dominant>& by, Json& json) {
 Json accuracy_json(const optimizer::Scene& scene, const optimizer::SettingsChoice& choice) {
   Json json{{"status", to_string(choice.status)}, {"settings", settings_json(scene, choice.settings)}};
   add_dominant(choice.tried.by, json);
+  json["not_held"] = choice.not_held;
   json["rounds"] = Json::array();
   for (const optimizer::SettingsTried& tried : choice.rounds) {
     Json round{{"settings", settings_json(scene, tried.settings)}, {"status", tried.status}};

@@ -158,15 +158,13 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
                                          ? choice->evaluation
                                          : scene_evaluator(study)->evaluate(study.scene, purpose).evaluation;
   const std::string inaccurate = choice ? accuracy_complaint(asked, *choice) : std::string();
+  if (choice && !digit_words(*choice).empty()) streams.err << "dovetail: " << digit_words(*choice) << "\n";
   if (!inaccurate.empty() && !evaluation.infeasible()) evaluation.messages.push_back(inaccurate);
   // Rounds ask no history, and know nothing of what else no setting buys.
   const std::optional<optimizer::Dominant> whole =
       choice && !goal->of_truncation ? whole_bar(*goal, evaluation) : std::nullopt;
-  if (whole && whole->relative > whole->asked && choice->status == Status::converged)
-    evaluation.messages.push_back(fmt::format(
-        "as far as settings buy it the accuracy asked for is reached; with all parts of its bar {} is known "
-        "to {:.2g} % (asked: {:.2g} %), most of it by {}",
-        whole->response, 100 * whole->relative, 100 * whole->asked, whole->source));
+  if (const std::string words = whole_words(whole); !words.empty() && choice->status == Status::converged)
+    evaluation.messages.push_back(words);
   std::vector<std::string> unjudged;
   if (options.unworn && evaluation.converged()) unjudged = keep_unworn(study.problem, evaluation);
   optimizer::annotate(study.problem, study.optimizer.constraint_tolerance, evaluation);

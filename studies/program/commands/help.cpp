@@ -24,10 +24,13 @@ CommandHelp evaluate() {
                     "accuracy in the\n"
                     "study, or --harmonics auto, --samples auto, also \"accuracy\": {\"status\", \"settings\", "
                     "\"response\", \"source\",\n"
-                    "\"relative_bar\", \"relative_bar_total\", \"asked\", \"rounds\", \"one_more_digit\"[, "
-                    "\"whole_bar\"]}: what was chosen,\n"
-                    "and the response whose bar is largest over what was asked; exit status 3 where that is not "
-                    "reached."};
+                    "\"relative_bar\", \"relative_bar_total\", \"asked\", \"not_held\", \"rounds\", "
+                    "\"one_more_digit\"[, \"whole_bar\"]}:\n"
+                    "what was chosen, and the response whose bar is largest over what was asked; exit status 3 where "
+                    "that is not\n"
+                    "reached. not_held: responses asked for whose value is zero or missing, or has no bar. "
+                    "one_more_digit: null where\n"
+                    "no settings there are should leave a tenth."};
 }
 
 CommandHelp reduce() {

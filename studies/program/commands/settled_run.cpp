@@ -60,6 +60,13 @@ void keep(const std::filesystem::path& file, const std::string& question, const 
   replace_file(file, json.dump(1) + "\n");
 }
 
+InputError damaged(const std::filesystem::path& file) {
+  return InputError(Violation{.file = file.string(),
+                              .key = "the file",
+                              .value = {},
+                              .allowed = "is damaged: remove it, and --resume chooses the settings again"});
+}
+
 /// What was chosen before for the same question; nothing where none was. Throws InputError for a damaged file.
 std::optional<Chosen> kept(const std::filesystem::path& file, const std::string& question) {
   std::ifstream stream(file);
@@ -71,10 +78,7 @@ std::optional<Chosen> kept(const std::filesystem::path& file, const std::string&
                   .noise = json.at("noise").get<double>(),
                   .accuracy = json.at("accuracy")};
   } catch (const Json::exception&) {
-    throw InputError(Violation{.file = file.string(),
-                               .key = "the file",
-                               .value = {},
-                               .allowed = "is damaged: remove it, and --resume chooses the settings again"});
+    throw damaged(file);
   }
 }
 
@@ -97,7 +101,8 @@ std::optional<optimizer::SettingsChoice> choose(const Study& there, const char* 
     if (!there.given.contains(key)) result.settings[key] = value;
   result.accuracy = accuracy_json(there.scene, *choice);
   result.accuracy["at"] = where;
-  if (const std::string open = accuracy_complaint(there, *choice); !open.empty()) err << "dovetail: " << open << "\n";
+  for (const std::string& words : {accuracy_complaint(there, *choice), digit_words(*choice)})
+    if (!words.empty()) err << "dovetail: " << words << "\n";
   return choice;
 }
 
@@ -113,12 +118,16 @@ Study verified(Study study) {
   return study;
 }
 
-/// The study as if what was chosen stood in its file.
-Study with_chosen(const Study& study, const Chosen& chosen) {
+/// The study as if what was chosen stood in its file; `kept_in` is where it was read from, if it was.
+Study with_chosen(const Study& study, const Chosen& chosen, const std::filesystem::path& kept_in) {
   Study result = study;
-  if (!chosen.settings.empty())
-    result =
-        read_study(parse_document(with_values(parse_document(study.text, study.file), chosen.settings), study.file));
+  try {
+    if (!chosen.settings.empty())
+      result =
+          read_study(parse_document(with_values(parse_document(study.text, study.file), chosen.settings), study.file));
+  } catch (const InputError&) {
+    throw damaged(kept_in);  // the study was read without them
+  }
   result.optimizer.noise = chosen.noise;
   return result;
 }
@@ -182,7 +191,7 @@ SettledStudy settled_run(const Study& asked, const std::filesystem::path& direct
     settled = chosen(asked, make_engine, err);
     keep(file, question, *settled);
   }
-  return {.study = with_chosen(asked, *settled), .accuracy = chooses ? came_to(settled->accuracy) : ""};
+  return {.study = with_chosen(asked, *settled, file), .accuracy = chooses ? came_to(settled->accuracy) : ""};
 }
 
 std::optional<optimizer::AccuracyGoal> goal_at_best(const Study& asked) {
@@ -227,7 +236,7 @@ SettledStudy settled_best(const Study& asked, const Study& searched, const optim
     if (interrupt.requested()) return {.study = searched};
     keep(file, question, *settled);
   }
-  return {.study = with_chosen(searched, *settled), .accuracy = came_to(settled->accuracy)};
+  return {.study = with_chosen(searched, *settled, file), .accuracy = came_to(settled->accuracy)};
 }
 
 }  // namespace dovetail::studies

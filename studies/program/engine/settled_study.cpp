@@ -94,6 +94,20 @@ std::optional<optimizer::Dominant> whole_bar(const optimizer::AccuracyGoal& goal
   return worst;
 }
 
+std::string whole_words(const std::optional<optimizer::Dominant>& whole) {
+  if (!whole || whole->relative <= whole->asked) return {};
+  return fmt::format(
+      "as far as settings buy it the accuracy asked for is reached; with all parts of its bar {} is known to {:.2g} % "
+      "(asked: {:.2g} %), most of it by {}",
+      whole->response, 100 * whole->relative, 100 * whole->asked, whole->source);
+}
+
+std::string digit_words(const optimizer::SettingsChoice& choice) {
+  if (choice.status != Status::converged) return {};
+  if (!choice.one_more_digit) return "a tenth of these bars: no settings there are should leave as little";
+  return fmt::format("a tenth of these bars: about {:.2g} times the work", choice.one_more_digit->times_as_long);
+}
+
 AccuracyHeld accuracy_held(const optimizer::Scene& scene, const optimizer::AccuracyGoal& goal,
                            const optimizer::Evaluation& evaluation) {
   std::optional<optimizer::Dominant> by;
@@ -104,15 +118,16 @@ AccuracyHeld accuracy_held(const optimizer::Scene& scene, const optimizer::Accur
   }
   if (!by) return {.reached = false, .words = "the accuracy asked for is not known to be reached: no bar says how"};
   const bool reached = by->relative <= by->asked;
-  return {.reached = reached,
-          .words = fmt::format("the accuracy asked for is {}reached: {}", reached ? "" : "not ", known(*by))};
+  std::string words = fmt::format("the accuracy asked for is {}reached: {}", reached ? "" : "not ", known(*by));
+  if (const std::string whole = whole_words(whole_bar(goal, evaluation)); reached && !whole.empty())
+    words += ". " + whole;
+  return {.reached = reached, .words = words};
 }
 
 std::string round_words(const Study& study, const optimizer::SettingsTried& tried) {
   const optimizer::Scene there = optimizer::with_settings(study.scene, tried.settings);
   std::string text = fmt::format("{} edges per flank", there.mesh.flank_elements);
-  if (const double beside = tried.settings.beside;
-      beside != tried.settings.mesh && optimizer::chooses_beside(study.scene, {}))
+  if (const double beside = tried.settings.beside; beside != 1 && optimizer::chooses_beside(study.scene, {}))
     text += fmt::format(" (beside them {:.2g} times the file's)", beside);
   text += fmt::format(", {} harmonics, {} samples, {} modes: ", there.solver.harmonics, there.solver.samples,
                       there.solver.modes);
@@ -123,8 +138,10 @@ std::string accuracy_complaint(const Study& study, const optimizer::SettingsChoi
   if (!choice.tried.by)
     return "no settings could be chosen: at the design's own ones no response asked for has a value and an error bar";
   if (choice.status == Status::converged && !choice.not_held.empty())
-    return fmt::format("settings were chosen without {}: no value, or no error bar, says how accurate it is",
-                       fmt::join(choice.not_held, ", "));
+    return fmt::format(
+        "settings were chosen without {}: a value that is zero or missing, or has no error bar, has no "
+        "relative accuracy",
+        fmt::join(choice.not_held, ", "));
   if (choice.status == Status::converged) return {};
   std::vector<std::string> held;
   for (const std::string& key : study.given)

@@ -206,8 +206,8 @@ std::vector<std::string> warnings(const Study& study) {
   const double searched = study.scene.solver.accuracy, handed = study.optimizer.verify_accuracy;
   if (searched > 0 && handed > searched)
     result.push_back(
-        "optimizer.verify_accuracy asks for less at the best design than solver.accuracy does of the search: with the "
-        "settings of the search it is met.");
+        "optimizer.verify_accuracy asks for less at the best design than solver.accuracy does of the search: settings "
+        "are chosen for it all the same, coarser ones perhaps than those of the search.");
   return result;
 }
 

@@ -15,11 +15,15 @@ namespace {
 
 constexpr const char* kVolume = "asymptotic_wear_volume_m3";
 
-/// In units of those in which all nodes take part: the more there are, the fewer of them do. Coarser tolerances of
-/// resonances spare some.
-double jacobians(const Settings& s) {
-  return 8 * std::pow(s.mesh * (2.0 * s.harmonics + 1) / 11, -0.6) *
-         (1 - 0.15 * std::log10(s.resonance_tolerance / 1e-7));
+/// Of all that follows the matrices, a little off the powers that are expected.
+double contact_operations(const Settings& s) {
+  return 3e9 * std::pow(s.mesh, 1.0) * std::pow((2.0 * s.harmonics + 1) / 11, 1.0) * std::pow(s.samples / 128.0, 0.5) *
+         (1 - 0.1 * std::log10(s.resonance_tolerance / 1e-7));
+}
+
+/// The matrices with it.
+double operations(const Settings& s) {
+  return 6e9 * std::pow(s.mesh, 0.45) * std::pow(s.beside, 0.9) * std::pow(s.modes / 20.0, 0.3) + contact_operations(s);
 }
 
 /// A design whose bars fall with powers of the settings, not quite those that are expected of it.
@@ -49,10 +53,12 @@ struct Laws {
       Evaluation evaluation;
       evaluation.responses[kVolume] = 1;
       evaluation.error_sources[kVolume] = at(s);
-      const double nodes = std::round(34 * s.mesh);
-      evaluation.model = {{"dofs", 16000 * std::pow(s.mesh, 0.4) * std::pow(s.beside, 0.8)},
-                          {"contact_nodes", nodes},
-                          {"jacobians_spent", jacobians(s)}};
+      const double nodes = std::round(34 * std::sqrt(s.mesh));
+      evaluation.model = {
+          {"dofs", 16000 * std::pow(s.mesh, 0.4) * std::pow(s.beside, 0.8)},
+          {"contact_nodes", nodes},
+          {"jacobians_spent", contact_operations(s) / steady::jacobian_operations(static_cast<Eigen::Index>(nodes), 2,
+                                                                                  s.harmonics, s.samples)}};
       return {evaluation, {{kVolume, left_beside(s)}}};
     };
   }
@@ -71,13 +77,9 @@ TEST(Accuracy, IsReachedAtHardlyMoreThanTheLeastCost) {
     EXPECT_LE(calls, 8);
     // Of all that keep a little distance from what is asked.
     double least = kInfinity, own = 0;
-    const auto cost = [](const Settings& s) {
-      return 1.8e9 * std::pow(s.mesh, 0.48) * std::pow(s.beside, 0.96) * (0.6 + 0.4 * s.modes / 20) +
-             jacobians(s) * steady::jacobian_operations(std::lround(34 * s.mesh), 2, s.harmonics, s.samples);
-    };
     for (const Settings& settings : all_settings(scene, {}, 0.02))
-      if (laws.sum(settings) <= 0.95 * kGoal.relative) least = std::min(least, cost(settings));
-    own = cost(choice.settings);
+      if (laws.sum(settings) <= 0.95 * kGoal.relative) least = std::min(least, operations(settings));
+    own = operations(choice.settings);
     EXPECT_LE(own, 1.5 * least) << choice.settings.mesh << " " << choice.settings.beside << " "
                                 << choice.settings.harmonics << " " << choice.settings.samples << " "
                                 << choice.settings.modes;
@@ -179,8 +181,23 @@ TEST(Accuracy, OutOfReachOfEverySettingCostsTwoRounds) {
   EXPECT_GT(*choice.out_of_reach, 1);
   ASSERT_EQ(choice.rounds.size(), 2U);
   EXPECT_LT(choice.rounds[1].excess, choice.rounds[0].excess);
-  EXPECT_EQ(choice.settings, choice.rounds[0].settings);
+  EXPECT_LE(choice.tried.operations, choice.rounds[0].operations);
   EXPECT_FALSE(choose_settings(Scene{}, kGoal, Laws{}.probe()).out_of_reach);
+}
+
+// A round whose bars are out of line, above those of coarser settings, is no reason to give up, nor to expect bars that
+// do not fall.
+TEST(Accuracy, OneRoundOutOfLineIsNotTheLastWord) {
+  for (const int wrong : {2, 3, 4}) {
+    const Laws laws{.mesh = 0.1, .harmonics = 0.05};
+    Laws off = laws;
+    off.mesh *= 4;
+    int calls = 0;
+    const SettingsChoice choice =
+        choose_settings(Scene{}, kGoal, [&](const Settings& s) { return (++calls == wrong ? off : laws).probe()(s); });
+    EXPECT_EQ(choice.status, Status::converged) << wrong;
+    EXPECT_LE(laws.sum(choice.settings), kGoal.relative) << wrong;
+  }
 }
 
 // What one evaluation would save by settings that are cheaper still pays for no round.
@@ -200,11 +217,15 @@ TEST(Accuracy, OfOneEvaluationIsThatOfTheFirstSettingsThatWillDo) {
   }
 }
 
-// One digit more is ten times the accuracy of histories, too.
-TEST(Accuracy, OneMoreDigitIsOneOfHistories) {
+// One digit more is ten times the accuracy of histories, too, and its price is about what it takes.
+TEST(Accuracy, OneMoreDigitIsOneOfHistoriesAtItsPrice) {
   const Laws laws{.mesh = 2e-3, .harmonics = 2e-3, .samples = 1e-3};
   const SettingsChoice choice = choose_settings(Scene{}, kGoal, laws.probe());
   ASSERT_TRUE(choice.one_more_digit);
+  const Settings& there = choice.one_more_digit->settings;
+  const double times = operations(there) / operations(choice.settings);
+  EXPECT_LT(choice.one_more_digit->times_as_long, 2 * times);
+  EXPECT_GT(choice.one_more_digit->times_as_long, times / 2);
   EXPECT_NEAR(choice.settings.history_tolerance, 2e-3, 1e-12);
   EXPECT_NEAR(choice.one_more_digit->settings.history_tolerance, 2e-4, 1e-12);
 }
