@@ -14,6 +14,9 @@ struct SettingLadders {
   std::array<double, 6> beside{0.5, 0.707, 1, 1.414, 2, 2.828};  ///< the same beside the flanks
   std::array<int, 9> harmonics{3, 5, 7, 9, 11, 15, 19, 23, 31};  ///< even ones hardly move of flanks under pressure
   std::array<int, 9> samples{64, 96, 128, 192, 256, 384, 512, 768, 1024};
+  /// Samples over 2H+1, at least. Fewer: what more harmonics change is what their few samples leave, and harmonics are
+  /// bought for it.
+  int samples_per_coefficient = 8;
   std::array<int, 9> modes{4, 6, 8, 12, 16, 20, 30, 45, 60};
   std::array<double, 3> resonance_tolerance{1e-7, 1e-6, 1e-5};
   /// Of the half width of a peak, that the tolerance may be at most: amplitudes there err by half the square of it.
@@ -44,7 +47,7 @@ struct SettingsParams {
   /// number where there are short ones beside them), by 2H+1 and by the samples. Operations of Newton's method alone
   /// would say 3 and 3: most nodes hardly take part, and fewer steps do more.
   double nodes_in_plane = 0.5, nodes_in_space = 1.5;
-  double contact_by_nodes = 1.8, contact_by_harmonics = 0.7, contact_by_samples = 0.4;
+  double contact_by_nodes = 1.8, contact_by_harmonics = 1.2, contact_by_samples = 0.4;
   double by_digit = 0.12, coarsest_tolerance = 1e-5;  ///< and by each digit of the resonances, from 1e-5 on
   double least_share = 0.1;     ///< of what a mesh leaves, that either part of it counts for at least: none is free
   double coarser_beside = 1.5;  ///< sizes of elements beside the flanks of the mesh that says what they leave

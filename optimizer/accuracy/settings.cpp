@@ -115,6 +115,7 @@ std::vector<Settings> all_settings(const Scene& scene, const std::set<std::strin
         // Aliases are kept out, but where both numbers are the user's.
         const bool both_given = given("solver.harmonics") && given("solver.samples");
         if (!both_given && quality::samples_for(harmonics, samples) != samples) continue;
+        if (!given("solver.samples") && samples < kLadders.samples_per_coefficient * (2 * harmonics + 1)) continue;
         for (const int modes : rungs<int>(kLadders.modes, scene.solver.modes, given("solver.modes")))
           if (modes >= scene.loading.mode || given("solver.modes"))
             for (const double tolerance : tolerances)
