@@ -143,8 +143,7 @@ SettingsChoice choose_settings(const Scene& scene, const AccuracyGoal& goal, con
       tried.operations = forecast.operations(next);
       if (known.empty()) choice.not_held = forecast.not_held();
     }
-    if (tried.by)
-      known.push_back({.tried = tried, .evaluation = std::move(evaluation), .forecast = forecast});
+    if (tried.by) known.push_back({.tried = tried, .evaluation = std::move(evaluation), .forecast = forecast});
     if (tried.excess > 1 && all.size() > 1) std::erase(all, next);  // known not to do
     choice.rounds.push_back(tried);
     const bool go_on = !told || told(tried);

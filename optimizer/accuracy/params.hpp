@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 namespace dovetail::optimizer {
 
@@ -26,9 +27,10 @@ struct SettingLadders {
   double history = 0.1, loosest_history = 5e-3;
 };
 
-/// How settings are foreseen from an evaluation with bars. Powers of operations in the plane are fitted to the seconds
-/// of 145 settings of the quickstart's design (16 to 82 contact nodes), within a fifth of them; those of two other
-/// designs would be the same but for that of 2H+1, 0.5 to 1.1. Those in space are estimates. Off by one: another round.
+/// How settings are foreseen from evaluations with bars. Powers of operations in the plane: by the seconds of 145
+/// settings of the quickstart's design (16 to 82 contact nodes), of which what follows the matrices grows with the
+/// powers 1.7 of the nodes and 0.7 of 2H+1, and somewhat larger, as designs with more slip have up to 3 and 1.1. Those
+/// in space are estimates. Off by one: another round.
 struct SettingsParams {
   double by_harmonics = 1.5;  ///< order of what harmonics and the pseudo-penalty leave, by 2H+1
   double by_samples = 1;      ///< of samples
@@ -43,11 +45,10 @@ struct SettingsParams {
   /// In the plane, by the edges along the flanks and by those beside them: 24 and 48 along them, half as many to twice
   /// as many beside.
   double dofs_along = 0.4, dofs_beside = 0.8;
-  /// What follows the matrices: by the contact nodes, which grow by another power of the mesh (long cells grow in
-  /// number where there are short ones beside them), by 2H+1 and by the samples. Operations of Newton's method alone
-  /// would say 3 and 3: most nodes hardly take part, and fewer steps do more.
+  /// What follows the matrices: by the contact nodes, which grow by another power of the mesh (long cells do not become
+  /// more where there are short ones beside them), by 2H+1 and by the samples.
   double nodes_in_plane = 0.5, nodes_in_space = 1.5;
-  double contact_by_nodes = 1.8, contact_by_harmonics = 1.2, contact_by_samples = 0.4;
+  double contact_by_nodes = 2.4, contact_by_harmonics = 1.6, contact_by_samples = 0.5;
   double by_digit = 0.12, coarsest_tolerance = 1e-5;  ///< and by each digit of the resonances, from 1e-5 on
   double least_share = 0.1;     ///< of what a mesh leaves, that either part of it counts for at least: none is free
   double coarser_beside = 1.5;  ///< sizes of elements beside the flanks of the mesh that says what they leave
@@ -55,10 +56,21 @@ struct SettingsParams {
   double as_good = 1.02;        ///< bars over the least ones that settings reach: for less no knob is turned
   double hardly_worse = 1.25;   ///< bars over the least ones reached, of settings that are kept where none are enough
   double worth = 0.85;          ///< of the operations: for less than that saved nothing else is tried
-  double step = 1.7;            ///< no setting changes by more from one round to the next
-  int rounds = 8;
+  double step = 1.58;           ///< no setting changes by more from one round to the next
+  int rounds = 10;
 };
 
+/// Whether one round reaches the next rung from any of a ladder.
+template <class Rungs>
+constexpr bool climbable(const Rungs& rungs, double offset = 0, double factor = 1) {
+  for (std::size_t i = 0; i + 1 < rungs.size(); ++i)
+    if (factor * rungs[i + 1] + offset > SettingsParams{}.step * (factor * rungs[i] + offset)) return false;
+  return true;
+}
+static_assert(climbable(SettingLadders{}.mesh) && climbable(SettingLadders{}.beside) &&
+                  climbable(SettingLadders{}.harmonics, 1, 2) && climbable(SettingLadders{}.samples) &&
+                  climbable(SettingLadders{}.modes),
+              "a knob whose next rung is out of reach stays where it is for ever");
 static_assert(SettingsParams{}.aim < 1 && SettingsParams{}.worth < 1 && SettingsParams{}.step > 1,
               "shares and a factor");
 

@@ -17,7 +17,7 @@ constexpr const char* kVolume = "asymptotic_wear_volume_m3";
 
 /// Of all that follows the matrices, a little off the powers that are expected.
 double contact_operations(const Settings& s) {
-  return 3e9 * std::pow(s.mesh, 1.0) * std::pow((2.0 * s.harmonics + 1) / 11, 1.0) * std::pow(s.samples / 128.0, 0.5) *
+  return 3e9 * std::pow(s.mesh, 1.1) * std::pow((2.0 * s.harmonics + 1) / 11, 1.3) * std::pow(s.samples / 128.0, 0.5) *
          (1 - 0.1 * std::log10(s.resonance_tolerance / 1e-7));
 }
 
