@@ -193,47 +193,46 @@ TraceModel trace_model(const FullModel& full, const ReductionOptions& options, c
 
 namespace {
 
-/// X^T D X and X^T D Phi, from X. Fields of forces decay: rows count where D is not negligible.
-void act_on_kept(const Eigen::MatrixXd& forced, const Eigen::MatrixXd& on_phi, StiffnessChange& change) {
-  const Sparse& whole = change.whole;
-  Eigen::VectorXd largest = Eigen::VectorXd::Zero(whole.cols());
-  for (Eigen::Index column = 0; column < whole.outerSize(); ++column)
-    for (Sparse::InnerIterator entry(whole, column); entry; ++entry)
+/// Those of a matrix that are not negligible.
+std::vector<int> rows_that_count(const Sparse& matrix) {
+  Eigen::VectorXd largest = Eigen::VectorXd::Zero(matrix.cols());
+  for (Eigen::Index column = 0; column < matrix.outerSize(); ++column)
+    for (Sparse::InnerIterator entry(matrix, column); entry; ++entry)
       largest(column) = std::max(largest(column), std::abs(entry.value()));
   const double negligible = ChangeParams{}.negligible * largest.maxCoeff();
-  std::vector<int> place(static_cast<std::size_t>(whole.cols()), -1), rows;
-  for (Eigen::Index column = 0; column < whole.cols(); ++column)
-    if (largest(column) > negligible) {
-      place[static_cast<std::size_t>(column)] = static_cast<int>(rows.size());
-      rows.push_back(static_cast<int>(column));
-    }
-  const auto r = static_cast<Eigen::Index>(rows.size());
+  std::vector<int> rows;
+  for (Eigen::Index column = 0; column < matrix.cols(); ++column)
+    if (largest(column) > negligible) rows.push_back(static_cast<int>(column));
+  return rows;
+}
+
+/// A symmetric matrix on some of its rows.
+Eigen::SparseMatrix<double, Eigen::RowMajor> on_rows(const Sparse& matrix, const std::vector<int>& rows) {
+  std::vector<int> place(static_cast<std::size_t>(matrix.cols()), -1);
+  for (std::size_t i = 0; i < rows.size(); ++i) place[static_cast<std::size_t>(rows[i])] = static_cast<int>(i);
   std::vector<Eigen::Triplet<double>> entries;
   for (const int column : rows)
-    for (Sparse::InnerIterator entry(whole, column); entry; ++entry) {
+    for (Sparse::InnerIterator entry(matrix, column); entry; ++entry) {
       // Of a row left out, on the diagonal: a stress does nothing where bodies only move along.
       const int row = place[static_cast<std::size_t>(entry.row())], here = place[static_cast<std::size_t>(column)];
       entries.emplace_back(row >= 0 ? row : here, here, entry.value());
     }
-  Eigen::SparseMatrix<double, Eigen::RowMajor> near(r, r);
-  near.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::MatrixXd x = forced(rows, Eigen::all);
-  change.on_trace = numerics::transposed_product(x, Eigen::MatrixXd(numerics::product(near, numerics::Rows(x))));
-  change.between = numerics::transposed_product(x, Eigen::MatrixXd(on_phi(rows, Eigen::all)));
+  const auto r = static_cast<Eigen::Index>(rows.size());
+  Eigen::SparseMatrix<double, Eigen::RowMajor> result(r, r);
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
 }
 
-/// The same where X is too large to be kept, some columns at a time.
-void act_on_solved(const ResidualFlexibility& structure, const Eigen::MatrixXd& on_phi, StiffnessChange& change) {
-  const Eigen::Index nt = structure.on_contact().rows(), m = on_phi.cols();
-  change.on_trace.resize(nt, nt);
+/// Some rows of displacements to unit forces on the trace, of all a part at a time.
+Eigen::MatrixXd forced_on(const std::vector<int>& rows, const ResidualFlexibility& structure) {
+  const Eigen::Index nt = structure.on_contact().rows(), m = structure.basis().vectors.cols();
+  Eigen::MatrixXd x(static_cast<Eigen::Index>(rows.size()), nt);
   for (Eigen::Index first = 0; first < nt; first += ChangeParams{}.fields_at_once) {
     const Eigen::Index count = std::min<Eigen::Index>(ChangeParams{}.fields_at_once, nt - first);
     const Eigen::MatrixXd forces = Eigen::MatrixXd::Identity(nt, nt).middleCols(first, count);
-    const Eigen::MatrixXd fields = structure.field(Eigen::MatrixXd::Zero(m, count), forces);
-    change.on_trace.middleCols(first, count) =
-        structure.response_on_contact(numerics::symmetric_product(change.whole, fields));
+    x.middleCols(first, count) = structure.field(Eigen::MatrixXd::Zero(m, count), forces)(rows, Eigen::all);
   }
-  change.between = structure.response_on_contact(on_phi);
+  return x;
 }
 
 }  // namespace
@@ -244,10 +243,13 @@ StiffnessChange stiffness_change(const TraceModel& trace, Sparse change, const E
   const Eigen::MatrixXd& phi = trace.structure->basis().vectors;
   const Eigen::MatrixXd on_phi = numerics::symmetric_product(result.whole, phi);
   result.on_basis = symmetric(numerics::transposed_product(phi, on_phi));
-  if (forced.size() > 0)
-    act_on_kept(forced, on_phi, result);
-  else
-    act_on_solved(*trace.structure, on_phi, result);
+  // Fields of contact forces decay: of them the rows count where the change is not negligible.
+  const std::vector<int> rows = rows_that_count(result.whole);
+  const Eigen::MatrixXd x =
+      forced.size() > 0 ? Eigen::MatrixXd(forced(rows, Eigen::all)) : forced_on(rows, *trace.structure);
+  const numerics::Rows changed = numerics::product(on_rows(result.whole, rows), numerics::Rows(x));
+  result.on_trace = numerics::transposed_product(x, Eigen::MatrixXd(changed));
+  result.between = numerics::transposed_product(x, Eigen::MatrixXd(on_phi(rows, Eigen::all)));
   return result;
 }
 

@@ -73,7 +73,7 @@ using Factor = std::shared_ptr<const numerics::PartialCholesky>;
 [[nodiscard]] TraceModel trace_model(const FullModel& full, const ReductionOptions& options = {},
                                      const Factor& known = {});
 
-/// @param forced  displacements to unit forces on the trace, X [n, nt], or empty: two back-solves for each instead
+/// @param forced  displacements to unit forces on the trace, X [n, nt], or empty: a back-solve for each instead
 [[nodiscard]] StiffnessChange stiffness_change(const TraceModel& trace, Eigen::SparseMatrix<double> change,
                                                const Eigen::MatrixXd& forced);
 

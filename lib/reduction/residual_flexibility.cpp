@@ -50,43 +50,28 @@ Eigen::MatrixXd ResidualFlexibility::field(const Eigen::Ref<const Eigen::MatrixX
   return x;
 }
 
-Eigen::MatrixXd ResidualFlexibility::constrained_response(const Eigen::Ref<const Eigen::MatrixXd>& loads) const {
+Eigen::MatrixXd ResidualFlexibility::response(const Eigen::Ref<const Eigen::MatrixXd>& loads) const {
   // As in the constructor, with a load: y = [g; h] eliminated, x_r = (S + N d^-1 N^T)^-1 (h - N d^-1 E^T g),
   // mu = d^-1 (E^T g + N^T x_r), z_i = g - E mu, x = substitute([z_i; x_r]).
   const Eigen::Index contact = stiffness_->border(), internal = stiffness_->size() - contact;
+  const Eigen::Index low = inertia_.cols(), m = basis_.vectors.cols();
   Eigen::MatrixXd y = stiffness_->eliminate(loads);
   Eigen::MatrixXd right = y.bottomRows(contact);
-  if (inertia_.cols() == 0) {
+  if (low > 0) {
+    const Eigen::MatrixXd constrained = numerics::transposed_product(inertia_, Eigen::MatrixXd(y.topRows(internal)));
+    right -= numerics::transposed_product(multiplier_, constrained);
     y.bottomRows(contact) = numerics::product(constrained_, right);
-    return y;
+    const Eigen::MatrixXd multipliers =
+        inertia_gram_->solve(constrained) + numerics::product(multiplier_, Eigen::MatrixXd(y.bottomRows(contact)));
+    y.topRows(internal) -= numerics::product(inertia_, multipliers);
+  } else {
+    y.bottomRows(contact) = numerics::product(constrained_, right);
   }
-  const Eigen::MatrixXd constrained = numerics::transposed_product(inertia_, Eigen::MatrixXd(y.topRows(internal)));
-  right -= numerics::transposed_product(multiplier_, constrained);
-  y.bottomRows(contact) = numerics::product(constrained_, right);
-  const Eigen::MatrixXd multipliers =
-      inertia_gram_->solve(constrained) + numerics::product(multiplier_, Eigen::MatrixXd(y.bottomRows(contact)));
-  y.topRows(internal) -= numerics::product(inertia_, multipliers);
-  return y;
-}
-
-Eigen::MatrixXd ResidualFlexibility::taken_by_basis(const Eigen::Ref<const Eigen::MatrixXd>& loads) const {
-  const Eigen::Index low = inertia_.cols(), m = basis_.vectors.cols();
+  Eigen::MatrixXd x = stiffness_->substitute(y);
   Eigen::MatrixXd along = numerics::transposed_product(basis_.vectors, Eigen::MatrixXd(loads));
   along.topRows(low).setZero();
   along.bottomRows(m - low).array().colwise() /= basis_.eigenvalues.tail(m - low).array();
-  return along;
-}
-
-Eigen::MatrixXd ResidualFlexibility::response(const Eigen::Ref<const Eigen::MatrixXd>& loads) const {
-  Eigen::MatrixXd x = stiffness_->substitute(constrained_response(loads));
-  numerics::add_product(basis_.vectors, Eigen::MatrixXd(-taken_by_basis(loads)), x);
-  return x;
-}
-
-Eigen::MatrixXd ResidualFlexibility::response_on_contact(const Eigen::Ref<const Eigen::MatrixXd>& loads) const {
-  const Eigen::Index contact = stiffness_->border();
-  Eigen::MatrixXd x = constrained_response(loads).bottomRows(contact);
-  numerics::add_product(basis_.vectors.bottomRows(contact), Eigen::MatrixXd(-taken_by_basis(loads)), x);
+  numerics::add_product(basis_.vectors, Eigen::MatrixXd(-along), x);
   return x;
 }
 

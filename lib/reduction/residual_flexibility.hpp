@@ -34,15 +34,8 @@ class ResidualFlexibility {
   /// Displacement [n, k] to loads [n, k] beyond what the basis represents: (K^-1 - Phi Lambda^-1 Phi^T) b, whose part
   /// along the low pairs is left out of b. Of contact forces, b = B^T f, it is X f.
   [[nodiscard]] Eigen::MatrixXd response(const Eigen::Ref<const Eigen::MatrixXd>& loads) const;
-  /// Of it what is on the contact, X^T b [nc, k]: half the work.
-  [[nodiscard]] Eigen::MatrixXd response_on_contact(const Eigen::Ref<const Eigen::MatrixXd>& loads) const;
 
  private:
-  /// The response with the low pairs constrained to zero: its internal part eliminated, its contact part.
-  [[nodiscard]] Eigen::MatrixXd constrained_response(const Eigen::Ref<const Eigen::MatrixXd>& loads) const;
-  /// [m, k] what the other pairs take of loads: Lambda^-1 Phi^T b.
-  [[nodiscard]] Eigen::MatrixXd taken_by_basis(const Eigen::Ref<const Eigen::MatrixXd>& loads) const;
-
   std::shared_ptr<const numerics::PartialCholesky> stiffness_;
   RitzBasis basis_;
   Status status_ = Status::converged;
