@@ -132,7 +132,7 @@ SettingsChoice choose_settings(const Scene& scene, const AccuracyGoal& goal, con
   std::vector<Known> known;
   Settings next = choice.settings;
   next.history_tolerance = all.front().history_tolerance;
-  if (std::ranges::find(all, next) == all.end()) next = all.front();  // samples that alias
+  if (std::ranges::find(all, next) == all.end()) next = towards(next, all, next);  // too few samples
   while (static_cast<int>(choice.rounds.size()) < kParams.rounds) {
     auto [evaluation, beside] = probe(next);
     SettingsTried tried{.settings = next, .status = evaluation.status};

@@ -275,6 +275,18 @@ TEST(Accuracy, HasNothingToChooseWhereSamplesAreTooFew) {
   EXPECT_EQ(choice.status, Status::iteration_limit);
 }
 
+// A file's samples that are too few for its harmonics change, or these do: mesh and modes are its own at first.
+TEST(Accuracy, BeginsBesideTheOwnSettings) {
+  Scene scene;
+  scene.solver.harmonics = 15;
+  const Settings own = settings_of(scene);
+  const Settings first = choose_settings(scene, kGoal, Laws{}.probe()).rounds.front().settings;
+  EXPECT_EQ(first.mesh, own.mesh);
+  EXPECT_EQ(first.beside, own.beside);
+  EXPECT_EQ(first.modes, own.modes);
+  EXPECT_GE(first.samples, 8 * (2 * first.harmonics + 1));
+}
+
 // Knobs that leave next to nothing stay where the accuracy is out of reach for another reason.
 TEST(Accuracy, TurnsNoKnobThatBuysNothing) {
   AccuracyGoal goal = kGoal;
