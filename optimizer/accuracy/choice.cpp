@@ -9,6 +9,7 @@
 #include "optimizer/accuracy/params.hpp"
 #include "optimizer/bars/bars.hpp"
 #include "optimizer/responses/response_table.hpp"
+#include "optimizer/scene/scene_kind.hpp"
 
 namespace dovetail::optimizer {
 
@@ -66,6 +67,11 @@ struct Known {
   SettingsTried tried;
   Evaluation evaluation;
   Forecast forecast;
+
+  void judge() {
+    tried.by = forecast.dominant();
+    tried.excess = forecast.excess(tried.settings);
+  }
 };
 
 /// The cheapest that is accurate enough; where none is, of those that are hardly less accurate than the best of them:
@@ -132,12 +138,20 @@ SettingsChoice choose_settings(const Scene& scene, const AccuracyGoal& goal, con
   std::vector<Known> known;
   Settings next = choice.settings;
   next.history_tolerance = all.front().history_tolerance;
+  // In space the own mesh may cost as much as all coarser ones together: what those foresee leads there.
+  if (scene.kind->in_space) next.mesh = all.front().mesh;
   if (std::ranges::find(all, next) == all.end()) next = towards(next, all, next);  // too few samples
   while (static_cast<int>(choice.rounds.size()) < kParams.rounds) {
     auto [evaluation, beside] = probe(next);
     SettingsTried tried{.settings = next, .status = evaluation.status};
     if (evaluation.converged()) {
       forecast.add(next, evaluation, beside);
+      for (Known& round : known) {
+        const Forecast here = forecast;  // both as they are
+        forecast.meet(round.forecast);
+        if (!round.forecast.meet(here)) round.judge();
+        if (round.tried.excess > 1 && all.size() > 1) std::erase(all, round.tried.settings);
+      }
       tried.by = forecast.dominant();
       if (tried.by) tried.excess = forecast.excess(next);
       tried.operations = forecast.operations(next);
@@ -169,6 +183,8 @@ SettingsChoice choose_settings(const Scene& scene, const AccuracyGoal& goal, con
   choice.settings = best.tried.settings;
   choice.tried = best.tried;
   choice.evaluation = best.evaluation;
+  choice.raised = best.forecast.raised();
+  raise_bars(choice.raised, choice.evaluation);
   choice.not_held = best.forecast.not_held();
   choice.status = choice.tried.excess <= 1 ? Status::converged : Status::iteration_limit;
   choice.one_more_digit =

@@ -25,13 +25,14 @@ struct SettingsTried {
 struct SettingsChoice {
   /// converged: all responses are accurate enough; iteration_limit: not reached, these are the cheapest of those
   /// tried that are hardly less accurate than the most accurate ones; stalled: no response asked for has a value and a
-  /// bar at the first settings, which are the scene's own unless samples and harmonics there do not match, and they
-  /// stay.
+  /// bar at the first settings, which are the scene's own unless samples and harmonics there do not match (in space on
+  /// the coarsest mesh), and they stay.
   Status status = Status::iteration_limit;
   Settings settings;
   SettingsTried tried;                ///< at those settings
   std::vector<SettingsTried> rounds;  ///< all
-  Evaluation evaluation;              ///< at those settings, with bars
+  Evaluation evaluation;              ///< at those settings, with bars by all rounds
+  BarParts raised;                    ///< parts of these that are larger than that evaluation alone says
   std::vector<std::string> not_held;  ///< responses asked for that have no value or no bar there
   /// Foreseen for a tenth of the bars; without a value where no settings there are would reach it.
   struct Digit {

@@ -59,8 +59,26 @@ double finer(Knob knob, const Settings& there, const Settings& here) {
 
 Forecast::Forecast(const Scene& scene, const AccuracyGoal& goal) : goal_(&goal), in_space_(scene.kind->in_space) {}
 
+void raise_bars(const BarParts& least, Evaluation& evaluation) {
+  for (const auto& [name, parts] : least) {
+    const auto value = evaluation.responses.find(name);
+    const auto bars = evaluation.error_sources.find(name);
+    if (value == evaluation.responses.end() || bars == evaluation.error_sources.end()) continue;
+    for (const auto& [source, relative] : parts) {
+      double& bar = bars->second[source];
+      const double more = relative * std::abs(value->second) - bar;
+      if (more <= 0) continue;
+      bar += more;
+      if (const auto sum = evaluation.error_estimates.find(name); sum != evaluation.error_estimates.end())
+        sum->second += more;
+    }
+  }
+}
+
 void Forecast::add(const Settings& at, const Evaluation& evaluation, const std::map<std::string, double>& beside) {
   const std::vector<Part> before = std::exchange(parts_, {});
+  whole_.clear();
+  known_.clear();
   const Settings was = std::exchange(at_, at);
   dofs_ = evaluation.model.at("dofs");
   const auto nodes = static_cast<Eigen::Index>(evaluation.model.at("contact_nodes"));
@@ -84,6 +102,45 @@ void Forecast::add(const Settings& at, const Evaluation& evaluation, const std::
         part.order = std::clamp(std::log(old.share / part.share) / std::log(ratio), expected / kForecast.order_off,
                                 expected * kForecast.order_off);
     }
+}
+
+bool Forecast::meet(const Forecast& other) {
+  bool met = true;
+  for (auto& [name, own] : known_) {
+    const auto there = other.known_.find(name);
+    if (there == other.known_.end()) continue;
+    const double gap = (std::abs(own.value - there->second.value) - own.bar - there->second.bar) / std::abs(own.value);
+    if (gap <= own.gap) continue;
+    met = false;
+    Part* most = nullptr;  // of what changed in between
+    double largest = 0;
+    for (const Part& part : other.parts_)
+      for (Part& mine : parts_)
+        if (mine.response->name == name && mine.response == part.response && mine.source == part.source &&
+            mine.knob == part.knob && finer(part.knob, other.at_, at_) != 1 && part.share > largest) {
+          most = &mine;
+          largest = part.share;
+        }
+    if (most == nullptr) continue;
+    most->share += (gap - own.gap) / goal_->asked(name);
+    most->raised = true;
+    whole_.at(name) += gap - own.gap;
+    own.gap = gap;
+  }
+  return met;
+}
+
+BarParts Forecast::raised() const {
+  BarParts raised;
+  for (const Part& part : parts_)
+    if (part.raised) raised[std::string(part.response->name)][part.source] = 0;
+  for (const Part& part : parts_) {
+    const std::string name(part.response->name);
+    if (const auto of = raised.find(name); of != raised.end())
+      if (const auto source = of->second.find(part.source); source != of->second.end())
+        source->second += part.share * goal_->asked(name);
+  }
+  return raised;
 }
 
 void Forecast::take_orders(const Forecast& later) {
@@ -156,6 +213,7 @@ void Forecast::add(const Response& response, const Evaluation& evaluation, std::
   for (const auto& [source, bar] : bars->second)
     if (source != "history") whole += bar;  // no round asks a history: what it would settle is not known here
   whole_[name] = whole / std::abs(value->second);
+  known_[name] = {.value = value->second, .bar = whole};
   for (const auto& [source, bar] : bars->second) {
     const Knob knob = knob_of(source);
     if (!counts(knob, *goal_)) continue;

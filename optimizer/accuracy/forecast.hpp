@@ -43,6 +43,12 @@ enum class Knob { none, mesh, beside, harmonics, samples, modes, resonance };
 /// Of every knob, over what it is elsewhere: larger is finer.
 [[nodiscard]] double finer(Knob knob, const Settings& there, const Settings& here);
 
+/// Parts of the bars of responses, over the values of these, by their sources.
+using BarParts = std::map<std::string, std::map<std::string, double>>;
+
+/// Makes bars of an evaluation at least as large as these; responses that have no bar keep none.
+void raise_bars(const BarParts& least, Evaluation& evaluation);
+
 /// What evaluations with bars foresee of other settings: bars by the orders in which their parts fall, operations by
 /// the powers in which theirs grow.
 class Forecast {
@@ -55,6 +61,12 @@ class Forecast {
   /// @param beside  of each response's bar by the mesh: what the mesh beside the flanks leaves, where it is known
   void add(const Settings& at, const Evaluation& evaluation, const std::map<std::string, double>& beside = {});
 
+  /// Bars of the same design that do not meet contradict each other, and nothing says which is too small: that of the
+  /// last one reaches to where that of the last one of `other` begins, by what most of the latter is that differs
+  /// between them. False where it had to be raised for that.
+  bool meet(const Forecast& other);
+  /// Parts that were raised.
+  [[nodiscard]] BarParts raised() const;
   /// The orders that a later one came to.
   void take_orders(const Forecast& later);
 
@@ -74,6 +86,7 @@ class Forecast {
     Knob knob;
     double order;
     double share;  ///< of the bar that is allowed
+    bool raised = false;
   };
 
   void add(const Response& response, const Evaluation& evaluation, std::optional<double> beside);
@@ -82,8 +95,13 @@ class Forecast {
   const AccuracyGoal* goal_;
   bool in_space_;
   Settings at_;
-  double dofs_ = 0;                      // unknowns of the mesh
-  double contact_ = 0;                   // operations of all that follows the matrices
+  double dofs_ = 0;     // unknowns of the mesh
+  double contact_ = 0;  // operations of all that follows the matrices
+  struct Known {
+    double value, bar;  // by the evaluation alone
+    double gap = 0;     // to the bar of another, over the value
+  };
+  std::map<std::string, Known> known_;
   std::map<std::string, double> whole_;  // bars over values, with what no setting buys but what a history would settle
   std::vector<Part> parts_;              // those of a response one after the other
 };

@@ -157,19 +157,26 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
   optimizer::Evaluation evaluation = choice && answers(*choice, *goal, purpose)
                                          ? choice->evaluation
                                          : scene_evaluator(study)->evaluate(study.scene, purpose).evaluation;
+  if (choice) optimizer::raise_bars(choice->raised, evaluation);
   const std::string inaccurate = choice ? accuracy_complaint(asked, *choice) : std::string();
-  if (choice && !digit_words(*choice).empty()) streams.err << "dovetail: " << digit_words(*choice) << "\n";
+  if (choice)
+    for (const std::string& words : {taken_words(asked, *choice), digit_words(*choice)})
+      if (!words.empty()) streams.err << "dovetail: " << words << "\n";
   if (!inaccurate.empty() && !evaluation.infeasible()) evaluation.messages.push_back(inaccurate);
   // Rounds ask no history, and know nothing of what else no setting buys.
   const std::optional<optimizer::Dominant> whole =
       choice && !goal->of_truncation ? whole_bar(*goal, evaluation) : std::nullopt;
-  if (const std::string words = whole_words(whole); !words.empty() && choice->status == Status::converged)
+  // A doubt that nobody asked a history about counts for all of the value: another message says so.
+  const bool asked_history = !options.no_history || (whole && whole->source != "history");
+  if (const std::string words = whole_words(whole);
+      !words.empty() && asked_history && choice->status == Status::converged)
     evaluation.messages.push_back(words);
   std::vector<std::string> unjudged;
   if (options.unworn && evaluation.converged()) unjudged = keep_unworn(study.problem, evaluation);
   optimizer::annotate(study.problem, study.optimizer.constraint_tolerance, evaluation);
   std::ranges::move(unjudged, std::back_inserter(evaluation.undecided_constraints));
   nlohmann::ordered_json accuracy = choice ? accuracy_json(asked.scene, *choice) : nlohmann::ordered_json();
+  if (choice) accuracy["reached"] = choice->status == Status::converged && (!whole || whole->relative <= whole->asked);
   if (whole)
     accuracy["whole_bar"] = {{"response", whole->response},
                              {"source", whole->source},

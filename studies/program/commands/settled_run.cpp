@@ -101,7 +101,8 @@ std::optional<optimizer::SettingsChoice> choose(const Study& there, const char* 
     if (!there.given.contains(key)) result.settings[key] = value;
   result.accuracy = accuracy_json(there.scene, *choice);
   result.accuracy["at"] = where;
-  for (const std::string& words : {accuracy_complaint(there, *choice), digit_words(*choice)})
+  for (const std::string& words :
+       {taken_words(there, *choice), accuracy_complaint(there, *choice), digit_words(*choice)})
     if (!words.empty()) err << "dovetail: " << words << "\n";
   return choice;
 }

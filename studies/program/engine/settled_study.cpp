@@ -134,6 +134,11 @@ std::string round_words(const Study& study, const optimizer::SettingsTried& trie
   return text + (tried.by ? known(*tried.by) : tried.status);
 }
 
+std::string taken_words(const Study& study, const optimizer::SettingsChoice& choice) {
+  if (choice.rounds.size() < 2) return {};
+  return "taken: " + round_words(study, choice.tried);
+}
+
 std::string accuracy_complaint(const Study& study, const optimizer::SettingsChoice& choice) {
   if (!choice.tried.by)
     return "no settings could be chosen: at the design's own ones no response asked for has a value and an error bar";
@@ -149,9 +154,9 @@ std::string accuracy_complaint(const Study& study, const optimizer::SettingsChoi
   std::string foreseen;
   if (choice.out_of_reach)
     foreseen =
-        fmt::format("; no settings are foreseen to leave less than {:.2g} times what was asked", *choice.out_of_reach);
+        fmt::format("; no settings are foreseen to leave less than {:.3g} times what was asked", *choice.out_of_reach);
   return fmt::format("the accuracy asked for is not reached: {}{}{}{}", known(*choice.tried.by), foreseen,
-                     held.empty() ? "" : ". The study file holds ", fmt::join(held, ", "));
+                     held.empty() ? "" : ". Given, and kept, are ", fmt::join(held, ", "));
 }
 
 }  // namespace dovetail::studies

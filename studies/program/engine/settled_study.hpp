@@ -45,6 +45,8 @@ struct AccuracyHeld {
 
 /// A round in a line for people.
 [[nodiscard]] std::string round_words(const Study& study, const optimizer::SettingsTried& tried);
+/// Which of several rounds was taken; empty after one.
+[[nodiscard]] std::string taken_words(const Study& study, const optimizer::SettingsChoice& choice);
 /// What was not reached or not held to it, why, and which keys of the study file keep it from being bought; empty where
 /// everything was.
 [[nodiscard]] std::string accuracy_complaint(const Study& study, const optimizer::SettingsChoice& choice);

@@ -200,6 +200,41 @@ TEST(Accuracy, OneRoundOutOfLineIsNotTheLastWord) {
   }
 }
 
+// Small bars far apart contradict each other: neither counts for less than what lies between them.
+TEST(Accuracy, BarsThatDoNotMeetAreRaised) {
+  constexpr double kOff = 0.2;
+  for (const int wrong : {1, 2, 3}) {
+    const Laws laws{.mesh = 0.05, .harmonics = 0.05};
+    std::vector<Evaluation> answers;
+    const SettingsChoice choice = choose_settings(Scene{}, kGoal, [&](const Settings& s) {
+      AccuracyAnswer answer = laws.probe()(s);
+      if (static_cast<int>(answers.size()) + 1 == wrong) answer.evaluation.responses[kVolume] += kOff;
+      answers.push_back(answer.evaluation);
+      return answer;
+    });
+    const auto bar = [](const Evaluation& of) {
+      double sum = 0;
+      for (const auto& [source, part] : of.error_sources.at(kVolume))
+        if (source != "history") sum += part;
+      return sum;
+    };
+    EXPECT_EQ(choice.status, Status::iteration_limit) << wrong;
+    ASSERT_TRUE(choice.tried.by);
+    EXPECT_EQ(choice.raised.count(kVolume), 1U) << wrong;
+    const double value = choice.evaluation.responses.at(kVolume);
+    EXPECT_NEAR(choice.tried.by->relative * value, bar(choice.evaluation), 1e-12) << wrong;
+    for (const Evaluation& answer : answers)
+      EXPECT_LE(std::abs(value - answer.responses.at(kVolume)), bar(answer) + bar(choice.evaluation) + 1e-12) << wrong;
+    // Another evaluation at those settings knows of it, too.
+    Evaluation again = choice.evaluation;
+    again.error_sources[kVolume] = laws.at(choice.settings);
+    again.error_estimates[kVolume] = bar(again);
+    raise_bars(choice.raised, again);
+    EXPECT_NEAR(again.error_estimates.at(kVolume), bar(choice.evaluation), 1e-12) << wrong;
+    EXPECT_NEAR(bar(again), bar(choice.evaluation), 1e-12) << wrong;
+  }
+}
+
 // What one evaluation would save by settings that are cheaper still pays for no round.
 TEST(Accuracy, OfOneEvaluationIsThatOfTheFirstSettingsThatWillDo) {
   AccuracyGoal goal = kGoal;
