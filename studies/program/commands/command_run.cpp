@@ -121,7 +121,11 @@ std::string shortcoming(const Study& study, const OptimizationResult& result, co
     if (v.evaluation == static_cast<std::int64_t>(*result.best) && !optimizer::converged(v.status))
       return fmt::format("the verification of the best design, evaluation {}: {}", v.evaluation + 1, v.status);
   if (!written.inaccurate.empty())
-    return fmt::format("the best design, evaluation {}: {}", *result.best + 1, written.inaccurate);
+    return fmt::format("the best design, evaluation {}: {}{}", *result.best + 1, written.inaccurate,
+                       study.optimizer.verify_accuracy > 0
+                           ? ""
+                           : " (settings were chosen at the start; [optimizer] verify_accuracy has them chosen at the "
+                             "best design, too)");
   return {};
 }
 
