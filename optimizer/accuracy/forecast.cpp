@@ -97,6 +97,14 @@ void Forecast::add(const Settings& at, const Evaluation& evaluation, const std::
       if (part.response != old.response || part.source != old.source || part.knob != old.knob) continue;
       part.order = old.order;
       const double ratio = finer(part.knob, at_, was), expected = order(*part.response, part.source, part.knob);
+      // Two say how large it is, each by chance: the mean of both, where that is more.
+      const double foreseen = old.share * std::pow(ratio, -expected);
+      if (const double mean = std::sqrt(foreseen * part.share); mean > part.share) {
+        whole_.at(std::string(part.response->name)) +=
+            (mean - part.share) * goal_->asked(std::string(part.response->name));
+        part.share = mean;
+        part.raised = true;
+      }
       // A part that grows where it should fall is off by more than its order could say.
       if (ratio != 1 && old.share > 0 && part.share > 0 && (old.share > part.share) == (ratio > 1))
         part.order = std::clamp(std::log(old.share / part.share) / std::log(ratio), expected / kForecast.order_off,

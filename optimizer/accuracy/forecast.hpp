@@ -57,7 +57,7 @@ class Forecast {
   Forecast(const Scene& scene, const AccuracyGoal& goal);
 
   /// The last one is what others are foreseen from. Where one before it differs in a knob the two say the order of a
-  /// part.
+  /// part, and a part that is smaller than the one before foresees counts for the mean of the two.
   /// @param beside  of each response's bar by the mesh: what the mesh beside the flanks leaves, where it is known
   void add(const Settings& at, const Evaluation& evaluation, const std::map<std::string, double>& beside = {});
 

@@ -235,6 +235,33 @@ TEST(Accuracy, BarsThatDoNotMeetAreRaised) {
   }
 }
 
+// A part is read from a difference that may be small by chance: it counts for the mean of itself and what the round
+// before foresees, where that is more.
+TEST(Accuracy, APartThatIsSmallByChanceCountsForMore) {
+  const Scene scene;
+  const double order = find_response(kVolume)->mesh_order.in_plane;
+  const Laws laws{.mesh = 0.1, .beside = 0, .by_mesh = order};
+  Settings finer = settings_of(scene);
+  finer.mesh = 1.333;
+  for (const double chance : {1.0, 1e-2, 1e2}) {
+    Laws there = laws;
+    there.mesh *= chance;
+    Forecast forecast(scene, kGoal);
+    forecast.add(settings_of(scene), laws.probe()(settings_of(scene)).evaluation);
+    forecast.add(finer, there.probe()(finer).evaluation);
+    const BarParts raised = forecast.raised();
+    const double own = there.at(finer).at("mesh");
+    if (chance < 1) {
+      ASSERT_EQ(raised.count(kVolume), 1U);
+      const double expected = laws.at(finer).at("mesh");
+      EXPECT_NEAR(raised.at(kVolume).at("mesh"), std::sqrt(own * expected), 1e-12);
+      EXPECT_NEAR(kGoal.relative * forecast.excess(finer), there.sum(finer) - own + std::sqrt(own * expected), 1e-12);
+    } else {
+      EXPECT_NEAR(kGoal.relative * forecast.excess(finer), there.sum(finer), 1e-3 * own);
+    }
+  }
+}
+
 // What one evaluation would save by settings that are cheaper still pays for no round.
 TEST(Accuracy, OfOneEvaluationIsThatOfTheFirstSettingsThatWillDo) {
   AccuracyGoal goal = kGoal;
