@@ -66,22 +66,37 @@ std::optional<SettingsChoice::Digit> one_more_digit(const std::vector<Settings>&
 struct Known {
   SettingsTried tried;
   Evaluation evaluation;
-  Forecast forecast;
-
-  void judge() {
-    tried.by = forecast.dominant();
-    tried.excess = forecast.excess(tried.settings);
-  }
+  Forecast alone, forecast;  ///< before and after the others were heard
 };
+
+/// Rounds whose bars do not meet contradict each other, and nothing says which bar is too small: both reach to where
+/// the other begins. One that contradicts most of the others is out of line, and heard no more.
+void judge(std::vector<Known>& rounds) {
+  const auto contradicted = [&](const Known& round) {
+    return std::ranges::count_if(rounds, [&](const Known& other) { return !round.alone.meets(other.alone); });
+  };
+  for (Known& round : rounds)
+    round.tried.out_of_line = rounds.size() > 2 && 2 * contradicted(round) > static_cast<int>(rounds.size()) - 1;
+  if (std::ranges::all_of(rounds, [](const Known& round) { return round.tried.out_of_line; }))
+    for (Known& round : rounds) round.tried.out_of_line = false;  // there is no line
+  for (Known& round : rounds) {
+    round.forecast = round.alone;
+    for (const Known& other : rounds)
+      if (!other.tried.out_of_line) round.forecast.reach(other.alone);
+    round.tried.by = round.forecast.dominant();
+    round.tried.excess = round.forecast.excess(round.tried.settings);
+  }
+}
 
 /// The cheapest that is accurate enough; where none is, of those that are hardly less accurate than the best of them:
 /// what is missed all the same is not paid for.
 const Known& best_of(const std::vector<Known>& rounds) {
   double least = kInfinity;
-  for (const Known& round : rounds) least = std::min(least, round.tried.excess);
+  for (const Known& round : rounds)
+    if (!round.tried.out_of_line) least = std::min(least, round.tried.excess);
   const double limit = least <= 1 ? 1 : kParams.hardly_worse * least;
   const auto rank = [limit](const Known& round) {
-    return std::pair{round.tried.excess > limit, round.tried.operations};
+    return std::pair{round.tried.out_of_line || round.tried.excess > limit, round.tried.operations};
   };
   return *std::ranges::min_element(rounds, {}, rank);
 }
@@ -144,37 +159,51 @@ SettingsChoice choose_settings(const Scene& scene, const AccuracyGoal& goal, con
   while (static_cast<int>(choice.rounds.size()) < kParams.rounds) {
     auto [evaluation, beside] = probe(next);
     SettingsTried tried{.settings = next, .status = evaluation.status};
+    std::optional<Dominant> by;
     if (evaluation.converged()) {
       forecast.add(next, evaluation, beside);
-      for (Known& round : known) {
-        const Forecast here = forecast;  // both as they are
-        forecast.meet(round.forecast);
-        if (!round.forecast.meet(here)) round.judge();
-        if (round.tried.excess > 1 && all.size() > 1) std::erase(all, round.tried.settings);
-      }
-      tried.by = forecast.dominant();
-      if (tried.by) tried.excess = forecast.excess(next);
+      by = forecast.dominant();
       tried.operations = forecast.operations(next);
       if (known.empty()) choice.not_held = forecast.not_held();
     }
-    if (tried.by) known.push_back({.tried = tried, .evaluation = std::move(evaluation), .forecast = forecast});
-    if (tried.excess > 1 && all.size() > 1) std::erase(all, next);  // known not to do
+    if (by) {
+      known.push_back({.tried = tried, .evaluation = std::move(evaluation), .alone = forecast, .forecast = forecast});
+      judge(known);
+      tried = known.back().tried;
+      for (const Known& round : known)
+        if (round.tried.excess > 1 && all.size() > 1) std::erase(all, round.tried.settings);  // known not to do
+    } else if (all.size() > 1) {
+      std::erase(all, next);
+    }
     choice.rounds.push_back(tried);
     const bool go_on = !told || told(tried);
-    if (known.empty() || !go_on) break;
+    if (!go_on) break;
+    if (known.empty()) {
+      // On the coarsest mesh there may be no answer where there is one on the own.
+      if (choice.rounds.size() > 1 || next.mesh == choice.settings.mesh) break;
+      next.mesh = choice.settings.mesh;
+      continue;
+    }
     const SettingsTried& best = best_of(known).tried;
     if (best.excess <= 1 && !goal.many) break;
-    const Foreseen there = foreseen(all, forecast, best.excess > 1 ? known : std::span<const Known>());
-    if (there.excess > 1 && best.excess > 1 && known.size() > 1) {
+    const Foreseen there = foreseen(all, known.back().forecast, best.excess > 1 ? known : std::span<const Known>());
+    // Of two that contradict each other a third says more.
+    const bool two_apart = known.size() == 2 && !known.front().alone.meets(known.back().alone);
+    if (there.excess > 1 && best.excess > 1 && known.size() > 1 && !two_apart) {
       choice.out_of_reach = there.excess;
       break;
     }
     const Settings wanted = towards(there.settings, all, next);
     const bool tried_before = std::ranges::find(choice.rounds, wanted, &SettingsTried::settings) != choice.rounds.end();
-    const bool hardly_cheaper = best.excess <= 1 && forecast.operations(wanted) > kParams.worth * best.operations;
+    const bool hardly_cheaper =
+        best.excess <= 1 && known.back().forecast.operations(wanted) > kParams.worth * best.operations;
     if (tried_before || hardly_cheaper) break;
     next = wanted;
   }
+  for (SettingsTried& round : choice.rounds)
+    if (const auto of = std::ranges::find(known, round.settings, [](const Known& k) { return k.tried.settings; });
+        of != known.end())
+      round = of->tried;
   if (known.empty()) {
     choice.status = Status::stalled;
     return choice;

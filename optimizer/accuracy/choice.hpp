@@ -19,6 +19,7 @@ struct SettingsTried {
   double excess = kInfinity;        ///< largest bar over what is allowed; <= 1: accurate enough
   std::optional<Dominant> by = {};  ///< where bars are known
   double operations = 0;            ///< of the evaluation without its bars
+  bool out_of_line = false;         ///< its bars do not meet those of most other rounds: it was not heard
 };
 
 /// Settings for the accuracy asked for, at least cost as far as bars foresee it.
@@ -30,7 +31,7 @@ struct SettingsChoice {
   Status status = Status::iteration_limit;
   Settings settings;
   SettingsTried tried;                ///< at those settings
-  std::vector<SettingsTried> rounds;  ///< all
+  std::vector<SettingsTried> rounds;  ///< all, as all together say
   Evaluation evaluation;              ///< at those settings, with bars by all rounds
   BarParts raised;                    ///< parts of these that are larger than that evaluation alone says
   std::vector<std::string> not_held;  ///< responses asked for that have no value or no bar there

@@ -75,11 +75,30 @@ void raise_bars(const BarParts& least, Evaluation& evaluation) {
   }
 }
 
+const Forecast::Part* Forecast::Round::find(const Part& like) const {
+  const auto found = std::ranges::find_if(parts, [&](const Part& part) {
+    return part.response == like.response && part.source == like.source && part.knob == like.knob;
+  });
+  return found == parts.end() ? nullptr : &*found;
+}
+
+double Forecast::expected(const Part& of, const Round& by) const {
+  const Part* there = by.find(of);
+  if (there == nullptr) return kInfinity;
+  return there->share * std::pow(finer(of.knob, last_.at, by.at), -order(*of.response, of.source, of.knob));
+}
+
+void Forecast::raise(Part& part, double share) {
+  const std::string name(part.response->name);
+  whole_.at(name) += (share - part.share) * goal_->asked(name);
+  part.share = share;
+  part.raised = true;
+}
+
 void Forecast::add(const Settings& at, const Evaluation& evaluation, const std::map<std::string, double>& beside) {
-  const std::vector<Part> before = std::exchange(parts_, {});
+  const Round one_more = std::exchange(before_, std::exchange(last_, {.at = at, .parts = {}}));
   whole_.clear();
   known_.clear();
-  const Settings was = std::exchange(at_, at);
   dofs_ = evaluation.model.at("dofs");
   const auto nodes = static_cast<Eigen::Index>(evaluation.model.at("contact_nodes"));
   contact_ = evaluation.model.at("jacobians_spent") *
@@ -92,57 +111,55 @@ void Forecast::add(const Settings& at, const Evaluation& evaluation, const std::
     if (const Response* response = find_response(name))
       add(*response, evaluation, part == beside.end() ? std::nullopt : std::optional(part->second));
   }
-  for (Part& part : parts_)
-    for (const Part& old : before) {
-      if (part.response != old.response || part.source != old.source || part.knob != old.knob) continue;
-      part.order = old.order;
-      const double ratio = finer(part.knob, at_, was), expected = order(*part.response, part.source, part.knob);
-      // Two say how large it is, each by chance: the mean of both, where that is more.
-      const double foreseen = old.share * std::pow(ratio, -expected);
-      if (const double mean = std::sqrt(foreseen * part.share); mean > part.share) {
-        whole_.at(std::string(part.response->name)) +=
-            (mean - part.share) * goal_->asked(std::string(part.response->name));
-        part.share = mean;
-        part.raised = true;
-      }
-      // A part that grows where it should fall is off by more than its order could say.
-      if (ratio != 1 && old.share > 0 && part.share > 0 && (old.share > part.share) == (ratio > 1))
-        part.order = std::clamp(std::log(old.share / part.share) / std::log(ratio), expected / kForecast.order_off,
-                                expected * kForecast.order_off);
-    }
+  for (Part& part : last_.parts) {
+    const Part* old = before_.find(part);
+    if (old == nullptr) continue;
+    part.order = old->order;
+    // One round of two before may be out of line.
+    const double least = std::min(expected(part, before_), expected(part, one_more));
+    if (const double mean = std::sqrt(least * part.share); mean > part.share) raise(part, mean);
+    // A part that grows where it should fall is off by more than its order could say.
+    const double ratio = finer(part.knob, last_.at, before_.at),
+                 by_itself = order(*part.response, part.source, part.knob);
+    if (ratio != 1 && old->share > 0 && part.share > 0 && (old->share > part.share) == (ratio > 1))
+      part.order = std::clamp(std::log(old->share / part.share) / std::log(ratio), by_itself / kForecast.order_off,
+                              by_itself * kForecast.order_off);
+  }
 }
 
-bool Forecast::meet(const Forecast& other) {
-  bool met = true;
-  for (auto& [name, own] : known_) {
+bool Forecast::meets(const Forecast& other) const {
+  return std::ranges::all_of(known_, [&](const auto& of) {
+    const auto there = other.known_.find(of.first);
+    return there == other.known_.end() ||
+           std::abs(of.second.value - there->second.value) <= of.second.bar + there->second.bar;
+  });
+}
+
+void Forecast::reach(const Forecast& other) {
+  for (const auto& [name, own] : known_) {
     const auto there = other.known_.find(name);
     if (there == other.known_.end()) continue;
-    const double gap = (std::abs(own.value - there->second.value) - own.bar - there->second.bar) / std::abs(own.value);
-    if (gap <= own.gap) continue;
-    met = false;
-    Part* most = nullptr;  // of what changed in between
-    double largest = 0;
-    for (const Part& part : other.parts_)
-      for (Part& mine : parts_)
-        if (mine.response->name == name && mine.response == part.response && mine.source == part.source &&
-            mine.knob == part.knob && finer(part.knob, other.at_, at_) != 1 && part.share > largest) {
-          most = &mine;
-          largest = part.share;
-        }
-    if (most == nullptr) continue;
-    most->share += (gap - own.gap) / goal_->asked(name);
-    most->raised = true;
-    whole_.at(name) += gap - own.gap;
-    own.gap = gap;
+    const double more =
+        (std::abs(own.value - there->second.value) - there->second.bar) / std::abs(own.value) - whole_.at(name);
+    if (more <= 0) continue;
+    // What most of the other is that differs in between, or else what most of its own is.
+    const auto weight = [&](const Part& part) {
+      const Part* of_other = other.last_.find(part);
+      const bool differs = of_other != nullptr && finer(part.knob, other.last_.at, last_.at) != 1;
+      return std::pair{differs ? of_other->share : 0, part.share};
+    };
+    Part* most = nullptr;
+    for (Part& part : last_.parts)
+      if (part.response->name == name && (most == nullptr || weight(part) > weight(*most))) most = &part;
+    if (most != nullptr) raise(*most, most->share + more / goal_->asked(name));
   }
-  return met;
 }
 
 BarParts Forecast::raised() const {
   BarParts raised;
-  for (const Part& part : parts_)
+  for (const Part& part : last_.parts)
     if (part.raised) raised[std::string(part.response->name)][part.source] = 0;
-  for (const Part& part : parts_) {
+  for (const Part& part : last_.parts) {
     const std::string name(part.response->name);
     if (const auto of = raised.find(name); of != raised.end())
       if (const auto source = of->second.find(part.source); source != of->second.end())
@@ -152,8 +169,8 @@ BarParts Forecast::raised() const {
 }
 
 void Forecast::take_orders(const Forecast& later) {
-  for (Part& part : parts_)
-    for (const Part& known : later.parts_)
+  for (Part& part : last_.parts)
+    for (const Part& known : later.last_.parts)
       if (part.response == known.response && part.source == known.source && part.knob == known.knob)
         part.order = known.order;
 }
@@ -161,7 +178,7 @@ void Forecast::take_orders(const Forecast& later) {
 std::vector<std::string> Forecast::not_held() const {
   std::vector<std::string> names;
   for (const std::string& name : goal_->responses)
-    if (std::ranges::none_of(parts_, [&](const Part& part) { return part.response->name == name; }))
+    if (std::ranges::none_of(last_.parts, [&](const Part& part) { return part.response->name == name; }))
       names.push_back(name);
   return names;
 }
@@ -169,10 +186,10 @@ std::vector<std::string> Forecast::not_held() const {
 double Forecast::excess(const Settings& there) const {
   double largest = 0, sum = 0;
   const Response* of = nullptr;
-  for (const Part& part : parts_) {
+  for (const Part& part : last_.parts) {
     if (part.response != of) sum = 0;
     of = part.response;
-    sum += part.share * std::pow(finer(part.knob, there, at_), -part.order);
+    sum += part.share * std::pow(finer(part.knob, there, last_.at), -part.order);
     largest = std::max(largest, sum);
   }
   return largest;
@@ -180,12 +197,12 @@ double Forecast::excess(const Settings& there) const {
 
 std::optional<Dominant> Forecast::dominant() const {
   std::map<const Response*, double> sums;
-  for (const Part& part : parts_) sums[part.response] += part.share;
+  for (const Part& part : last_.parts) sums[part.response] += part.share;
   const auto worst = std::ranges::max_element(sums, {}, [](const auto& s) { return s.second; });
   if (worst == sums.end()) return {};
   Dominant result{.response = std::string(worst->first->name)};
   std::map<std::string, double> by_source;
-  for (const Part& part : parts_)
+  for (const Part& part : last_.parts)
     if (part.response == worst->first) by_source[part.source] += part.share;
   const auto largest = std::ranges::max_element(by_source, {}, [](const auto& s) { return s.second; });
   if (largest->second > 0) result.source = largest->first;
@@ -196,7 +213,7 @@ std::optional<Dominant> Forecast::dominant() const {
 }
 
 double Forecast::operations(const Settings& there) const {
-  const double mesh = finer(Knob::mesh, there, at_), beside = finer(Knob::beside, there, at_);
+  const double mesh = finer(Knob::mesh, there, last_.at), beside = finer(Knob::beside, there, last_.at);
   const double dofs =
       dofs_ * (in_space_ ? std::pow(mesh, kForecast.dofs_in_space)
                          : std::pow(mesh, kForecast.dofs_along) * std::pow(beside, kForecast.dofs_beside));
@@ -204,9 +221,9 @@ double Forecast::operations(const Settings& there) const {
                           std::pow(dofs, in_space_ ? kForecast.matrices_in_space : kForecast.matrices_in_plane) *
                           std::pow(there.modes / kForecast.modes, kForecast.modes_power);
   const double nodes = std::pow(mesh, in_space_ ? kForecast.nodes_in_space : kForecast.nodes_in_plane);
-  return matrices + contact_ * states_by(there) / states_by(at_) * std::pow(nodes, kForecast.contact_by_nodes) *
-                        std::pow(finer(Knob::harmonics, there, at_), kForecast.contact_by_harmonics) *
-                        std::pow(finer(Knob::samples, there, at_), kForecast.contact_by_samples);
+  return matrices + contact_ * states_by(there) / states_by(last_.at) * std::pow(nodes, kForecast.contact_by_nodes) *
+                        std::pow(finer(Knob::harmonics, there, last_.at), kForecast.contact_by_harmonics) *
+                        std::pow(finer(Knob::samples, there, last_.at), kForecast.contact_by_samples);
 }
 
 /// A response without a value has no accuracy, one without a limit none that could be bought.
@@ -229,11 +246,11 @@ void Forecast::add(const Response& response, const Evaluation& evaluation, std::
     const double there = source == "mesh" && beside ? std::clamp(*beside, kLeast * bar, (1 - kLeast) * bar) : 0;
     for (const auto& [of, size] : {std::pair{knob, bar - there}, {Knob::beside, there}})
       if (of == knob || size > 0)
-        parts_.push_back({.response = &response,
-                          .source = source,
-                          .knob = of,
-                          .order = order(response, source, of),
-                          .share = size / std::abs(value->second) / goal_->asked(name)});
+        last_.parts.push_back({.response = &response,
+                               .source = source,
+                               .knob = of,
+                               .order = order(response, source, of),
+                               .share = size / std::abs(value->second) / goal_->asked(name)});
   }
 }
 

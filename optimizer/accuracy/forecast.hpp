@@ -57,14 +57,16 @@ class Forecast {
   Forecast(const Scene& scene, const AccuracyGoal& goal);
 
   /// The last one is what others are foreseen from. Where one before it differs in a knob the two say the order of a
-  /// part, and a part that is smaller than the one before foresees counts for the mean of the two.
+  /// part. A part that is smaller than its order lets expect after each of the two before counts for the (geometric)
+  /// mean of that and of itself.
   /// @param beside  of each response's bar by the mesh: what the mesh beside the flanks leaves, where it is known
   void add(const Settings& at, const Evaluation& evaluation, const std::map<std::string, double>& beside = {});
 
-  /// Bars of the same design that do not meet contradict each other, and nothing says which is too small: that of the
-  /// last one reaches to where that of the last one of `other` begins, by what most of the latter is that differs
-  /// between them. False where it had to be raised for that.
-  bool meet(const Forecast& other);
+  /// Whether the bars of two designs that are the same but for their settings meet, as far as the two evaluations alone
+  /// say.
+  [[nodiscard]] bool meets(const Forecast& other) const;
+  /// Raises bars to where those of `other` begin.
+  void reach(const Forecast& other);
   /// Parts that were raised.
   [[nodiscard]] BarParts raised() const;
   /// The orders that a later one came to.
@@ -89,21 +91,29 @@ class Forecast {
     bool raised = false;
   };
 
+  struct Round {
+    Settings at;
+    std::vector<Part> parts;  // those of a response one after the other
+    [[nodiscard]] const Part* find(const Part& like) const;
+  };
+  /// By an evaluation alone.
+  struct Known {
+    double value, bar;
+  };
+
   void add(const Response& response, const Evaluation& evaluation, std::optional<double> beside);
   [[nodiscard]] double order(const Response& response, const std::string& source, Knob knob) const;
+  /// Share of a part of the last round by another one; infinite where that says nothing.
+  [[nodiscard]] double expected(const Part& of, const Round& by) const;
+  void raise(Part& part, double share);
 
   const AccuracyGoal* goal_;
   bool in_space_;
-  Settings at_;
+  Round last_, before_;
   double dofs_ = 0;     // unknowns of the mesh
   double contact_ = 0;  // operations of all that follows the matrices
-  struct Known {
-    double value, bar;  // by the evaluation alone
-    double gap = 0;     // to the bar of another, over the value
-  };
   std::map<std::string, Known> known_;
   std::map<std::string, double> whole_;  // bars over values, with what no setting buys but what a history would settle
-  std::vector<Part> parts_;              // those of a response one after the other
 };
 
 }  // namespace dovetail::optimizer

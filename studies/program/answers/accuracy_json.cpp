@@ -31,11 +31,13 @@ Json accuracy_json(const optimizer::Scene& scene, const optimizer::SettingsChoic
   Json json{{"status", to_string(choice.status)}, {"settings", settings_json(scene, choice.settings)}};
   add_dominant(choice.tried.by, json);
   json["not_held"] = choice.not_held;
+  json["raised"] = choice.raised.empty() ? Json::object() : Json(choice.raised);
   json["rounds"] = Json::array();
   for (const optimizer::SettingsTried& tried : choice.rounds) {
     Json round{{"settings", settings_json(scene, tried.settings)}, {"status", tried.status}};
     add_dominant(tried.by, round);
     round["operations"] = tried.operations;
+    round["out_of_line"] = tried.out_of_line;
     json["rounds"].push_back(std::move(round));
   }
   json["one_more_digit"] = Json();

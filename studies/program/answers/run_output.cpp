@@ -72,6 +72,8 @@ WrittenRun record_of(const RunSite& site, OptimizationResult result, double seco
     optimizer::Candidate& candidate = result.evaluations[index];
     DescribedDesign seen = engine.describe(scene_of(study, candidate));
     const auto known = static_cast<std::ptrdiff_t>(seen.evaluation.messages.size());
+    if (const auto raised = site.raised.find(index); raised != site.raised.end())
+      optimizer::raise_bars(raised->second, seen.evaluation);
     take_over(study, std::move(seen.evaluation), candidate);
     if (site.goal) {
       const AccuracyHeld held = accuracy_held(study.scene, *site.goal, candidate.evaluation);
@@ -106,7 +108,7 @@ WrittenRun record_of(const RunSite& site, OptimizationResult result, double seco
 
 WrittenRun write_run(const RunSite& site, const OptimizationResult& result, double seconds,
                      const std::vector<report::VerificationRecord>& verifications) {
-  const auto& [study, engine, directory, err, settings, chosen, goal] = site;
+  const auto& [study, engine, directory, err, settings, chosen, goal, raised] = site;
   // The design first: it costs nothing and must not be lost when describing it is cut short.
   if (result.best) {
     const optimizer::Candidate& best = result.evaluations[*result.best];

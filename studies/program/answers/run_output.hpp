@@ -19,8 +19,9 @@ struct RunSite {
   std::filesystem::path directory;
   std::ostream& err;
   std::string settings = {};  ///< a sentence on those of start and best design where the search had others
-  std::map<std::string, std::string> chosen = {};    ///< those that an accuracy chose, key -> value as text
-  std::optional<optimizer::AccuracyGoal> goal = {};  ///< what is asked of start and best design
+  std::map<std::string, std::string> chosen = {};          ///< those that an accuracy chose, key -> value as text
+  std::optional<optimizer::AccuracyGoal> goal = {};        ///< what is asked of start and best design
+  std::map<std::size_t, optimizer::BarParts> raised = {};  ///< parts of bars of evaluations, by rounds of a choice
 };
 
 struct WrittenRun {

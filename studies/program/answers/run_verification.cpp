@@ -98,7 +98,7 @@ std::vector<std::size_t> best_designs(const optimizer::Problem& problem, const o
 std::vector<VerificationRecord> verify_best(const RunSite& site, const optimizer::OptimizationResult& result,
                                             const Study* finer, const std::string& fingerprint,
                                             const OrderlyInterrupt& interrupt) {
-  const auto& [study, engine, directory, err, settings, chosen_settings, goal] = site;
+  const auto& [study, engine, directory, err, settings, chosen_settings, goal, raised] = site;
   std::vector<VerificationRecord> records;
   if (!engine.verify) return records;
   const fs::path file = directory / "verification.jsonl";

@@ -121,11 +121,12 @@ std::string shortcoming(const Study& study, const OptimizationResult& result, co
     if (v.evaluation == static_cast<std::int64_t>(*result.best) && !optimizer::converged(v.status))
       return fmt::format("the verification of the best design, evaluation {}: {}", v.evaluation + 1, v.status);
   if (!written.inaccurate.empty())
-    return fmt::format("the best design, evaluation {}: {}{}", *result.best + 1, written.inaccurate,
-                       study.optimizer.verify_accuracy > 0
-                           ? ""
-                           : " (settings were chosen at the start; [optimizer] verify_accuracy has them chosen at the "
-                             "best design, too)");
+    return fmt::format(
+        "the best design, evaluation {}: {}{}", *result.best + 1, written.inaccurate,
+        study.optimizer.verify_accuracy > 0
+            ? ""
+            : " (settings were chosen before the search; [optimizer] verify_accuracy has them chosen at the "
+              "best design, too)");
   return {};
 }
 
@@ -196,13 +197,18 @@ int run_study(const RunOptions& options, const Streams& streams, const RunEngine
   const std::string settings = settings_words(study, over);
   const bool as_searched = physics_text(study.scene) == physics_text(handed.scene);
   const RunEngine closer = as_searched ? engine : make_engine(handed);
+  // What the rounds of a choice say of the design where it was made holds for its evaluation there.
+  std::map<std::size_t, optimizer::BarParts> raised;
+  if (as_searched) raised[0] = settled.raised;
+  if (!over.raised.empty()) raised[*result.best] = over.raised;
   const RunSite end{.study = handed,
                     .engine = closer,
                     .directory = directory,
                     .err = streams.err,
                     .settings = settings,
                     .chosen = chosen_settings(asked, settled, over),
-                    .goal = goal_at_best(asked)};
+                    .goal = goal_at_best(asked),
+                    .raised = raised};
   std::vector<report::VerificationRecord> verifications;
   // Settings that are handed over verify those of the search where they are finer.
   const bool finer = handed.scene.mesh.flank_elements >= kFiner * study.scene.mesh.flank_elements;

@@ -158,7 +158,12 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
                                          ? choice->evaluation
                                          : scene_evaluator(study)->evaluate(study.scene, purpose).evaluation;
   if (choice) optimizer::raise_bars(choice->raised, evaluation);
-  const std::string inaccurate = choice ? accuracy_complaint(asked, *choice) : std::string();
+  std::string inaccurate = choice ? accuracy_complaint(asked, *choice) : std::string();
+  // A history may end elsewhere than where the rounds were.
+  const bool judged =
+      choice && choice->status == Status::converged && !goal->of_truncation && purpose.bars && evaluation.converged();
+  const AccuracyHeld held = judged ? accuracy_held(study.scene, *goal, evaluation) : AccuracyHeld{.reached = true};
+  if (!held.reached) inaccurate = held.words;
   if (choice)
     for (const std::string& words : {taken_words(asked, *choice), digit_words(*choice)})
       if (!words.empty()) streams.err << "dovetail: " << words << "\n";
@@ -169,7 +174,7 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
   // A doubt that nobody asked a history about counts for all of the value: another message says so.
   const bool asked_history = !options.no_history || (whole && whole->source != "history");
   if (const std::string words = whole_words(whole);
-      !words.empty() && asked_history && choice->status == Status::converged)
+      !words.empty() && asked_history && choice->status == Status::converged && held.reached)
     evaluation.messages.push_back(words);
   std::vector<std::string> unjudged;
   if (options.unworn && evaluation.converged()) unjudged = keep_unworn(study.problem, evaluation);
@@ -186,7 +191,8 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
   if (options.json != "-") streams.out << evaluation_table(evaluation);
   if (evaluation.infeasible()) throw infeasible(options.study, evaluation.messages);
   for (const std::string& message : evaluation.messages) streams.err << "dovetail: " << message << "\n";
-  if (evaluation.converged()) return choice && choice->status != Status::converged ? kNotConverged : kDone;
+  if (evaluation.converged())
+    return choice && (choice->status != Status::converged || !held.reached) ? kNotConverged : kDone;
   const auto ends_in = [&](auto why) { return evaluation.status.ends_with(to_string(why)); };
   const char* what = ends_in(wear::Verdict::no_asymptote) ? "wear has no end"
                      : ends_in(Status::gross_sliding)     ? "the joint slides"

@@ -67,6 +67,11 @@ InputError damaged(const std::filesystem::path& file) {
                               .allowed = "is damaged: remove it, and --resume chooses the settings again"});
 }
 
+optimizer::BarParts raised_in(const Json& accuracy) {
+  if (!accuracy.is_object() || !accuracy.contains("raised")) return {};
+  return accuracy.at("raised").get<optimizer::BarParts>();
+}
+
 /// What was chosen before for the same question; nothing where none was. Throws InputError for a damaged file.
 std::optional<Chosen> kept(const std::filesystem::path& file, const std::string& question) {
   std::ifstream stream(file);
@@ -74,6 +79,7 @@ std::optional<Chosen> kept(const std::filesystem::path& file, const std::string&
   try {
     const Json json = Json::parse(stream);
     if (json.at("question").get<std::string>() != question) return {};
+    (void)raised_in(json.at("accuracy"));
     return Chosen{.settings = json.at("settings").get<std::map<std::string, double>>(),
                   .noise = json.at("noise").get<double>(),
                   .accuracy = json.at("accuracy")};
@@ -192,7 +198,10 @@ SettledStudy settled_run(const Study& asked, const std::filesystem::path& direct
     settled = chosen(asked, make_engine, err);
     keep(file, question, *settled);
   }
-  return {.study = with_chosen(asked, *settled, file), .accuracy = chooses ? came_to(settled->accuracy) : ""};
+  const bool at_start = chooses && settled->accuracy.is_object() && settled->accuracy.value("at", kStart) == kStart;
+  return {.study = with_chosen(asked, *settled, file),
+          .accuracy = chooses ? came_to(settled->accuracy) : "",
+          .raised = at_start ? raised_in(settled->accuracy) : optimizer::BarParts()};
 }
 
 std::optional<optimizer::AccuracyGoal> goal_at_best(const Study& asked) {
@@ -237,7 +246,9 @@ SettledStudy settled_best(const Study& asked, const Study& searched, const optim
     if (interrupt.requested()) return {.study = searched};
     keep(file, question, *settled);
   }
-  return {.study = with_chosen(searched, *settled, file), .accuracy = came_to(settled->accuracy)};
+  return {.study = with_chosen(searched, *settled, file),
+          .accuracy = came_to(settled->accuracy),
+          .raised = raised_in(settled->accuracy)};
 }
 
 }  // namespace dovetail::studies

@@ -17,7 +17,8 @@ namespace dovetail::studies {
 /// A study with settings for an accuracy.
 struct SettledStudy {
   Study study;
-  std::string accuracy = {};  ///< what it came to where they were chosen; empty: none was asked for
+  std::string accuracy = {};        ///< what it came to where they were chosen; empty: none was asked for
+  optimizer::BarParts raised = {};  ///< of the design there, see optimizer::SettingsChoice
 };
 
 /// The study with everything that a run chooses before its search, as if it stood in its file: settings for the

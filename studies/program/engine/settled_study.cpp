@@ -120,7 +120,7 @@ AccuracyHeld accuracy_held(const optimizer::Scene& scene, const optimizer::Accur
   const bool reached = by->relative <= by->asked;
   std::string words = fmt::format("the accuracy asked for is {}reached: {}", reached ? "" : "not ", known(*by));
   if (const std::string whole = whole_words(whole_bar(goal, evaluation)); reached && !whole.empty())
-    words += ". " + whole;
+    words += "; " + whole;
   return {.reached = reached, .words = words};
 }
 
@@ -131,6 +131,7 @@ std::string round_words(const Study& study, const optimizer::SettingsTried& trie
     text += fmt::format(" (beside them {:.2g} times the file's)", beside);
   text += fmt::format(", {} harmonics, {} samples, {} modes: ", there.solver.harmonics, there.solver.samples,
                       there.solver.modes);
+  if (tried.out_of_line) text += "out of line with most others, left out: ";
   return text + (tried.by ? known(*tried.by) : tried.status);
 }
 
@@ -141,7 +142,7 @@ std::string taken_words(const Study& study, const optimizer::SettingsChoice& cho
 
 std::string accuracy_complaint(const Study& study, const optimizer::SettingsChoice& choice) {
   if (!choice.tried.by)
-    return "no settings could be chosen: at the design's own ones no response asked for has a value and an error bar";
+    return "no settings could be chosen: no response asked for has a value and an error bar at those to begin with";
   if (choice.status == Status::converged && !choice.not_held.empty())
     return fmt::format(
         "settings were chosen without {}: a value that is zero or missing, or has no error bar, has no "
