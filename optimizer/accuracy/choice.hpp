@@ -60,8 +60,8 @@ using AccuracyListener = std::function<bool(const SettingsTried&)>;
 
 /// Rounds of an evaluation with bars, from whose parts the next settings follow: of all there are, the cheapest that
 /// should be accurate enough. What no setting buys (doubts of the worn state, the edges of zones) is left out of
-/// what is asked for. Where after two rounds none of them foresees settings that would do, it ends: finer ones cost
-/// ever more.
+/// what is asked for. Where after two rounds (three, where those contradict each other) none of them foresees settings
+/// that would do, it ends: finer ones cost ever more.
 [[nodiscard]] SettingsChoice choose_settings(const Scene& scene, const AccuracyGoal& goal, const AccuracyProbe& probe,
                                              const AccuracyListener& told = {});
 

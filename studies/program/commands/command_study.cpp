@@ -181,7 +181,10 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
   optimizer::annotate(study.problem, study.optimizer.constraint_tolerance, evaluation);
   std::ranges::move(unjudged, std::back_inserter(evaluation.undecided_constraints));
   nlohmann::ordered_json accuracy = choice ? accuracy_json(asked.scene, *choice) : nlohmann::ordered_json();
-  if (choice) accuracy["reached"] = choice->status == Status::converged && (!whole || whole->relative <= whole->asked);
+  // With all parts of the bars, where there are some.
+  if (whole && evaluation.converged())
+    accuracy["reached"] = choice->status == Status::converged && held.reached && choice->not_held.empty() &&
+                          whole->relative <= whole->asked;
   if (whole)
     accuracy["whole_bar"] = {{"response", whole->response},
                              {"source", whole->source},
