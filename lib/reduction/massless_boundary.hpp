@@ -13,6 +13,7 @@
 #include "reduction/recovery.hpp"
 #include "reduction/reduced_model.hpp"
 #include "reduction/residual_flexibility.hpp"
+#include "reduction/stiffness_change.hpp"
 
 namespace dovetail::reduction {
 
@@ -45,15 +46,6 @@ struct Reduction : ModesRecord {
   Eigen::VectorXd glued_frequencies;  ///< [m] angular frequencies of the glued modes, rad/s, ascending
 };
 
-/// A small change D of the stiffness since a structure was reduced, as reduced models take it to first order: what it
-/// does on the modes of its basis and on the fields of unit forces on its trace, X [n, nt].
-struct StiffnessChange {
-  Eigen::SparseMatrix<double> whole;  ///< D [n, n]
-  Eigen::MatrixXd on_basis;           ///< Phi^T D Phi [m, m]
-  Eigen::MatrixXd on_trace;           ///< X^T D X [nt, nt]
-  Eigen::MatrixXd between;            ///< X^T D Phi [nt, m]
-};
-
 /// What a structure is at the trace of its contact, before contact nodes are laid on it: free-interface modes and the
 /// flexibility they leave. To lay other contact nodes on the same trace takes dense algebra of their number only.
 /// Holds the factors of the stiffness, for fields to come.
@@ -72,10 +64,6 @@ using Factor = std::shared_ptr<const numerics::PartialCholesky>;
 /// @param known  the factor of its stiffness, if there is one
 [[nodiscard]] TraceModel trace_model(const FullModel& full, const ReductionOptions& options = {},
                                      const Factor& known = {});
-
-/// @param forced  displacements to unit forces on the trace, X [n, nt], or empty: a back-solve for each instead
-[[nodiscard]] StiffnessChange stiffness_change(const TraceModel& trace, Eigen::SparseMatrix<double> change,
-                                               const Eigen::MatrixXd& forced);
 
 /// Second half, with other contact nodes on the trace: their relative displacements are u = A v, v the trace's and A
 /// `average` [nodes, trace nodes] for each direction, and their forces act on the trace as A^T lambda. Between them

@@ -152,6 +152,8 @@ SettingsChoice choose_settings(const Scene& scene, const AccuracyGoal& goal, con
   Forecast forecast(scene, goal);
   std::vector<Known> known;
   Settings next = choice.settings;
+  double work = 0, allowed = kInfinity;
+  bool spent = false;
   next.history_tolerance = all.front().history_tolerance;
   // In space the own mesh may cost as much as all coarser ones together: what those foresee leads there.
   if (scene.kind->in_space) next.mesh = all.front().mesh;
@@ -164,7 +166,10 @@ SettingsChoice choose_settings(const Scene& scene, const AccuracyGoal& goal, con
       forecast.add(next, evaluation, beside);
       by = forecast.dominant();
       tried.operations = forecast.operations(next);
-      if (known.empty()) choice.not_held = forecast.not_held();
+      if (known.empty()) {
+        choice.not_held = forecast.not_held();
+        if (scene.solver.accuracy_work > 0) allowed = scene.solver.accuracy_work * forecast.operations(choice.settings);
+      }
     }
     if (by) {
       known.push_back({.tried = tried, .evaluation = std::move(evaluation), .alone = forecast, .forecast = forecast});
@@ -176,6 +181,7 @@ SettingsChoice choose_settings(const Scene& scene, const AccuracyGoal& goal, con
       std::erase(all, next);
     }
     choice.rounds.push_back(tried);
+    if (!known.empty()) work += known.back().forecast.operations(next);
     const bool go_on = !told || told(tried);
     if (!go_on) break;
     if (known.empty()) {
@@ -198,6 +204,8 @@ SettingsChoice choose_settings(const Scene& scene, const AccuracyGoal& goal, con
     const bool hardly_cheaper =
         best.excess <= 1 && known.back().forecast.operations(wanted) > kParams.worth * best.operations;
     if (tried_before || hardly_cheaper) break;
+    spent = work + known.back().forecast.operations(wanted) > allowed;
+    if (spent) break;
     next = wanted;
   }
   for (SettingsTried& round : choice.rounds)
@@ -215,7 +223,7 @@ SettingsChoice choose_settings(const Scene& scene, const AccuracyGoal& goal, con
   choice.raised = best.forecast.raised();
   raise_bars(choice.raised, choice.evaluation);
   choice.not_held = best.forecast.not_held();
-  choice.status = choice.tried.excess <= 1 ? Status::converged : Status::iteration_limit;
+  choice.status = choice.tried.excess <= 1 ? Status::converged : spent ? Status::budget_spent : Status::iteration_limit;
   choice.one_more_digit =
       one_more_digit(all, best.forecast, choice, history_tolerance(scene, goal.fixed, strictest(goal) / 10));
   return choice;
@@ -224,7 +232,10 @@ SettingsChoice choose_settings(const Scene& scene, const AccuracyGoal& goal, con
 SettingsChoice choose_settings(const Scene& reference, const Scene& scene, const AccuracyGoal& goal,
                                const AccuracyListener& told) {
   Purpose purpose{.truncation_alone = goal.of_truncation, .history = false};
-  if (!goal.responses.empty()) purpose.until = last_stage(goal.responses);
+  if (goal.until)
+    purpose.until = *goal.until;
+  else if (!goal.responses.empty())
+    purpose.until = last_stage(goal.responses);
   const bool beside = chooses_beside(scene, goal.fixed) && !goal.of_truncation;
   return choose_settings(
       scene, goal,

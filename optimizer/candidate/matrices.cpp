@@ -157,7 +157,8 @@ Status add_own_preload(const Scene& scene, const fem::SectorMesh& sector, const 
   result.change =
       geometric_stiffness(scene, sector, *result.shared->assembler, displacement - result.shared->preloaded);
   result.trace.change = std::make_shared<const reduction::StiffnessChange>(reduction::stiffness_change(
-      result.shared->trace, fem::constrain(result.change, result.shared->system.constraints), result.shared->forced));
+      *result.shared->trace.structure, fem::constrain(result.change, result.shared->system.constraints),
+      result.shared->forced));
   return Status::converged;
 }
 

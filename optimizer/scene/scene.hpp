@@ -69,6 +69,7 @@ struct SolverSettings {
   /// Bar over value of the responses asked for, for which mesh, harmonics, samples, modes and the tolerances of
   /// resonance and history are chosen; 0: they stay.
   double accuracy = 0;
+  double accuracy_work = 100;  ///< of choosing them, in evaluations of the scene without bars; 0: no limit
   int max_jacobians = 500;  ///< work of one evaluation, in Jacobians in which all contact nodes take part; 0: no limit
   double time_limit = 0;    ///< of one evaluation from the preload on, s; 0: none
 };

@@ -98,7 +98,7 @@ std::span<const Field<optimizer::Loading>> option_table<optimizer::Loading>() {
 template <>
 std::span<const Field<optimizer::SolverSettings>> option_table<optimizer::SolverSettings>() {
   using S = optimizer::SolverSettings;
-  static const std::array<Field<S>, 13> table{
+  static const std::array<Field<S>, 14> table{
       Field<S>{.key = "harmonics",
                .member = &S::harmonics,
                .range = {.lower = 1, .upper = 200},
@@ -150,6 +150,11 @@ std::span<const Field<optimizer::SolverSettings>> option_table<optimizer::Solver
                        "harmonics, samples, modes, resonance_tolerance and history_tolerance are chosen that the file "
                        "does not give; "
                        "0: all stay as given"},
+      Field<S>{.key = "accuracy_work",
+               .member = &S::accuracy_work,
+               .range = kNonNegative,
+               .help = "work of choosing settings for an accuracy, in evaluations without bars at the file's settings "
+                       "(the bars of each round come on top); 0: no limit"},
       Field<S>{.key = "max_jacobians",
                .member = &S::max_jacobians,
                .range = kNonNegative,

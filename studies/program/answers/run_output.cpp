@@ -108,28 +108,28 @@ WrittenRun record_of(const RunSite& site, OptimizationResult result, double seco
 
 WrittenRun write_run(const RunSite& site, const OptimizationResult& result, double seconds,
                      const std::vector<report::VerificationRecord>& verifications) {
-  const auto& [study, engine, directory, err, settings, chosen, goal, raised] = site;
+  const Study& study = site.study;
   // The design first: it costs nothing and must not be lost when describing it is cut short.
   if (result.best) {
     const optimizer::Candidate& best = result.evaluations[*result.best];
-    replace_file(directory / "best.toml",
+    replace_file(site.directory / "best.toml",
                  with_values(parse_document(study.text, study.file), variable_values(study, best)));
   }
   WrittenRun written = record_of(site, result, seconds);
   report::RunRecord& record = written.record;
   record.verifications = verifications;
-  report::write_results(directory / "results.h5", record);
-  report::write_report(directory / "report.html", record);
+  report::write_results(site.directory / "results.h5", record);
+  report::write_report(site.directory / "report.html", record);
   if (!result.best) return written;
   const Scene best = scene_of(study, result.evaluations[*result.best]);
   for (const ExportFormat format : study.exports) {
-    const std::filesystem::path file = directory / ("best." + std::string(to_string(format)));
+    const std::filesystem::path file = site.directory / ("best." + std::string(to_string(format)));
     if (format != ExportFormat::vtu)
       export_geometry(best, format, {}, file);
     else if (record.best_design && record.best_design->fields.mesh.element_count() > 0)
       export_fields(record.best_design->fields, file);
     else
-      err << "dovetail: " << file.string() << ": not written: the best design has no fields\n";
+      site.err << "dovetail: " << file.string() << ": not written: the best design has no fields\n";
   }
   return written;
 }

@@ -98,10 +98,10 @@ std::vector<std::size_t> best_designs(const optimizer::Problem& problem, const o
 std::vector<VerificationRecord> verify_best(const RunSite& site, const optimizer::OptimizationResult& result,
                                             const Study* finer, const std::string& fingerprint,
                                             const OrderlyInterrupt& interrupt) {
-  const auto& [study, engine, directory, err, settings, chosen_settings, goal, raised] = site;
+  const Study& study = site.study;
   std::vector<VerificationRecord> records;
-  if (!engine.verify) return records;
-  const fs::path file = directory / "verification.jsonl";
+  if (!site.engine.verify) return records;
+  const fs::path file = site.directory / "verification.jsonl";
   const std::vector<Kept> before = kept_before(file, fingerprint);
   const std::vector<std::size_t> chosen = best_designs(study.problem, result, study.optimizer.verify);
   wear::Watcher watcher;
@@ -115,13 +115,13 @@ std::vector<VerificationRecord> verify_best(const RunSite& site, const optimizer
       record = known->record;
     } else {
       if (interrupt.requested()) break;
-      err << fmt::format("dovetail: verifying evaluation {} by its wear history ({} of {})\n", index + 1,
-                         records.size() + 1, chosen.size())
-          << std::flush;
+      site.err << fmt::format("dovetail: verifying evaluation {} by its wear history ({} of {})\n", index + 1,
+                              records.size() + 1, chosen.size())
+               << std::flush;
       const optimizer::FinerDesign there =
           finer != nullptr ? optimizer::FinerDesign{scene_of(*finer, candidate), reference_scene(*finer)}
                            : optimizer::FinerDesign{};
-      record = engine.verify(scene_of(study, candidate), finer != nullptr ? &there : nullptr, watcher);
+      record = site.engine.verify(scene_of(study, candidate), finer != nullptr ? &there : nullptr, watcher);
       if (interrupt.requested()) break;  // not finished: computed again when resumed
       keep(file, line_of(fingerprint, {.x = candidate.x, .record = record}));
     }

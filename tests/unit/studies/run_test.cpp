@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "core/replace_file.hpp"
@@ -186,6 +187,16 @@ TEST_F(Run, HandsOverAtSettingsForTheAccuracyAskedFor) {
   ASSERT_EQ(run(true, factory), kDone) << err_.str();
   says_what_was_chosen();
   EXPECT_THAT(err_.str(), Not(HasSubstr("edges per flank")));
+  // What the rounds of the choice added to a bar holds for what is recorded, too.
+  const fs::path kept = results() / "best_settings.json";
+  nlohmann::ordered_json settings = nlohmann::ordered_json::parse(std::ifstream(kept));
+  const nlohmann::ordered_json none = settings;
+  settings["accuracy"]["raised"] = {{"asymptotic_wear_volume_m3", {{"mesh", 0.25}}}};
+  replace_file(kept, settings.dump());
+  EXPECT_EQ(run(true, factory), kNotConverged);
+  EXPECT_THAT(report::read_results(results() / "results.h5").best_design->notes,
+              testing::Contains(HasSubstr("not reached: asymptotic_wear_volume_m3 to 25 %")));
+  replace_file(kept, none.dump());
   // What is missed there is no answer.
   bar = 0.3;
   EXPECT_EQ(run(true, factory), kNotConverged);

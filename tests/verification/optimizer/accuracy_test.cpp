@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "optimizer/responses/response_table.hpp"
+#include "optimizer/scene/scene_kind.hpp"
 #include "quality/truncation.hpp"
 #include "steady/work.hpp"
 #include "tests/verification/optimizer/coarse_scene.hpp"
@@ -183,6 +184,38 @@ TEST(Accuracy, OutOfReachOfEverySettingCostsTwoRounds) {
   EXPECT_LT(choice.rounds[1].excess, choice.rounds[0].excess);
   EXPECT_LE(choice.tried.operations, choice.rounds[0].operations);
   EXPECT_FALSE(choose_settings(Scene{}, kGoal, Laws{}.probe()).out_of_reach);
+}
+
+// Bars that promise to fall and hardly do: the work of the rounds is limited, and what they found stays.
+TEST(Accuracy, TheWorkOfAChoiceIsLimited) {
+  const Laws laws{.mesh = 0.05, .harmonics = 0.05};
+  // Each round leaves 5 % less than the one before, whatever it was asked for.
+  const auto choose = [&](double work) {
+    Scene scene;
+    scene.solver.accuracy_work = work;
+    double scale = 1;
+    return choose_settings(scene, kGoal, [&](const Settings& s) {
+      AccuracyAnswer answer = laws.probe()(s);
+      scale *= 0.95;
+      const double sum = laws.sum(s);
+      for (auto& [source, bar] : answer.evaluation.error_sources[kVolume]) bar *= scale * laws.sum(Settings{}) / sum;
+      return answer;
+    });
+  };
+  const auto spent = [](const SettingsChoice& choice) {
+    double sum = 0;
+    for (const SettingsTried& round : choice.rounds) sum += round.operations;
+    return sum / choice.rounds.front().operations;
+  };
+  const SettingsChoice all = choose(0), some = choose(2);
+  EXPECT_EQ(all.status, Status::iteration_limit);
+  EXPECT_GT(spent(all), 2);
+  EXPECT_EQ(some.status, Status::budget_spent);
+  EXPECT_LE(spent(some), 2);
+  EXPECT_GT(some.rounds.size(), 1U);
+  EXPECT_LT(some.rounds.size(), all.rounds.size());
+  ASSERT_TRUE(some.tried.by);
+  EXPECT_EQ(some.evaluation.responses.count(kVolume), 1U);
 }
 
 // A round whose bars are out of line, above those of coarser settings, is no reason to give up, nor to expect bars that
@@ -371,6 +404,26 @@ TEST(Accuracy, BeginsBesideTheOwnSettings) {
   EXPECT_EQ(first.beside, own.beside);
   EXPECT_EQ(first.modes, own.modes);
   EXPECT_GE(first.samples, 8 * (2 * first.harmonics + 1));
+}
+
+// In space the own mesh may cost as much as all coarser ones together, but where those have no answer it is asked.
+TEST(Accuracy, BeginsOnTheCoarsestMeshInSpace) {
+  Scene scene;
+  scene.kind = &kSector;
+  const AccuracyProbe probe = Laws{}.probe();
+  const SettingsChoice choice = choose_settings(scene, kGoal, probe);
+  const double coarsest = all_settings(scene, {}, 0.02).front().mesh;
+  EXPECT_LT(coarsest, 1);
+  EXPECT_EQ(choice.rounds.front().settings.mesh, coarsest);
+  EXPECT_EQ(choice.status, Status::converged);
+  const SettingsChoice own = choose_settings(scene, kGoal, [&](const Settings& s) {
+    AccuracyAnswer answer = probe(s);
+    if (s.mesh < 1) answer.evaluation.status = failed_at("asymptote", to_string(Status::iteration_limit));
+    return answer;
+  });
+  ASSERT_GE(own.rounds.size(), 2U);
+  EXPECT_EQ(own.rounds[1].settings.mesh, 1);
+  EXPECT_EQ(own.status, Status::converged);
 }
 
 // Knobs that leave next to nothing stay where the accuracy is out of reach for another reason.

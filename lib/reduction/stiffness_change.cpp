@@ -1,0 +1,77 @@
+#include "reduction/stiffness_change.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "numerics/dense_product.hpp"
+#include "numerics/sparse_product.hpp"
+#include "reduction/params.hpp"
+
+namespace dovetail::reduction {
+
+using Sparse = Eigen::SparseMatrix<double>;
+
+namespace {
+
+/// Those of a matrix that are not negligible.
+std::vector<int> rows_that_count(const Sparse& matrix) {
+  Eigen::VectorXd largest = Eigen::VectorXd::Zero(matrix.cols());
+  for (Eigen::Index column = 0; column < matrix.outerSize(); ++column)
+    for (Sparse::InnerIterator entry(matrix, column); entry; ++entry)
+      largest(column) = std::max(largest(column), std::abs(entry.value()));
+  const double negligible = ChangeParams{}.negligible * largest.maxCoeff();
+  std::vector<int> rows;
+  for (Eigen::Index column = 0; column < matrix.cols(); ++column)
+    if (largest(column) > negligible) rows.push_back(static_cast<int>(column));
+  return rows;
+}
+
+/// A symmetric matrix on some of its rows.
+Eigen::SparseMatrix<double, Eigen::RowMajor> on_rows(const Sparse& matrix, const std::vector<int>& rows) {
+  std::vector<int> place(static_cast<std::size_t>(matrix.cols()), -1);
+  for (std::size_t i = 0; i < rows.size(); ++i) place[static_cast<std::size_t>(rows[i])] = static_cast<int>(i);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const int column : rows)
+    for (Sparse::InnerIterator entry(matrix, column); entry; ++entry) {
+      // Of a row left out, on the diagonal: a stress does nothing where bodies only move along.
+      const int row = place[static_cast<std::size_t>(entry.row())], here = place[static_cast<std::size_t>(column)];
+      entries.emplace_back(row >= 0 ? row : here, here, entry.value());
+    }
+  const auto r = static_cast<Eigen::Index>(rows.size());
+  Eigen::SparseMatrix<double, Eigen::RowMajor> result(r, r);
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
+/// Some rows of displacements to unit forces on the trace, of all a part at a time.
+Eigen::MatrixXd forced_on(const std::vector<int>& rows, const ResidualFlexibility& structure) {
+  const Eigen::Index nt = structure.on_contact().rows(), m = structure.basis().vectors.cols();
+  Eigen::MatrixXd x(static_cast<Eigen::Index>(rows.size()), nt);
+  for (Eigen::Index first = 0; first < nt; first += ChangeParams{}.fields_at_once) {
+    const Eigen::Index count = std::min<Eigen::Index>(ChangeParams{}.fields_at_once, nt - first);
+    const Eigen::MatrixXd forces = Eigen::MatrixXd::Identity(nt, nt).middleCols(first, count);
+    x.middleCols(first, count) = structure.field(Eigen::MatrixXd::Zero(m, count), forces)(rows, Eigen::all);
+  }
+  return x;
+}
+
+}  // namespace
+
+StiffnessChange stiffness_change(const ResidualFlexibility& structure, Sparse change, const Eigen::MatrixXd& forced) {
+  StiffnessChange result;
+  result.whole.swap(change);
+  const Eigen::MatrixXd& phi = structure.basis().vectors;
+  const Eigen::MatrixXd on_phi = numerics::symmetric_product(result.whole, phi);
+  const Eigen::MatrixXd on_basis = numerics::transposed_product(phi, on_phi);
+  result.on_basis = 0.5 * (on_basis + on_basis.transpose());
+  // Fields of contact forces decay: of them the rows count where the change is not negligible.
+  const std::vector<int> rows = rows_that_count(result.whole);
+  const Eigen::MatrixXd x = forced.size() > 0 ? Eigen::MatrixXd(forced(rows, Eigen::all)) : forced_on(rows, structure);
+  const numerics::Rows changed = numerics::product(on_rows(result.whole, rows), numerics::Rows(x));
+  result.on_trace = numerics::transposed_product(x, Eigen::MatrixXd(changed));
+  result.between = numerics::transposed_product(x, Eigen::MatrixXd(on_phi(rows, Eigen::all)));
+  return result;
+}
+
+}  // namespace dovetail::reduction
