@@ -319,6 +319,36 @@ TEST(Accuracy, APartThatIsSmallByChanceCountsForMore) {
   }
 }
 
+// One round before that is out of line raises nothing.
+TEST(Accuracy, APartIsHeldToTheLesserOfWhatTwoRoundsExpect) {
+  const Scene scene;
+  const Laws laws{.mesh = 0.1, .beside = 0, .by_mesh = find_response(kVolume)->mesh_order.in_plane};
+  Laws off = laws;
+  off.mesh *= 10;
+  Forecast forecast(scene, kGoal);
+  Settings at = settings_of(scene);
+  for (const Laws& round : {laws, off, laws}) {
+    forecast.add(at, round.probe()(at).evaluation);
+    EXPECT_TRUE(forecast.raised().empty()) << at.mesh;
+    at.mesh *= 1.333;
+  }
+}
+
+// A mesh beside the flanks that by one difference leaves nothing is not free to be coarser.
+TEST(Accuracy, NoPartOfTheMeshIsFree) {
+  const Scene scene;
+  const Laws laws{.mesh = 0.1, .beside = 0};
+  const Settings at = settings_of(scene);
+  for (const double leaves : {0.0, 1.0}) {
+    Forecast forecast(scene, kGoal);
+    forecast.add(at, laws.probe()(at).evaluation, {{kVolume, leaves}});
+    Settings beside = at, along = at;
+    beside.beside = along.mesh = 0.5;
+    EXPECT_GT(forecast.excess(beside), 1.05 * forecast.excess(at));
+    EXPECT_GT(forecast.excess(along), 1.05 * forecast.excess(at));
+  }
+}
+
 // What one evaluation would save by settings that are cheaper still pays for no round.
 TEST(Accuracy, OfOneEvaluationIsThatOfTheFirstSettingsThatWillDo) {
   AccuracyGoal goal = kGoal;
