@@ -1,0 +1,220 @@
+#include "optimizer/accuracy/rounds.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "optimizer/accuracy/params.hpp"
+#include "optimizer/scene/scene_kind.hpp"
+
+namespace dovetail::optimizer {
+
+namespace {
+
+constexpr SettingsParams kParams;
+
+/// Those whose parts of bars are foreseen by orders that may be off.
+constexpr std::array kKnobs{Knob::mesh, Knob::beside, Knob::harmonics, Knob::samples, Knob::modes};
+
+/// The cheapest that should do; where none should, of those that are as good as the most accurate one.
+Settings cheapest(const std::vector<Settings>& all, const Forecast& forecast, double allowed) {
+  std::vector<double> excess;
+  for (const Settings& settings : all) excess.push_back(forecast.excess(settings));
+  const double least = *std::ranges::min_element(excess);
+  const double limit = least <= allowed ? allowed : kParams.as_good * least;
+  std::size_t best = 0;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (excess[i] <= limit && (excess[best] > limit || forecast.operations(all[i]) < forecast.operations(all[best])))
+      best = i;
+  return all[best];
+}
+
+/// On the way there no further than may be foreseen.
+Settings towards(const Settings& there, const std::vector<Settings>& all, const Settings& at) {
+  const auto rank = [&](const Settings& settings) {
+    double too_far = 0, away = std::abs(std::log(finer(Knob::resonance, settings, there)));
+    for (const Knob knob : kKnobs) {
+      too_far += std::max(0.0, std::abs(std::log(finer(knob, settings, at))) - std::log(kParams.step));
+      away += std::abs(std::log(finer(knob, settings, there)));
+    }
+    return std::pair{too_far, away};
+  };
+  return *std::ranges::min_element(all, {}, rank);
+}
+
+double strictest(const AccuracyGoal& goal) {
+  double least = goal.relative;
+  for (const auto& [response, asked] : goal.of) least = std::min(least, asked);
+  return least;
+}
+
+std::optional<SettingsChoice::Digit> one_more_digit(const std::vector<Settings>& all, const Forecast& forecast,
+                                                    const SettingsChoice& choice, double history_tolerance) {
+  const double tenth = choice.tried.excess / 10;
+  Settings there = cheapest(all, forecast, tenth);
+  if (forecast.excess(there) > tenth) return {};
+  there.history_tolerance = history_tolerance;
+  return SettingsChoice::Digit{.settings = there,
+                               .times_as_long = forecast.operations(there) / forecast.operations(choice.settings)};
+}
+
+/// Rounds whose bars do not meet contradict each other, and nothing says which bar is too small: both reach to where
+/// the other begins. One that contradicts most of the others is out of line, and heard no more.
+void judge(std::vector<Known>& rounds) {
+  const auto contradicted = [&](const Known& round) {
+    return std::ranges::count_if(rounds, [&](const Known& other) { return !round.alone.meets(other.alone); });
+  };
+  for (Known& round : rounds)
+    round.tried.out_of_line = rounds.size() > 2 && 2 * contradicted(round) > static_cast<int>(rounds.size()) - 1;
+  if (std::ranges::all_of(rounds, [](const Known& round) { return round.tried.out_of_line; }))
+    for (Known& round : rounds) round.tried.out_of_line = false;  // there is no line
+  for (Known& round : rounds) {
+    round.forecast = round.alone;
+    for (const Known& other : rounds)
+      if (!other.tried.out_of_line) round.forecast.reach(other.alone);
+    round.tried.by = round.forecast.dominant();
+    round.tried.excess = round.forecast.excess(round.tried.settings);
+  }
+}
+
+/// The cheapest that is accurate enough; where none is, of those that are hardly less accurate than the best of them:
+/// what is missed all the same is not paid for.
+const Known& best_of(const std::vector<Known>& rounds) {
+  double least = kInfinity;
+  for (const Known& round : rounds)
+    if (!round.tried.out_of_line) least = std::min(least, round.tried.excess);
+  const double limit = least <= 1 ? 1 : kParams.hardly_worse * least;
+  const auto rank = [limit](const Known& round) {
+    return std::pair{round.tried.out_of_line || round.tried.excess > limit, round.tried.operations};
+  };
+  return *std::ranges::min_element(rounds, {}, rank);
+}
+
+struct Foreseen {
+  Settings settings;
+  double excess;
+};
+
+/// What should do by the last round; where by that one nothing would, by the round before that foresees the least: one
+/// may be out of line.
+Foreseen foreseen(const std::vector<Settings>& all, const Forecast& last, std::span<const Known> rounds) {
+  const auto by = [&](const Forecast& forecast) {
+    const Settings there = cheapest(all, forecast, kParams.aim);
+    return Foreseen{.settings = there, .excess = forecast.excess(there)};
+  };
+  Foreseen least = by(last);
+  for (const Known& round : rounds) {
+    if (least.excess <= 1) break;
+    Forecast before = round.forecast;
+    before.take_orders(last);
+    if (const Foreseen other = by(before); other.excess < least.excess) least = other;
+  }
+  return least;
+}
+
+}  // namespace
+
+Rounds::Rounds(const Scene& scene, const AccuracyGoal& goal, const AccuracyProbe& probe)
+    : scene_(scene),
+      goal_(goal),
+      probe_(probe),
+      own_(settings_of(scene)),
+      all_(all_settings(scene, goal.fixed, strictest(goal))),
+      forecast_(scene, goal) {}
+
+Settings Rounds::first() const {
+  Settings first = own_;
+  first.history_tolerance = all_.front().history_tolerance;
+  // In space the own mesh may cost as much as all coarser ones together: what those foresee leads there.
+  if (scene_.kind->in_space) first.mesh = all_.front().mesh;
+  const bool listed = std::ranges::find(all_, first) != all_.end();
+  return listed ? first : towards(first, all_, first);  // not where samples are too few
+}
+
+const SettingsTried& Rounds::ask(const Settings& at) {
+  auto [evaluation, beside] = probe_(at);
+  SettingsTried& tried = tried_.emplace_back(SettingsTried{.settings = at, .status = evaluation.status});
+  if (evaluation.converged()) {
+    forecast_.add(at, evaluation, beside);
+    tried.by = forecast_.dominant();
+    tried.operations = forecast_.operations(at);
+    if (known_.empty()) learn_of_the_first();
+  }
+  if (tried.by) {
+    known_.push_back({.tried = tried, .evaluation = std::move(evaluation), .alone = forecast_, .forecast = forecast_});
+    judge(known_);
+    tried = known_.back().tried;
+    for (const Known& round : known_)
+      if (round.tried.excess > 1) leave_out(round.tried.settings);  // known not to do
+  } else {
+    leave_out(at);
+  }
+  if (!known_.empty()) work_ += known_.back().forecast.operations(at);
+  return tried;
+}
+
+std::optional<Settings> Rounds::next() {
+  if (static_cast<int>(tried_.size()) == kParams.rounds) return {};
+  const Settings& at = tried_.back().settings;
+  if (known_.empty()) {
+    // On the coarsest mesh there may be no answer where there is one on the own.
+    Settings there = at;
+    there.mesh = own_.mesh;
+    return tried_.size() > 1 || there == at ? std::nullopt : std::optional(there);
+  }
+  const SettingsTried& best = best_of(known_).tried;
+  if (best.excess <= 1 && !goal_.many) return {};
+  const Forecast& last = known_.back().forecast;
+  const Foreseen there = foreseen(all_, last, best.excess > 1 ? known_ : std::span<const Known>());
+  // Of two that contradict each other a third says more.
+  const bool two_apart = known_.size() == 2 && !known_.front().alone.meets(known_.back().alone);
+  if (there.excess > 1 && best.excess > 1 && known_.size() > 1 && !two_apart) {
+    out_of_reach_ = there.excess;
+    return {};
+  }
+  const Settings wanted = towards(there.settings, all_, at);
+  const double cost = last.operations(wanted);
+  const bool hardly_cheaper = best.excess <= 1 && cost > kParams.worth * best.operations;
+  if (hardly_cheaper || std::ranges::find(tried_, wanted, &SettingsTried::settings) != tried_.end()) return {};
+  spent_ = work_ + cost > allowed_;
+  return spent_ ? std::nullopt : std::optional(wanted);
+}
+
+SettingsChoice Rounds::choice() const {
+  SettingsChoice choice;
+  choice.settings = own_;
+  choice.rounds = tried_;
+  choice.not_held = not_held_;
+  choice.out_of_reach = out_of_reach_;
+  for (SettingsTried& round : choice.rounds)
+    for (const Known& known : known_)
+      if (known.tried.settings == round.settings) round = known.tried;
+  if (known_.empty()) {
+    choice.status = Status::stalled;
+    return choice;
+  }
+  const Known& best = best_of(known_);
+  choice.settings = best.tried.settings;
+  choice.tried = best.tried;
+  choice.evaluation = best.evaluation;
+  choice.raised = best.forecast.raised();
+  raise_bars(choice.raised, choice.evaluation);
+  choice.not_held = best.forecast.not_held();
+  choice.status = best.tried.excess <= 1 ? Status::converged : spent_ ? Status::budget_spent : Status::iteration_limit;
+  choice.one_more_digit =
+      one_more_digit(all_, best.forecast, choice, history_tolerance(scene_, goal_.fixed, strictest(goal_) / 10));
+  return choice;
+}
+
+void Rounds::learn_of_the_first() {
+  not_held_ = forecast_.not_held();
+  if (scene_.solver.accuracy_work > 0) allowed_ = scene_.solver.accuracy_work * forecast_.operations(own_);
+}
+
+void Rounds::leave_out(const Settings& settings) {
+  if (all_.size() > 1) std::erase(all_, settings);
+}
+
+}  // namespace dovetail::optimizer

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "optimizer/accuracy/choice.hpp"
+
+namespace dovetail::optimizer {
+
+/// A round that has bars.
+struct Known {
+  SettingsTried tried;
+  Evaluation evaluation;
+  Forecast alone, forecast;  ///< before and after the others were heard
+};
+
+/// The rounds of a choice of settings, and what follows from them. What it is made of outlives it.
+class Rounds {
+ public:
+  Rounds(const Scene& scene, const AccuracyGoal& goal, const AccuracyProbe& probe);
+
+  [[nodiscard]] Settings first() const;
+  /// An evaluation, and what it says of all settings.
+  const SettingsTried& ask(const Settings& at);
+  /// What is worth another round; nothing where the choice is made.
+  [[nodiscard]] std::optional<Settings> next();
+  [[nodiscard]] SettingsChoice choice() const;
+
+ private:
+  void learn_of_the_first();
+  void leave_out(const Settings& settings);
+
+  const Scene& scene_;
+  const AccuracyGoal& goal_;
+  const AccuracyProbe& probe_;
+  Settings own_;
+  std::vector<Settings> all_;  // those that may still do
+  Forecast forecast_;          // after the last round with bars
+  std::vector<SettingsTried> tried_;
+  std::vector<Known> known_;
+  std::vector<std::string> not_held_;
+  std::optional<double> out_of_reach_;
+  double work_ = 0, allowed_ = kInfinity;
+  bool spent_ = false;
+};
+
+}  // namespace dovetail::optimizer
