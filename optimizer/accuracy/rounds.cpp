@@ -62,17 +62,17 @@ std::optional<SettingsChoice::Digit> one_more_digit(const std::vector<Settings>&
 
 /// Rounds whose bars do not meet contradict each other, and nothing says which bar is too small: both reach to where
 /// the other begins. One that contradicts most of the others is out of line, and heard no more.
-void judge(std::vector<Known>& rounds) {
-  const auto contradicted = [&](const Known& round) {
-    return std::ranges::count_if(rounds, [&](const Known& other) { return !round.alone.meets(other.alone); });
+void judge(std::vector<KnownRound>& rounds) {
+  const auto contradicted = [&](const KnownRound& round) {
+    return std::ranges::count_if(rounds, [&](const KnownRound& other) { return !round.alone.meets(other.alone); });
   };
-  for (Known& round : rounds)
+  for (KnownRound& round : rounds)
     round.tried.out_of_line = rounds.size() > 2 && 2 * contradicted(round) > static_cast<int>(rounds.size()) - 1;
-  if (std::ranges::all_of(rounds, [](const Known& round) { return round.tried.out_of_line; }))
-    for (Known& round : rounds) round.tried.out_of_line = false;  // there is no line
-  for (Known& round : rounds) {
+  if (std::ranges::all_of(rounds, [](const KnownRound& round) { return round.tried.out_of_line; }))
+    for (KnownRound& round : rounds) round.tried.out_of_line = false;  // there is no line
+  for (KnownRound& round : rounds) {
     round.forecast = round.alone;
-    for (const Known& other : rounds)
+    for (const KnownRound& other : rounds)
       if (!other.tried.out_of_line) round.forecast.reach(other.alone);
     round.tried.by = round.forecast.dominant();
     round.tried.excess = round.forecast.excess(round.tried.settings);
@@ -81,12 +81,12 @@ void judge(std::vector<Known>& rounds) {
 
 /// The cheapest that is accurate enough; where none is, of those that are hardly less accurate than the best of them:
 /// what is missed all the same is not paid for.
-const Known& best_of(const std::vector<Known>& rounds) {
+const KnownRound& best_of(const std::vector<KnownRound>& rounds) {
   double least = kInfinity;
-  for (const Known& round : rounds)
+  for (const KnownRound& round : rounds)
     if (!round.tried.out_of_line) least = std::min(least, round.tried.excess);
   const double limit = least <= 1 ? 1 : kParams.hardly_worse * least;
-  const auto rank = [limit](const Known& round) {
+  const auto rank = [limit](const KnownRound& round) {
     return std::pair{round.tried.out_of_line || round.tried.excess > limit, round.tried.operations};
   };
   return *std::ranges::min_element(rounds, {}, rank);
@@ -99,13 +99,13 @@ struct Foreseen {
 
 /// What should do by the last round; where by that one nothing would, by the round before that foresees the least: one
 /// may be out of line.
-Foreseen foreseen(const std::vector<Settings>& all, const Forecast& last, std::span<const Known> rounds) {
+Foreseen foreseen(const std::vector<Settings>& all, const Forecast& last, std::span<const KnownRound> rounds) {
   const auto by = [&](const Forecast& forecast) {
     const Settings there = cheapest(all, forecast, kParams.aim);
     return Foreseen{.settings = there, .excess = forecast.excess(there)};
   };
   Foreseen least = by(last);
-  for (const Known& round : rounds) {
+  for (const KnownRound& round : rounds) {
     if (least.excess <= 1) break;
     Forecast before = round.forecast;
     before.take_orders(last);
@@ -146,7 +146,7 @@ const SettingsTried& Rounds::ask(const Settings& at) {
     known_.push_back({.tried = tried, .evaluation = std::move(evaluation), .alone = forecast_, .forecast = forecast_});
     judge(known_);
     tried = known_.back().tried;
-    for (const Known& round : known_)
+    for (const KnownRound& round : known_)
       if (round.tried.excess > 1) leave_out(round.tried.settings);  // known not to do
   } else {
     leave_out(at);
@@ -167,7 +167,7 @@ std::optional<Settings> Rounds::next() {
   const SettingsTried& best = best_of(known_).tried;
   if (best.excess <= 1 && !goal_.many) return {};
   const Forecast& last = known_.back().forecast;
-  const Foreseen there = foreseen(all_, last, best.excess > 1 ? known_ : std::span<const Known>());
+  const Foreseen there = foreseen(all_, last, best.excess > 1 ? known_ : std::span<const KnownRound>());
   // Of two that contradict each other a third says more.
   const bool two_apart = known_.size() == 2 && !known_.front().alone.meets(known_.back().alone);
   if (there.excess > 1 && best.excess > 1 && known_.size() > 1 && !two_apart) {
@@ -189,13 +189,13 @@ SettingsChoice Rounds::choice() const {
   choice.not_held = not_held_;
   choice.out_of_reach = out_of_reach_;
   for (SettingsTried& round : choice.rounds)
-    for (const Known& known : known_)
+    for (const KnownRound& known : known_)
       if (known.tried.settings == round.settings) round = known.tried;
   if (known_.empty()) {
     choice.status = Status::stalled;
     return choice;
   }
-  const Known& best = best_of(known_);
+  const KnownRound& best = best_of(known_);
   choice.settings = best.tried.settings;
   choice.tried = best.tried;
   choice.evaluation = best.evaluation;

@@ -9,7 +9,7 @@
 namespace dovetail::optimizer {
 
 /// A round that has bars.
-struct Known {
+struct KnownRound {
   SettingsTried tried;
   Evaluation evaluation;
   Forecast alone, forecast;  ///< before and after the others were heard
@@ -38,7 +38,7 @@ class Rounds {
   std::vector<Settings> all_;  // those that may still do
   Forecast forecast_;          // after the last round with bars
   std::vector<SettingsTried> tried_;
-  std::vector<Known> known_;
+  std::vector<KnownRound> known_;
   std::vector<std::string> not_held_;
   std::optional<double> out_of_reach_;
   double work_ = 0, allowed_ = kInfinity;
