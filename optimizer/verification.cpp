@@ -36,20 +36,21 @@ Eigen::VectorXd on_grid(const Eigen::VectorXd& depth, const fem::ContactCells& f
 }
 
 /// Two histories, the second with half the increment, and what they extrapolate to.
-std::string wear_down(const Scene& scene, const CandidateResult& fine, const VerificationOptions& options,
+std::string wear_down(const Scene& scene, const CandidateResult& result, const VerificationOptions& options,
                       const wear::Watcher& watcher, Verification& verification) {
-  const std::shared_ptr<const dynamics::CondensedModel>& model = fine.model.condensed;
+  const std::shared_ptr<const dynamics::CondensedModel>& model = result.model.condensed;
   steady::Options steady = steady_options(scene.solver);
   double volume = 0;
   Eigen::VectorXd depth;
   for (const double part : {1.0, 0.5}) {
-    steady.budget = new_budget(scene.solver, fine.model, options.budgets);
+    steady.budget = new_budget(scene.solver, result.model, options.budgets);
     wear::HistoryOptions settings;
     settings.follow = scene.loading.follow;
-    settings.increment = part * options.increment * wear::largest_penetration(*model, fine.unworn->state);
+    settings.increment = part * options.increment * wear::largest_penetration(*model, result.unworn->state);
     settings.steps = options.steps;
     settings.finish = false;
-    const wear::History history = wear::history({model, {}, steady}, {.omega = fine.unworn->omega}, settings, watcher);
+    const wear::History history =
+        wear::history({model, {}, steady}, {.omega = result.unworn->omega}, settings, watcher);
     verification.history_solves += history.solves;
     const Eigen::Index last = history.cycles.size() - 1;
     if (last < 0) return failed_at("history", to_string(history.status));
@@ -69,42 +70,33 @@ std::string wear_down(const Scene& scene, const CandidateResult& fine, const Ver
   }
   verification.history_depth = verification.history_profile.maxCoeff();
   verification.profile_difference =
-      (verification.history_profile - verification.direct_profile).cwiseAbs().maxCoeff() / verification.direct_depth;
+      (verification.history_profile - verification.search_profile).cwiseAbs().maxCoeff() / verification.search_depth;
   return status_of(Outcome::converged);
 }
 
-/// Whether the three answers lie within their bars of each other.
-/// @param finer  edges of the finer mesh over those of the search
-std::string judged(const Verification& v, double finer) {
-  const auto apart = [](double a, double b, double bars) { return !(std::abs(a - b) <= bars); };
-  const auto words = [](const char* what, double a, const char* other, double b, double bars) {
-    return fmt::format("{}: {} {:.4g} m^3, {} {:.4g} m^3, bars {:.2g} m^3", to_string(Outcome::disagrees), what, a,
-                       other, b, bars);
+/// Whether the two other answers lie within their bars of the search's.
+std::string judged(const Verification& v) {
+  const auto apart = [&](const char* what, double volume, double bars) {
+    if (std::abs(volume - v.search_volume) <= bars) return std::string();
+    return fmt::format("{}: search {:.4g} m^3, {} {:.4g} m^3, bars {:.2g} m^3", to_string(Outcome::disagrees),
+                       v.search_volume, what, volume, bars);
   };
-  if (apart(v.direct_volume, v.search_volume, v.search_bar))
-    return words("search", v.search_volume, "finer mesh", v.direct_volume, v.search_bar);
-  if (apart(v.history_volume, v.search_volume, v.search_bar + v.history_bar))
-    return words("search", v.search_volume, "history", v.history_volume, v.search_bar + v.history_bar);
-  // Errors fall with the first power of the edges at least.
-  const double direct_bar = v.search_bar / finer;
-  if (apart(v.history_volume, v.direct_volume, direct_bar + v.history_bar))
-    return words("finer mesh", v.direct_volume, "history on it", v.history_volume, direct_bar + v.history_bar);
+  if (std::string words = apart("finer mesh", v.direct_volume, v.search_bar); !words.empty()) return words;
+  if (std::string words = apart("history", v.history_volume, v.search_bar + v.history_bar); !words.empty())
+    return words;
   return status_of(Outcome::converged);
 }
 
-std::string compare(const Scene& scene, const CandidateResult& fine, double finer, const VerificationOptions& options,
-                    const wear::Watcher& watcher, Verification& verification) {
+/// The direct answer at finer settings.
+std::string ask_finer(const FinerDesign& there, const CandidateResult& result, Verification& verification) {
+  const CandidateResult fine =
+      computed(there.scene, ModelBuilder(there.reference).build(there.scene), until(kSearch.until, kSearch.history));
   if (!fine.evaluation.converged()) return failed_at("finer mesh", fine.evaluation.status);
-  verification.frequency_hz = hertz(fine.unworn->omega);
   verification.direct_solves = fine.asymptote->solves;
   verification.direct_volume = fine.asymptote->worn_volume;
   verification.direct_depth = fine.asymptote->largest_depth;
-  verification.direct_profile = fine.asymptote->depth;
-  verification.history_profile = fine.asymptote->depth;
-  // Where every node sticks a history would not leave its first state.
-  if (verification.direct_depth > 0)
-    if (std::string ended = wear_down(scene, fine, options, watcher, verification); !converged(ended)) return ended;
-  return judged(verification, finer);
+  verification.direct_profile = on_grid(fine.asymptote->depth, fine.model.cells, result.model.cells);
+  return status_of(Outcome::converged);
 }
 
 }  // namespace
@@ -148,14 +140,15 @@ Verification verify(const Scene& scene, const CandidateResult& result, const Fin
   } else {
     verification.search_volume = result.asymptote->worn_volume;
     verification.search_depth = result.asymptote->largest_depth;
+    verification.search_profile = verification.history_profile = result.asymptote->depth;
     const auto bar = result.evaluation.error_estimates.find(std::string(kWornVolume.name));
     verification.search_bar = bar == result.evaluation.error_estimates.end() ? std::nan("") : bar->second;
-    CandidateResult fine =
-        computed(there.scene, ModelBuilder(there.reference).build(there.scene), until(kSearch.until, kSearch.history));
-    const double edges = static_cast<double>(there.scene.mesh.flank_elements) / scene.mesh.flank_elements;
-    verification.status = compare(there.scene, fine, edges, options, watcher, verification);
-    verification.search_profile = on_grid(result.asymptote->depth, result.model.cells, fine.model.cells);
-    verification.model = std::move(fine.model);
+    verification.frequency_hz = hertz(result.unworn->omega);
+    verification.status = ask_finer(there, result, verification);
+    // Where every node sticks a history would not leave its first state.
+    if (verification.converged() && verification.search_depth > 0)
+      verification.status = wear_down(scene, result, options, watcher, verification);
+    if (verification.converged()) verification.status = judged(verification);
   }
   if (watcher.stopped()) verification.status = status_of(Outcome::interrupted);
   verification.seconds = watch.lap();

@@ -23,26 +23,27 @@ struct VerificationOptions {
   double budgets = 4;
 };
 
-/// A design's wear at finer settings: directly, and by two explicit histories that know nothing of the direct answer,
-/// extrapolated to no increment. Agreement is judged against the bars.
+/// A design's wear asked for in two other ways: directly at finer settings, which says whether the mesh and what the
+/// solver leaves out are in the bars, and at its own settings by two explicit histories that know nothing of the direct
+/// answer, extrapolated to no increment, which say whether the method is right. At finer settings histories would cost
+/// tens of evaluations and say the same.
 struct Verification {
-  /// Converged: history, finer direct method and search agree within their bars; else they disagree, or what failed and
-  /// why, or interrupted.
+  /// Converged: both agree with the search within their bars; else they disagree, or what failed and why, or
+  /// interrupted.
   std::string status = status_of(Outcome::converged);
-  int flank_elements = 0, harmonics = 0, samples = 0;
-  wear::Follow follow = wear::Follow::fixed;     ///< as the design's loading says
-  double frequency_hz = 0;                       ///< of the unworn resonance on the finer mesh
-  double search_volume = 0, search_bar = 0;      ///< m^3, at the settings of the search, and its error bar
-  double search_depth = 0;                       ///< m
-  double direct_volume = 0, direct_depth = 0;    ///< m^3, m
-  double history_volume = 0, history_depth = 0;  ///< m^3, m, extrapolated
-  double history_bar = 0;                        ///< m^3, of the extrapolation: the change by the last halving
-  double profile_difference = 0;                 ///< largest |direct - history| of a node over the largest direct depth
-  double cycles = 0;                             ///< of the finer history
+  int flank_elements = 0, harmonics = 0, samples = 0;  ///< of the finer direct answer
+  wear::Follow follow = wear::Follow::fixed;           ///< as the design's loading says
+  double frequency_hz = 0;                             ///< of the histories: the design's unworn resonance
+  double search_volume = 0, search_bar = 0;            ///< m^3, at the settings of the search, and its error bar
+  double search_depth = 0;                             ///< m
+  double direct_volume = 0, direct_depth = 0;          ///< m^3, m, at finer settings
+  double history_volume = 0, history_depth = 0;        ///< m^3, m, extrapolated
+  double history_bar = 0;                              ///< m^3, of the extrapolation: the change by the last halving
+  double profile_difference = 0;                       ///< largest |search - history| of a node over the search's depth
+  double cycles = 0;                                   ///< of the finer history
   int direct_solves = 0, history_solves = 0;
-  Eigen::VectorXd search_profile, direct_profile, history_profile;  ///< [Nc] m
+  Eigen::VectorXd search_profile, direct_profile, history_profile;  ///< [Nc] m, on the contact nodes of the search
   double seconds = 0;
-  CandidateModel model;  ///< on the finer mesh; profiles are on its contact nodes
 
   [[nodiscard]] bool converged() const { return outcome_of(status) == Outcome::converged; }
 };
@@ -65,8 +66,8 @@ struct FinerDesign {
 
 /// @param result  the design as the search has it, with bars
 /// @param there  settings of more edges along the flanks
-/// Never throws for what a design is like; what could not be computed is in the status. Cost: an evaluation and some
-/// 100 to 300 steady states at those settings.
+/// Never throws for what a design is like; what could not be computed is in the status. Cost: an evaluation at those
+/// settings and some 50 to 300 steady states at the design's own.
 [[nodiscard]] Verification verify(const Scene& scene, const CandidateResult& result, const FinerDesign& there,
                                   const VerificationOptions& options = {}, const wear::Watcher& watcher = {});
 

@@ -122,8 +122,8 @@ RunEngine study_engine(const Study& study) {
   engine.verify = [closer](const Scene& scene, const optimizer::FinerDesign* given, const wear::Watcher& watcher) {
     const optimizer::FinerDesign there =
         given != nullptr ? *given : optimizer::twice_as_fine(closer->evaluator(), scene);
-    const optimizer::Verification verification = optimizer::verify(scene, *closer->look(scene), there, {}, watcher);
-    return report::make_verification_record(verification, verification.model);
+    const std::shared_ptr<const optimizer::CandidateResult> design = closer->look(scene);
+    return report::make_verification_record(optimizer::verify(scene, *design, there, {}, watcher), design->model);
   };
   return engine;
 }

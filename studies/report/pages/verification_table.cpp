@@ -12,17 +12,17 @@ std::string verification_table(const RunRecord& record) {
   double most = 0, deepest = 0;
   for (const VerificationRecord& v : record.verifications) {
     most = std::max({most, v.search_volume_m3, v.direct_volume_m3, v.history_volume_m3});
-    deepest = std::max({deepest, v.direct_depth_m, v.history_depth_m});
+    deepest = std::max({deepest, v.search_depth_m, v.history_depth_m});
   }
   const Unit volume = readable_unit("m^3", most), depth = readable_unit("m", deepest);
   const Unit bare{.symbol = "", .si = volume.si};  // the unit stands in the head
   Table table{.columns = {{"#"},
                           {"status", true},
                           {"search (" + volume.symbol + ")"},
-                          {"direct (" + volume.symbol + ")"},
+                          {"finer (" + volume.symbol + ")"},
                           {"history (" + volume.symbol + ")"},
                           {"change"},
-                          {"depth, direct (" + depth.symbol + ")"},
+                          {"depth, search (" + depth.symbol + ")"},
                           {"history (" + depth.symbol + ")"},
                           {"profiles differ by"}},
               .rows = {}};
@@ -32,8 +32,8 @@ std::string verification_table(const RunRecord& record) {
         {{std::to_string(v.evaluation + 1), v.agreement(), with_error(v.search_volume_m3, v.search_bar_m3, bare),
           significant(v.direct_volume_m3 / volume.si, 4),
           where_compared(with_error(v.history_volume_m3, v.history_bar_m3, bare)),
-          where_compared(per_cent(v.history_volume_m3, v.direct_volume_m3)),
-          significant(v.direct_depth_m / depth.si, 4), where_compared(significant(v.history_depth_m / depth.si, 4)),
+          where_compared(per_cent(v.history_volume_m3, v.search_volume_m3)),
+          significant(v.search_depth_m / depth.si, 4), where_compared(significant(v.history_depth_m / depth.si, 4)),
           where_compared(significant(100 * v.profile_difference, 2) + "\u00a0%")}});
   }
   return table_html(table);

@@ -107,20 +107,20 @@ Plot verification_plot(const VerificationRecord& record) {
   Plot plot{.title = fmt::format("Worn profile of evaluation {}", record.evaluation + 1),
             .description =
                 "Depth along the more worn flank. Solid: the end of the history; dashed: the direct method "
-                "at the same settings; dotted: at the settings of the search.",
+                "at the same settings, those of the search; dotted: at finer ones, read at the same contact nodes.",
             .x = kAlongFlank,
             .y = {.label = "worn depth", .from_zero = true}};
   const std::size_t count = record.flank.size();
-  if (count == 0 || record.direct_profile_m.size() != count) return plot;
+  if (count == 0 || record.search_profile_m.size() != count) return plot;
   const std::vector<std::size_t> line =
-      most_worn_line(record.flank, record.across_m, record.direct_profile_m, record.flank_names.size());
+      most_worn_line(record.flank, record.across_m, record.search_profile_m, record.flank_names.size());
   const auto add = [&](const char* name, const Numbers& profile, Role role, Stroke stroke) {
     if (profile.size() == count)
       plot.series.push_back(along_line(record.along_m, profile, line, {.name = name, .role = role, .stroke = stroke}));
   };
   add("history", record.history_profile_m, Role::after, Stroke::solid);
-  add("direct", record.direct_profile_m, Role::before, Stroke::dashed);
-  add("search", record.search_profile_m, Role::muted, Stroke::dotted);
+  add("direct", record.search_profile_m, Role::before, Stroke::dashed);
+  add("finer", record.direct_profile_m, Role::muted, Stroke::dotted);
   return readable(std::move(plot), "m");
 }
 

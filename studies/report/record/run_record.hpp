@@ -103,7 +103,7 @@ struct EvaluationRecord {
   std::vector<std::string> messages;
 };
 
-/// One of the best designs with its wear by the full history at finer settings; see optimizer::Verification.
+/// One of the best designs with its wear by the full history and at finer settings; see optimizer::Verification.
 struct VerificationRecord {
   std::int64_t evaluation = 0;  ///< index of the candidate
   std::string status, follow;

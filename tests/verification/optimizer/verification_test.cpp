@@ -1,6 +1,7 @@
-// A design's wear by explicit histories on a finer mesh, against the direct answer of the search.
+// A design's wear by explicit histories, and directly on a finer mesh, against the answer of the search.
 #include "optimizer/verification.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,10 +21,12 @@ TEST(Verification, ThreeAnswersAgreeWithinTheirBars) {
   EXPECT_EQ(v.samples, 2 * scene.solver.samples);
   // Three answers, none of them a copy of another.
   EXPECT_NE(v.direct_volume, v.search_volume);
-  EXPECT_NE(v.history_volume, v.direct_volume);
+  EXPECT_NE(v.history_volume, v.search_volume);
   EXPECT_NEAR(v.direct_volume, v.search_volume, v.search_bar);
   EXPECT_NEAR(v.history_volume, v.search_volume, v.search_bar + v.history_bar);
-  EXPECT_NEAR(v.history_volume, v.direct_volume, v.history_bar + 0.01 * v.direct_volume);
+  EXPECT_NEAR(v.history_volume, v.search_volume, v.history_bar + 0.01 * v.search_volume);
+  EXPECT_LT(v.profile_difference, 0.1);
+  EXPECT_EQ(v.direct_profile.size(), v.history_profile.size());
   EXPECT_GT(v.history_bar, 0);
   EXPECT_GT(v.history_solves, 20);
 }
@@ -44,6 +47,22 @@ TEST(Verification, MayBeAtGivenSettings) {
   EXPECT_EQ(v.direct_volume, SceneEvaluator(there.reference)
                                  .evaluate(there.scene, kSearch)
                                  .evaluation.responses.at("asymptotic_wear_volume_m3"));
+}
+
+// A search whose worn volume is off by more than its bar is found out by either answer.
+TEST(Verification, DisagreesWithASearchThatIsOff) {
+  const Scene scene = coarse_scene();
+  const SceneEvaluator evaluator(scene);
+  CandidateResult off = evaluator.evaluate(scene);
+  const double bar = off.evaluation.error_estimates.at("asymptotic_wear_volume_m3");
+  const double right = off.asymptote->worn_volume;
+  off.asymptote->worn_volume = right + 3 * bar;
+  const FinerDesign same{.scene = scene, .reference = scene}, finer = twice_as_fine(evaluator, scene);
+  EXPECT_THAT(verify(scene, off, finer).status, testing::HasSubstr("finer mesh"));
+  // A finer mesh that errs alike does not help.
+  off.evaluation.error_estimates["asymptotic_wear_volume_m3"] = 1e-9 * right;
+  off.asymptote->worn_volume = right;
+  EXPECT_THAT(verify(scene, off, same).status, testing::HasSubstr("history"));
 }
 
 TEST(Verification, NeitherHistoryGoesOnWithoutABudget) {
