@@ -45,10 +45,7 @@ SettingsChoice choose_settings(const Scene& scene, const AccuracyGoal& goal, con
 SettingsChoice choose_settings(const Scene& reference, const Scene& scene, const AccuracyGoal& goal,
                                const AccuracyListener& told) {
   Purpose purpose{.truncation_alone = goal.of_truncation, .history = false};
-  if (goal.until)
-    purpose.until = *goal.until;
-  else if (!goal.responses.empty())
-    purpose.until = last_stage(goal.responses);
+  if (!goal.responses.empty()) purpose.until = last_stage(goal.responses);
   const bool beside = chooses_beside(scene, goal.fixed) && !goal.of_truncation;
   return choose_settings(
       scene, goal,

@@ -25,8 +25,8 @@ struct SettingsTried {
 /// Settings for the accuracy asked for, at least cost as far as bars foresee it.
 struct SettingsChoice {
   /// converged: all responses are accurate enough; iteration_limit: not reached, these are the cheapest of those
-  /// tried that are hardly less accurate than the most accurate ones; budget_spent: the same, where only the work that
-  /// the scene allows for choosing ended it; stalled: no response asked for has a value and a bar at the first
+  /// tried that are hardly less accurate than the most accurate ones; budget_spent: the same, where the work that the
+  /// scene allows for choosing ended it; stalled: no response asked for has a value and a bar at the first
   /// settings, which are the scene's own unless samples and harmonics there do not match (in space on the coarsest
   /// mesh), and they stay.
   Status status = Status::iteration_limit;
@@ -44,6 +44,8 @@ struct SettingsChoice {
   std::optional<Digit> one_more_digit;
   /// Where no settings there are should be accurate enough: the least excess foreseen of any.
   std::optional<double> out_of_reach;
+  double work = 0;                     ///< of the rounds, in evaluations of the scene, both without bars
+  std::optional<double> work_refused;  ///< with that of another round, where this was more than the scene allows
 };
 
 /// A design with bars at other settings.
@@ -66,7 +68,7 @@ using AccuracyListener = std::function<bool(const SettingsTried&)>;
 [[nodiscard]] SettingsChoice choose_settings(const Scene& scene, const AccuracyGoal& goal, const AccuracyProbe& probe,
                                              const AccuracyListener& told = {});
 
-/// The same on meshes of a reference.
+/// The same on meshes of a reference, of the scene until the last stage that the responses of the goal need.
 [[nodiscard]] SettingsChoice choose_settings(const Scene& reference, const Scene& scene, const AccuracyGoal& goal,
                                              const AccuracyListener& told = {});
 

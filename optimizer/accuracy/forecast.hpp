@@ -22,8 +22,6 @@ struct AccuracyGoal {
   bool of_truncation = false;
   /// Many evaluations follow at those settings: cheaper ones are worth a round where these are accurate enough.
   bool many = true;
-  /// The last stage that a round computes; without a value the last that those responses need.
-  std::optional<Stage> until = {};
 
   [[nodiscard]] double asked(const std::string& response) const {
     const auto own = of.find(response);

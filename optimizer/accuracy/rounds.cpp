@@ -178,8 +178,10 @@ std::optional<Settings> Rounds::next() {
   const double cost = last.operations(wanted);
   const bool hardly_cheaper = best.excess <= 1 && cost > kParams.worth * best.operations;
   if (hardly_cheaper || std::ranges::find(tried_, wanted, &SettingsTried::settings) != tried_.end()) return {};
-  spent_ = work_ + cost > allowed_;
-  return spent_ ? std::nullopt : std::optional(wanted);
+  const double work = (work_ + cost) / unit_, allowed = scene_.solver.accuracy_work;
+  if (allowed == 0 || work <= allowed) return wanted;
+  work_refused_ = work;
+  return {};
 }
 
 SettingsChoice Rounds::choice() const {
@@ -188,6 +190,8 @@ SettingsChoice Rounds::choice() const {
   choice.rounds = tried_;
   choice.not_held = not_held_;
   choice.out_of_reach = out_of_reach_;
+  choice.work = work_ / unit_;
+  choice.work_refused = work_refused_;
   for (SettingsTried& round : choice.rounds)
     for (const KnownRound& known : known_)
       if (known.tried.settings == round.settings) round = known.tried;
@@ -202,7 +206,9 @@ SettingsChoice Rounds::choice() const {
   choice.raised = best.forecast.raised();
   raise_bars(choice.raised, choice.evaluation);
   choice.not_held = best.forecast.not_held();
-  choice.status = best.tried.excess <= 1 ? Status::converged : spent_ ? Status::budget_spent : Status::iteration_limit;
+  choice.status = best.tried.excess <= 1 ? Status::converged
+                  : work_refused_        ? Status::budget_spent
+                                         : Status::iteration_limit;
   choice.one_more_digit =
       one_more_digit(all_, best.forecast, choice, history_tolerance(scene_, goal_.fixed, strictest(goal_) / 10));
   return choice;
@@ -210,7 +216,7 @@ SettingsChoice Rounds::choice() const {
 
 void Rounds::learn_of_the_first() {
   not_held_ = forecast_.not_held();
-  if (scene_.solver.accuracy_work > 0) allowed_ = scene_.solver.accuracy_work * forecast_.operations(own_);
+  unit_ = forecast_.operations(own_);
 }
 
 void Rounds::leave_out(const Settings& settings) {

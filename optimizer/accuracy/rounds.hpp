@@ -21,7 +21,7 @@ class Rounds {
   Rounds(const Scene& scene, const AccuracyGoal& goal, const AccuracyProbe& probe);
 
   [[nodiscard]] Settings first() const;
-  /// An evaluation, and what it says of all settings.
+  /// An evaluation, and what it says of all settings. What is returned holds until the next one.
   const SettingsTried& ask(const Settings& at);
   /// What is worth another round; nothing where the choice is made.
   [[nodiscard]] std::optional<Settings> next();
@@ -41,8 +41,8 @@ class Rounds {
   std::vector<KnownRound> known_;
   std::vector<std::string> not_held_;
   std::optional<double> out_of_reach_;
-  double work_ = 0, allowed_ = kInfinity;
-  bool spent_ = false;
+  double unit_ = kInfinity, work_ = 0;  // operations of the scene's own settings, from the first round with bars on
+  std::optional<double> work_refused_;
 };
 
 }  // namespace dovetail::optimizer

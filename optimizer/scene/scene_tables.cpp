@@ -153,8 +153,8 @@ std::span<const Field<optimizer::SolverSettings>> option_table<optimizer::Solver
       Field<S>{.key = "accuracy_work",
                .member = &S::accuracy_work,
                .range = kNonNegative,
-               .help = "work of choosing settings for an accuracy, in evaluations without bars at the file's settings "
-                       "(the bars of each round come on top); 0: no limit"},
+               .help = "work up to which another round of choosing settings for an accuracy begins, in evaluations "
+                       "without bars at the file's settings (the bars of each round come on top); 0: no limit"},
       Field<S>{.key = "max_jacobians",
                .member = &S::max_jacobians,
                .range = kNonNegative,

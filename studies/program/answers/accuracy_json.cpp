@@ -40,6 +40,7 @@ Json accuracy_json(const optimizer::Scene& scene, const optimizer::SettingsChoic
     round["out_of_line"] = tried.out_of_line;
     json["rounds"].push_back(std::move(round));
   }
+  json["work"] = choice.work;
   json["one_more_digit"] = Json();
   if (choice.one_more_digit)
     json["one_more_digit"] = Json{{"settings", settings_json(scene, choice.one_more_digit->settings)},

@@ -116,11 +116,13 @@ std::vector<std::string> keep_unworn(optimizer::Problem& problem, optimizer::Eva
   return unjudged;
 }
 
-/// Whether the last round of a choice was the evaluation asked for. Rounds ask no history.
+/// Whether the round of a choice whose settings are taken is the evaluation asked for. Rounds do not look for doubts of
+/// worn states as closely as an evaluation that may ask a history about them.
 bool answers(const optimizer::SettingsChoice& choice, const optimizer::AccuracyGoal& goal,
              const optimizer::Purpose& purpose) {
   if (!choice.tried.by || goal.of_truncation || !purpose.bars) return false;
-  return !(purpose.history && choice.evaluation.model.at("wear_history_may_differ") != 0);
+  const bool as_far = goal.responses.empty() || optimizer::last_stage(goal.responses) == purpose.until;
+  return as_far && !purpose.history;
 }
 
 /// Two ways to choose the same.
@@ -145,10 +147,7 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
   const optimizer::Stage until = options.unworn ? optimizer::Stage::unworn : optimizer::Stage::worn_resonance;
   std::optional<optimizer::AccuracyGoal> goal =
       study.scene.solver.accuracy > 0 ? accuracy_goal(study, until) : truncation_goal(study, options.solver, until);
-  if (goal) {
-    goal->many = false;
-    if (!goal->of_truncation) goal->until = until;  // the last round may be what is asked for
-  }
+  if (goal) goal->many = false;
   const std::optional<optimizer::SettingsChoice> choice =
       settle(study, goal, [&](const optimizer::SettingsTried& tried) {
         streams.err << "dovetail: " << round_words(asked, tried) << "\n";

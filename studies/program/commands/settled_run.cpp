@@ -192,8 +192,8 @@ SettledStudy settled_run(const Study& asked, const std::filesystem::path& direct
     throw InputError(Violation{.file = file.string(),
                                .key = "the choice in it",
                                .value = {},
-                               .allowed = "was made for another study or accuracy than the one at hand: resume that "
-                                          "one, or begin anew without --resume"});
+                               .allowed = "was made for another study, accuracy or accuracy_work than the one at "
+                                          "hand: resume that one, or begin anew without --resume"});
   if (!settled) {
     settled = chosen(asked, make_engine, err);
     keep(file, question, *settled);

@@ -156,11 +156,11 @@ std::string accuracy_complaint(const Study& study, const optimizer::SettingsChoi
   if (choice.out_of_reach)
     foreseen =
         fmt::format("; no settings are foreseen to leave less than {:.3g} times what was asked", *choice.out_of_reach);
-  if (choice.status == Status::budget_spent)
+  if (choice.work_refused)
     foreseen = fmt::format(
-        "; finer settings would cost more than the work of {:g} evaluations at those of the file, which "
-        "solver.accuracy_work allows for choosing",
-        study.scene.solver.accuracy_work);
+        "; the next settings would bring the work of choosing from {:.3g} to {:.3g} times that of an evaluation at the "
+        "file's, of which solver.accuracy_work allows {:g}",
+        choice.work, *choice.work_refused, study.scene.solver.accuracy_work);
   return fmt::format("the accuracy asked for is not reached: {}{}{}{}", known(*choice.tried.by), foreseen,
                      held.empty() ? "" : ". Given, and kept, are ", fmt::join(held, ", "));
 }

@@ -2,12 +2,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/replace_file.hpp"
 #include "optimizer/bars/other_meshes.hpp"
 #include "optimizer/evaluator.hpp"
+#include "studies/program/commands/commands.hpp"
 #include "studies/program/engine/engine.hpp"
 #include "studies/program/study_file/study.hpp"
 
@@ -43,6 +48,26 @@ TEST(HardDesigns, WithHardlyAnyFrictionWearHasNoEnd) {
     ASSERT_TRUE(result.asymptote.has_value()) << friction;
     EXPECT_TRUE(result.asymptote->confirmed_by_history) << friction;
   }
+}
+
+// Only a closer look, which the rounds of a choice of settings do not take, finds the doubt that a history settles
+// here.
+TEST(HardDesigns, AnAccuracyAskedForHidesNoDoubt) {
+  std::ostringstream out, err;
+  // One that names a response of the last stage: its rounds go as far as an evaluation.
+  const std::filesystem::path study = std::filesystem::temp_directory_path() / "dovetail_hides_no_doubt.toml";
+  replace_file(study,
+               load_study(QUICKSTART, {}).text + "[[constraint]]\nresponse = \"worn_resonance_hz\"\nlower = 1\n");
+  EvaluateOptions options;
+  options.study = study.string();
+  options.set = {"solver.accuracy=0.5", "geometry.flank_mismatch_um=5", "geometry.flank_crown_um=0"};
+  options.json = "-";
+  EXPECT_EQ(run_evaluate(options, {.out = out, .err = err}), 0) << err.str();
+  std::filesystem::remove(study);
+  const nlohmann::json answer = nlohmann::json::parse(out.str());
+  EXPECT_EQ(answer.at("accuracy").at("rounds").size(), 1U);
+  EXPECT_TRUE(answer.at("error_sources").at("asymptotic_wear_volume_m3").contains("history"));
+  EXPECT_THAT(err.str(), testing::HasSubstr("The worn state was in doubt"));
 }
 
 // A fourteenth of the flanks would bear what is left, at a depth of five times their compression; on a coarser mesh
