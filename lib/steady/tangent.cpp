@@ -63,7 +63,7 @@ bool Tangent::is_regular() const {
 
 Eigen::MatrixXd Tangent::solve(const Eigen::Ref<const Eigen::MatrixXd>& rhs, double tolerance) const {
   if (!factors_ && rhs.cols() == 1)
-    if (std::optional<numerics::GmresResult> found = solved_nearly(rhs, tolerance)) return std::move(found->x);
+    if (std::optional<numerics::GmresResult> found = solved_nearly(rhs, tolerance)) return found->x;
   if (factors().status() == Status::converged) return factors_->solve(rhs);
   return Eigen::MatrixXd::Constant(rhs.rows(), rhs.cols(), std::numeric_limits<double>::quiet_NaN());
 }
