@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -18,14 +19,14 @@ namespace dovetail::optimizer {
 
 namespace {
 
-/// Depths of the cells of one grid at the middles of another's, strip by strip as they lie along the slot.
+/// Depths of the cells of a fine grid at the middles of a coarser one's.
 Eigen::VectorXd on_grid(const Eigen::VectorXd& depth, const fem::ContactCells& from, const fem::ContactCells& to) {
   Eigen::VectorXd result = Eigen::VectorXd::Zero(to.count());
   for (Eigen::Index i = 0; i < to.count(); ++i) {
     double nearest = std::numeric_limits<double>::infinity();
     for (Eigen::Index k = 0; k < from.count(); ++k) {
       if (from.flank(k) != to.flank(i)) continue;
-      const double distance = (from.position.col(k) - to.position.col(i)).norm() / std::sqrt(from.area(k));
+      const double distance = (from.position.col(k) - to.position.col(i)).norm();
       if (distance < nearest) {
         nearest = distance;
         result(i) = depth(k);
@@ -40,51 +41,41 @@ std::string wear_down(const Scene& scene, const CandidateResult& result, const V
                       const wear::Watcher& watcher, Verification& verification) {
   const std::shared_ptr<const dynamics::CondensedModel>& model = result.model.condensed;
   steady::Options steady = steady_options(scene.solver);
-  double volume = 0;
-  Eigen::VectorXd depth;
-  for (const double part : {1.0, 0.5}) {
+  std::array<double, 2> volume{};
+  std::array<Eigen::VectorXd, 2> depth;
+  for (const std::size_t i : {0, 1}) {
     steady.budget = new_budget(scene.solver, result.model, options.budgets);
     wear::HistoryOptions settings;
     settings.follow = scene.loading.follow;
-    settings.increment = part * options.increment * wear::largest_penetration(*model, result.unworn->state);
+    settings.increment =
+        std::ldexp(options.increment, -static_cast<int>(i)) * wear::largest_penetration(*model, result.unworn->state);
     settings.steps = options.steps;
     settings.finish = false;
     const wear::History history =
         wear::history({model, {}, steady}, {.omega = result.unworn->omega}, settings, watcher);
     verification.history_solves += history.solves;
-    const Eigen::Index last = history.cycles.size() - 1;
-    if (last < 0) return failed_at("history", to_string(history.status));
-    verification.cycles = history.cycles(last);
-    const Eigen::VectorXd reached = history.depth.row(last).transpose();
-    if (part == 1.0) {
-      volume = history.worn_volume(last);
-      depth = reached;
-    } else {
-      verification.history_volume = 2 * history.worn_volume(last) - volume;
-      verification.history_bar = std::abs(history.worn_volume(last) - volume);
-      verification.history_profile = (2 * reached - depth).cwiseMax(0.0);
-    }
     if (history.end != wear::HistoryEnd::worn_out)
       return failed_at("history", history.end == wear::HistoryEnd::failed ? to_string(history.status)
                                                                           : wear::to_string(history.end));
+    const Eigen::Index last = history.cycles.size() - 1;
+    verification.cycles = history.cycles(last);
+    volume[i] = history.worn_volume(last);
+    depth[i] = history.depth.row(last).transpose();
   }
+  verification.history_volume = 2 * volume[1] - volume[0];
+  verification.history_bar = std::abs(volume[1] - volume[0]);
+  verification.history_profile = (2 * depth[1] - depth[0]).cwiseMax(0.0);
   verification.history_depth = verification.history_profile.maxCoeff();
   verification.profile_difference =
       (verification.history_profile - verification.search_profile).cwiseAbs().maxCoeff() / verification.search_depth;
   return status_of(Outcome::converged);
 }
 
-/// Whether the two other answers lie within their bars of the search's.
-std::string judged(const Verification& v) {
-  const auto apart = [&](const char* what, double volume, double bars) {
-    if (std::abs(volume - v.search_volume) <= bars) return std::string();
-    return fmt::format("{}: search {:.4g} m^3, {} {:.4g} m^3, bars {:.2g} m^3", to_string(Outcome::disagrees),
-                       v.search_volume, what, volume, bars);
-  };
-  if (std::string words = apart("finer mesh", v.direct_volume, v.search_bar); !words.empty()) return words;
-  if (std::string words = apart("history", v.history_volume, v.search_bar + v.history_bar); !words.empty())
-    return words;
-  return status_of(Outcome::converged);
+/// Where an answer lies farther from the search's than it may.
+std::string apart(const Verification& v, const char* what, double volume, double bars) {
+  if (std::abs(volume - v.search_volume) <= bars) return status_of(Outcome::converged);
+  return fmt::format("{}: search {:.4g} m^3, {} {:.4g} m^3, bars {:.2g} m^3", to_string(Outcome::disagrees),
+                     v.search_volume, what, volume, bars);
 }
 
 /// The direct answer at finer settings.
@@ -140,15 +131,23 @@ Verification verify(const Scene& scene, const CandidateResult& result, const Fin
   } else {
     verification.search_volume = result.asymptote->worn_volume;
     verification.search_depth = result.asymptote->largest_depth;
-    verification.search_profile = verification.history_profile = result.asymptote->depth;
+    verification.search_profile = result.asymptote->depth;
     const auto bar = result.evaluation.error_estimates.find(std::string(kWornVolume.name));
-    verification.search_bar = bar == result.evaluation.error_estimates.end() ? std::nan("") : bar->second;
+    const double search_bar = bar == result.evaluation.error_estimates.end() ? std::nan("") : bar->second;
+    verification.search_bar = search_bar;
     verification.frequency_hz = hertz(result.unworn->omega);
-    verification.status = ask_finer(there, result, verification);
-    // Where every node sticks a history would not leave its first state.
-    if (verification.converged() && verification.search_depth > 0)
-      verification.status = wear_down(scene, result, options, watcher, verification);
-    if (verification.converged()) verification.status = judged(verification);
+    std::string finer = ask_finer(there, result, verification), history = status_of(Outcome::converged);
+    if (converged(finer)) finer = apart(verification, "finer mesh", verification.direct_volume, search_bar);
+    if (verification.search_depth > 0)
+      history = wear_down(scene, result, options, watcher, verification);
+    else  // where every node sticks a history would not leave its first state
+      verification.history_profile = verification.search_profile;
+    if (converged(history))
+      history = apart(verification, "history", verification.history_volume,
+                      options.of_bar * search_bar + verification.history_bar);
+    const bool by_history =
+        converged(finer) || (outcome_of(history) == Outcome::disagrees && outcome_of(finer) != Outcome::disagrees);
+    verification.status = by_history ? history : finer;
   }
   if (watcher.stopped()) verification.status = status_of(Outcome::interrupted);
   verification.seconds = watch.lap();

@@ -19,6 +19,9 @@ struct VerificationOptions {
   double increment = 0.125;
   // >= 1. Steps of either history at most.
   int steps = 1200;
+  // 0 < . <= 1. Of the search's bar, by which the histories' volume may differ from it, beside their own bar: most of
+  // the bar is what mesh and solver leave, which both share; histories wear off whole nodes.
+  double of_bar = 0.5;
   // > 0. Budget of either history, in budgets of an evaluation (solver.max_jacobians and time_limit of the scene).
   double budgets = 4;
 };
@@ -28,16 +31,16 @@ struct VerificationOptions {
 /// answer, extrapolated to no increment, which say whether the method is right. At finer settings histories would cost
 /// tens of evaluations and say the same.
 struct Verification {
-  /// Converged: both agree with the search within their bars; else they disagree, or what failed and why, or
-  /// interrupted.
+  /// Converged: both agree with the search within their bars; else they disagree, whatever failed beside it; or what
+  /// failed and why, or interrupted.
   std::string status = status_of(Outcome::converged);
   int flank_elements = 0, harmonics = 0, samples = 0;  ///< of the finer direct answer
   wear::Follow follow = wear::Follow::fixed;           ///< as the design's loading says
-  double frequency_hz = 0;                             ///< of the histories: the design's unworn resonance
+  double frequency_hz = 0;                             ///< where the histories begin: the design's unworn resonance
   double search_volume = 0, search_bar = 0;            ///< m^3, at the settings of the search, and its error bar
   double search_depth = 0;                             ///< m
-  double direct_volume = 0, direct_depth = 0;          ///< m^3, m, at finer settings
-  double history_volume = 0, history_depth = 0;        ///< m^3, m, extrapolated
+  double direct_volume = 0, direct_depth = 0;          ///< m^3, m, at finer settings; no profile where it failed
+  double history_volume = 0, history_depth = 0;        ///< m^3, m, extrapolated; no profile where one failed
   double history_bar = 0;                              ///< m^3, of the extrapolation: the change by the last halving
   double profile_difference = 0;                       ///< largest |search - history| of a node over the search's depth
   double cycles = 0;                                   ///< of the finer history

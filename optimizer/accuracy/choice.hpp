@@ -45,7 +45,7 @@ struct SettingsChoice {
   /// Where no settings there are should be accurate enough: the least excess foreseen of any.
   std::optional<double> out_of_reach;
   double work = 0;                     ///< of the rounds, in evaluations of the scene, both without bars
-  std::optional<double> work_refused;  ///< with that of another round, where this was more than the scene allows
+  std::optional<double> work_refused;  ///< what it would have been with a round that was refused for it
 };
 
 /// A design with bars at other settings.

@@ -140,7 +140,9 @@ const SettingsTried& Rounds::ask(const Settings& at) {
     forecast_.add(at, evaluation, beside);
     tried.by = forecast_.dominant();
     tried.operations = forecast_.operations(at);
-    if (known_.empty()) learn_of_the_first();
+    if (known_.empty()) not_held_ = forecast_.not_held();
+    // From elsewhere it is a forecast.
+    if (known_.empty() || is_own(at)) unit_ = forecast_.operations(own_);
   }
   if (tried.by) {
     known_.push_back({.tried = tried, .evaluation = std::move(evaluation), .alone = forecast_, .forecast = forecast_});
@@ -214,9 +216,9 @@ SettingsChoice Rounds::choice() const {
   return choice;
 }
 
-void Rounds::learn_of_the_first() {
-  not_held_ = forecast_.not_held();
-  unit_ = forecast_.operations(own_);
+bool Rounds::is_own(Settings at) const {
+  at.history_tolerance = own_.history_tolerance;
+  return at == own_;
 }
 
 void Rounds::leave_out(const Settings& settings) {

@@ -28,7 +28,7 @@ class Rounds {
   [[nodiscard]] SettingsChoice choice() const;
 
  private:
-  void learn_of_the_first();
+  [[nodiscard]] bool is_own(Settings at) const;  // but for the histories, which no round asks
   void leave_out(const Settings& settings);
 
   const Scene& scene_;
@@ -41,7 +41,8 @@ class Rounds {
   std::vector<KnownRound> known_;
   std::vector<std::string> not_held_;
   std::optional<double> out_of_reach_;
-  double unit_ = kInfinity, work_ = 0;  // operations of the scene's own settings, from the first round with bars on
+  double unit_ = kInfinity;  // operations of the scene's own settings; unknown before the first round with bars
+  double work_ = 0;          // of rounds from that on; of those that failed what was foreseen
   std::optional<double> work_refused_;
 };
 

@@ -85,12 +85,14 @@ Fields fields_of_candidates() {
       {.key = "verify",
        .member = &O::verify,
        .range = {.lower = 0, .upper = 100},
-       .help = "Best designs whose wear `run` verifies by the full history at finer settings after the search."},
+       .help = "Best designs that `run` verifies after the search: by the full history at its settings, and directly "
+               "at finer "
+               "ones."},
       {.key = "verify_accuracy",
        .member = &O::verify_accuracy,
        .range = {.lower = kAccuracyRange.lower, .upper = kAccuracyRange.upper, .zero = "settings of the search"},
        .help = "Bar over value of every response that objective and constraints name, for which settings are chosen "
-               "once more, at the best design: start and best design are recorded, and verified, with these."},
+               "once more, at the best design: start and best design are recorded with these."},
   };
   return fields;
 }

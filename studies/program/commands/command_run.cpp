@@ -101,10 +101,12 @@ std::string conclusion(const Study& study, const OptimizationResult& result, con
 
 std::string verified(const std::vector<report::VerificationRecord>& verifications) {
   std::string text;
-  for (const report::VerificationRecord& v : verifications)
-    text += fmt::format("evaluation {} by its wear history: {}, directly {:.6g}, on {} edges {:.6g} m^3 ({})\n",
-                        v.evaluation + 1, v.compared() ? fmt::format("{:.6g} m^3", v.history_volume_m3) : "not known",
-                        v.search_volume_m3, v.flank_elements, v.direct_volume_m3, v.agreement());
+  for (const report::VerificationRecord& v : verifications) {
+    const auto known = [](bool is, double volume) { return is ? fmt::format("{:.6g} m^3", volume) : "not known"; };
+    text += fmt::format("evaluation {} by its wear history: {}, directly {:.6g} m^3, on {} edges {} ({})\n",
+                        v.evaluation + 1, known(v.history_known(), v.history_volume_m3), v.search_volume_m3,
+                        v.flank_elements, known(v.finer_known(), v.direct_volume_m3), v.agreement());
+  }
   return text;
 }
 

@@ -116,8 +116,8 @@ std::vector<std::string> keep_unworn(optimizer::Problem& problem, optimizer::Eva
   return unjudged;
 }
 
-/// Whether the round of a choice whose settings are taken is the evaluation asked for. Rounds do not look for doubts of
-/// worn states as closely as an evaluation that may ask a history about them.
+/// Whether the round of a choice whose settings are taken is the evaluation asked for: with --no-history. One that may
+/// ask a history looks for doubts of worn states more closely than rounds do.
 bool answers(const optimizer::SettingsChoice& choice, const optimizer::AccuracyGoal& goal,
              const optimizer::Purpose& purpose) {
   if (!choice.tried.by || goal.of_truncation || !purpose.bars) return false;

@@ -27,10 +27,10 @@ std::string verification_table(const RunRecord& record) {
                           {"profiles differ by"}},
               .rows = {}};
   for (const VerificationRecord& v : record.verifications) {
-    const auto where_compared = [&](const std::string& value) { return v.compared() ? value : "not known"; };
+    const auto where_compared = [&](const std::string& value) { return v.history_known() ? value : "not known"; };
     table.rows.push_back(
         {{std::to_string(v.evaluation + 1), v.agreement(), with_error(v.search_volume_m3, v.search_bar_m3, bare),
-          significant(v.direct_volume_m3 / volume.si, 4),
+          v.finer_known() ? significant(v.direct_volume_m3 / volume.si, 4) : "not known",
           where_compared(with_error(v.history_volume_m3, v.history_bar_m3, bare)),
           where_compared(per_cent(v.history_volume_m3, v.search_volume_m3)),
           significant(v.search_depth_m / depth.si, 4), where_compared(significant(v.history_depth_m / depth.si, 4)),

@@ -107,13 +107,16 @@ Plot verification_plot(const VerificationRecord& record) {
   Plot plot{.title = fmt::format("Worn profile of evaluation {}", record.evaluation + 1),
             .description =
                 "Depth along the more worn flank. Solid: the end of the history; dashed: the direct method "
-                "at the same settings, those of the search; dotted: at finer ones, read at the same contact nodes.",
+                "at the same settings; dotted: at finer ones, read at the same contact nodes.",
             .x = kAlongFlank,
             .y = {.label = "worn depth", .from_zero = true}};
   const std::size_t count = record.flank.size();
   if (count == 0 || record.search_profile_m.size() != count) return plot;
+  Numbers deepest(count, 0);
+  for (const Numbers* profile : {&record.history_profile_m, &record.search_profile_m, &record.direct_profile_m})
+    for (std::size_t i = 0; i < std::min(count, profile->size()); ++i) deepest[i] = std::max(deepest[i], (*profile)[i]);
   const std::vector<std::size_t> line =
-      most_worn_line(record.flank, record.across_m, record.search_profile_m, record.flank_names.size());
+      most_worn_line(record.flank, record.across_m, deepest, record.flank_names.size());
   const auto add = [&](const char* name, const Numbers& profile, Role role, Stroke stroke) {
     if (profile.size() == count)
       plot.series.push_back(along_line(record.along_m, profile, line, {.name = name, .role = role, .stroke = stroke}));

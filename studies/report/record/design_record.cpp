@@ -228,6 +228,7 @@ VerificationRecord make_verification_record(const optimizer::Verification& v, co
   record.flank_names = places.flank_names;
   record.flank = places.flank;
   record.along_m = places.along_m;
+  record.across_m = places.across_m;
   record.search_profile_m = list(v.search_profile);
   record.direct_profile_m = list(v.direct_profile);
   record.history_profile_m = list(v.history_profile);

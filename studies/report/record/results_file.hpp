@@ -22,8 +22,8 @@ namespace dovetail::report {
 ///                     profile/{blade, disk, finished_blade} {name, start_m [.,2], end_m [.,2], center_m [.,2],
 ///                     radius_m, sweep_rad}; contact/...; unworn, worn, glued {frequency_hz, amplitude_m, status};
 ///                     nodal_diameters/...; fillets/{0, 1, ...}/...; history/...; mesh/...; fields/...; notes
-///   /verifications    {0, 1, ...} of the best designs, best first: profiles [Nc] of the search, the direct method and
-///                     the history, and attributes with the numbers of each
+///   /verifications    {0, 1, ...} of the best designs, best first: profiles [Nc] of the direct method at the settings
+///                     of the search and at finer ones and of the history, and attributes with the numbers of each
 ///
 /// Throws InputError when the file cannot be written.
 void write_results(const std::filesystem::path& path, const RunRecord& record);

@@ -103,7 +103,8 @@ struct EvaluationRecord {
   std::vector<std::string> messages;
 };
 
-/// One of the best designs with its wear by the full history and at finer settings; see optimizer::Verification.
+/// One of the best designs with its wear by the full history, at the settings it was searched with, and directly at
+/// finer ones (`direct_`, `flank_elements`, `harmonics`, `samples`); see optimizer::Verification.
 struct VerificationRecord {
   std::int64_t evaluation = 0;  ///< index of the candidate
   std::string status, follow;
@@ -117,11 +118,9 @@ struct VerificationRecord {
   Numbers across_m;                                               ///< [Nc] along the slot; zero or empty in the plane
   Numbers search_profile_m, direct_profile_m, history_profile_m;  ///< [Nc] or empty
 
-  /// Whether the history came to an end, so that its numbers say something.
-  [[nodiscard]] bool compared() const {
-    const optimizer::Outcome outcome = optimizer::outcome_of(status);
-    return outcome == optimizer::Outcome::converged || outcome == optimizer::Outcome::disagrees;
-  }
+  /// Whether the history came to an end, so that its numbers say something; whether the finer mesh has an answer.
+  [[nodiscard]] bool history_known() const { return !history_profile_m.empty(); }
+  [[nodiscard]] bool finer_known() const { return !direct_profile_m.empty(); }
   /// The status in words. Within a bar as large as the value anything lies.
   [[nodiscard]] std::string agreement() const;
 };

@@ -162,6 +162,7 @@ TEST(Report, ShowsTheHistoryBesideTheDirectMethod) {
   record.verifications.front().search_bar_m3 = 9e-11;
   EXPECT_THAT(report_html(record), HasSubstr("cannot tell: the bar is larger than the value"));
   record.verifications.front().status = "history: stalled";
+  record.verifications.front().history_profile_m.clear();
   EXPECT_THAT(report_html(record), HasSubstr("history: stalled"));
   EXPECT_THAT(report_html(record), HasSubstr("<td>not known</td>"));
   EXPECT_THAT(report_html(record), testing::Not(HasSubstr("+9.6\u00a0%")));

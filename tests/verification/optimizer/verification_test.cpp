@@ -59,6 +59,10 @@ TEST(Verification, DisagreesWithASearchThatIsOff) {
   off.asymptote->worn_volume = right + 3 * bar;
   const FinerDesign same{.scene = scene, .reference = scene}, finer = twice_as_fine(evaluator, scene);
   EXPECT_THAT(verify(scene, off, finer).status, testing::HasSubstr("finer mesh"));
+  // A history may differ by half of the bar, in which mesh and solver are that both share.
+  off.asymptote->worn_volume = right + 0.8 * bar;
+  EXPECT_THAT(verify(scene, off, same, {.of_bar = 0.5}).status, testing::HasSubstr("history"));
+  EXPECT_TRUE(verify(scene, off, same, {.of_bar = 1}).converged());
   // A finer mesh that errs alike does not help.
   off.evaluation.error_estimates["asymptotic_wear_volume_m3"] = 1e-9 * right;
   off.asymptote->worn_volume = right;
@@ -69,7 +73,23 @@ TEST(Verification, NeitherHistoryGoesOnWithoutABudget) {
   const Scene scene = coarse_scene();
   const Verification v = verify(SceneEvaluator(scene), scene, {.budgets = 0.005});
   EXPECT_EQ(v.status, "history: budget_spent");
+  EXPECT_EQ(v.history_profile.size(), 0);
   EXPECT_GT(v.direct_volume, 0);
+}
+
+// The history is asked where the finer settings have no answer, too, and what it contradicts is told first.
+TEST(Verification, AFinerMeshWithoutAnAnswerHidesNoHistory) {
+  const Scene scene = coarse_scene();
+  FinerDesign none{.scene = scene, .reference = scene};
+  none.scene.solver.max_jacobians = 1;
+  CandidateResult result = SceneEvaluator(scene).evaluate(scene);
+  Verification v = verify(scene, result, none);
+  EXPECT_THAT(v.status, testing::StartsWith("finer mesh: "));
+  EXPECT_EQ(v.direct_profile.size(), 0);
+  EXPECT_EQ(v.history_profile.size(), result.asymptote->depth.size());
+  result.evaluation.error_estimates["asymptotic_wear_volume_m3"] = 1e-9 * v.search_volume;
+  v = verify(scene, result, none);
+  EXPECT_THAT(v.status, testing::HasSubstr("history"));
 }
 
 }  // namespace
