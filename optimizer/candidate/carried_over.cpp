@@ -1,6 +1,7 @@
 #include "optimizer/candidate/carried_over.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace dovetail::optimizer {
 
@@ -9,15 +10,17 @@ namespace {
 /// The strip of `before` that lies where each of `after` does along the slot, on the same flank.
 std::vector<std::size_t> nearest_strips(const std::vector<fem::CellStrip>& before,
                                         const std::vector<fem::CellStrip>& after) {
+  // The first one and their number.
   const auto of_flank = [](const std::vector<fem::CellStrip>& strips, std::size_t flank) {
-    return std::ranges::equal_range(strips, flank, {}, &fem::CellStrip::flank);
+    const auto first = std::ranges::lower_bound(strips, flank, {}, &fem::CellStrip::flank);
+    const auto last = std::ranges::upper_bound(strips, flank, {}, &fem::CellStrip::flank);
+    return std::pair{static_cast<std::size_t>(first - strips.begin()), static_cast<std::size_t>(last - first)};
   };
   std::vector<std::size_t> nearest;
   for (std::size_t s = 0; s < after.size(); ++s) {
-    const auto here = of_flank(after, after[s].flank), there = of_flank(before, after[s].flank);
-    const auto at = static_cast<std::size_t>(&after[s] - &here.front());
-    nearest.push_back(static_cast<std::size_t>(&there.front() - before.data()) +
-                      (2 * at + 1) * there.size() / (2 * here.size()));
+    const auto [first, count] = of_flank(after, after[s].flank);
+    const auto [first_before, count_before] = of_flank(before, after[s].flank);
+    nearest.push_back(first_before + (2 * (s - first) + 1) * count_before / (2 * count));
   }
   return nearest;
 }

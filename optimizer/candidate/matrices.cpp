@@ -79,7 +79,7 @@ reduction::FullModel MatricesStages::full_model(Eigen::SparseMatrix<double> stif
   const fem::SectorSystem& system = matrices_.system;
   const double speed = scene_.loading.speed;
   reduction::FullModel full;
-  full.stiffness = std::move(stiffness);
+  full.stiffness.swap(stiffness);
   full.mass = system.mass;
   full.static_force = speed * speed * system.centrifugal;
   full.cosine_force = system.tip;
