@@ -57,7 +57,8 @@ double finer(Knob knob, const Settings& there, const Settings& here) {
   return 1;
 }
 
-Forecast::Forecast(const Scene& scene, const AccuracyGoal& goal) : goal_(&goal), in_space_(scene.kind->in_space) {}
+Forecast::Forecast(const Scene& scene, const AccuracyGoal& goal)
+    : scene_(&scene), goal_(&goal), in_space_(scene.kind->in_space) {}
 
 void raise_bars(const BarParts& least, Evaluation& evaluation) {
   for (const auto& [name, parts] : least) {
@@ -226,20 +227,25 @@ double Forecast::operations(const Settings& there) const {
                         std::pow(finer(Knob::samples, there, last_.at), kForecast.contact_by_samples);
 }
 
-/// A response without a value has no accuracy, one without a limit none that could be bought.
+/// A response without a value has no accuracy, one without a limit none that could be bought. One that is asked of and
+/// that no bar is given on this mesh, as it does not resolve it, is known to no part of its value.
 void Forecast::add(const Response& response, const Evaluation& evaluation, std::optional<double> beside) {
   const std::string name(response.name);
   const auto value = evaluation.responses.find(name);
   const auto bars = evaluation.error_sources.find(name);
-  if (value == evaluation.responses.end() || value->second == 0 || bars == evaluation.error_sources.end() ||
-      std::ranges::find(evaluation.unbounded, name) != evaluation.unbounded.end())
-    return;
+  if (value == evaluation.responses.end() || value->second == 0 || bars == evaluation.error_sources.end()) return;
+  const bool bounded = std::ranges::find(evaluation.unbounded, name) == evaluation.unbounded.end(),
+             unresolved = response.largest_bar && response.has_limit(*scene_) && !goal_->responses.empty();
+  if (!bounded && !unresolved) return;
   double whole = 0;
   for (const auto& [source, bar] : bars->second)
     if (source != "history") whole += bar;  // no round asks a history: what it would settle is not known here
+  const double unknown = bounded ? 0 : std::max(0.0, std::abs(value->second) - whole);
+  whole += unknown;
   whole_[name] = whole / std::abs(value->second);
   known_[name] = {.value = value->second, .bar = whole};
-  for (const auto& [source, bar] : bars->second) {
+  for (const auto& [source, given] : bars->second) {
+    const double bar = given + (source == "mesh" ? unknown : 0);
     const Knob knob = knob_of(source);
     if (!counts(knob, *goal_)) continue;
     constexpr double kLeast = kForecast.least_share;

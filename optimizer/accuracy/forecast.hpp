@@ -53,7 +53,7 @@ void raise_bars(const BarParts& least, Evaluation& evaluation);
 /// the powers in which theirs grow.
 class Forecast {
  public:
-  /// @param goal  outlives it
+  /// @param scene, goal  outlive it
   Forecast(const Scene& scene, const AccuracyGoal& goal);
 
   /// The last one is what others are foreseen from. Where one before it differs in a knob the two say the order of a
@@ -107,6 +107,7 @@ class Forecast {
   [[nodiscard]] double expected(const Part& of, const Round& by) const;
   void raise(Part& part, double share);
 
+  const Scene* scene_;
   const AccuracyGoal* goal_;
   bool in_space_;
   Round last_, before_;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "optimizer/accuracy/params.hpp"
+#include "optimizer/responses/response_table.hpp"
 #include "optimizer/scene/scene_kind.hpp"
 
 namespace dovetail::optimizer {
@@ -52,6 +53,7 @@ double strictest(const AccuracyGoal& goal) {
 
 std::optional<SettingsChoice::Digit> one_more_digit(const std::vector<Settings>& all, const Forecast& forecast,
                                                     const SettingsChoice& choice, double history_tolerance) {
+  if (choice.tried.excess == 0) return {};  // no bar is left to be divided
   const double tenth = choice.tried.excess / 10;
   Settings there = cheapest(all, forecast, tenth);
   if (forecast.excess(there) > tenth) return {};
@@ -206,6 +208,7 @@ SettingsChoice Rounds::choice() const {
   choice.tried = best.tried;
   choice.evaluation = best.evaluation;
   choice.raised = best.forecast.raised();
+  choice.raised.merge(raised_beside(best));
   raise_bars(choice.raised, choice.evaluation);
   choice.not_held = best.forecast.not_held();
   choice.status = best.tried.excess <= 1 ? Status::converged
@@ -214,6 +217,25 @@ SettingsChoice Rounds::choice() const {
   choice.one_more_digit =
       one_more_digit(all_, best.forecast, choice, history_tolerance(scene_, goal_.fixed, strictest(goal_) / 10));
   return choice;
+}
+
+BarParts Rounds::raised_beside(const KnownRound& best) const {
+  AccuracyGoal others = goal_;
+  others.responses.clear();
+  for (const Response& response : responses())
+    if (std::ranges::find(goal_.responses, response.name) == goal_.responses.end())
+      others.responses.emplace_back(response.name);
+  if (goal_.responses.empty() || others.responses.empty()) return {};
+  Forecast last(scene_, others);
+  std::vector<Forecast> alone;
+  for (const KnownRound& round : known_) {
+    last.add(round.tried.settings, round.evaluation);
+    alone.push_back(last);
+  }
+  Forecast of_best = alone.at(static_cast<std::size_t>(&best - known_.data()));
+  for (std::size_t i = 0; i < known_.size(); ++i)
+    if (!known_[i].tried.out_of_line) of_best.reach(alone[i]);
+  return of_best.raised();
 }
 
 bool Rounds::is_own(Settings at) const {

@@ -28,6 +28,9 @@ class Rounds {
   [[nodiscard]] SettingsChoice choice() const;
 
  private:
+  /// What the rounds say of bars of the responses that nothing is asked of: the settings were taken where bars of
+  /// others were small, and those may be, too.
+  [[nodiscard]] BarParts raised_beside(const KnownRound& best) const;
   [[nodiscard]] bool is_own(Settings at) const;  // but for the histories, which no round asks
   void leave_out(const Settings& settings);
 

@@ -15,15 +15,19 @@ namespace dovetail::optimizer {
 
 namespace {
 
-/// Whole nodes are worn off or bear: where wear of a history comes to rest the end of a zone lies somewhere within a
-/// node, and a history on shorter ones may end a part of it from there.
-wear::WornChange within_nodes(const fem::ContactCells& cells, const wear::Asymptote& asymptote) {
-  constexpr HistoryNodeParams kParams;
-  const double part = asymptote.doubt == wear::Doubt::lift_off ? kParams.lift_off : kParams.others;
+/// What a part of the node at the end of every zone changes.
+wear::WornChange within_nodes(double part, const fem::ContactCells& cells, const wear::Asymptote& asymptote) {
   // Of a history that decided nodes may touch that it has worn: they carry what is left there.
   const std::vector<bool> worn =
       asymptote.decided_by == wear::FoundBy::history ? wear::worn_nodes(asymptote.depth) : asymptote.released;
   return wear::ends_moved_by(part, node_lines(cells), cells.area, worn, asymptote.depth);
+}
+
+/// Whole nodes are worn off or bear: where wear of a history comes to rest the end of a zone lies somewhere within a
+/// node, and a history on shorter ones may end a part of it from there.
+wear::WornChange within_nodes_of_history(const fem::ContactCells& cells, const wear::Asymptote& asymptote) {
+  constexpr HistoryNodeParams kParams;
+  return within_nodes(asymptote.doubt == wear::Doubt::lift_off ? kParams.lift_off : kParams.others, cells, asymptote);
 }
 
 /// The other state at rest that a history which came to an end leaves possible: its own, or that of the direct method
@@ -45,7 +49,7 @@ wear::WornChange left_in_doubt(const fem::ContactCells& cells, const wear::Asymp
   if (const wear::OtherState* other = rival(asymptote))
     return {.volume = std::abs(other->worn_volume - asymptote.worn_volume),
             .depth = std::abs(other->largest_depth - asymptote.largest_depth)};
-  return within_nodes(cells, asymptote);
+  return within_nodes_of_history(cells, asymptote);
 }
 
 /// What wear changes, it changes in proportion to the volume.
@@ -80,6 +84,9 @@ void add_worn_bars(const Scene& scene, const CandidateResult& result, Bars& bars
                                     wear::width_changed_by(
                                         moved, {.volume = asymptote.worn_volume, .depth = asymptote.largest_depth}),
                                     moved < 1));
+  if (scene.loading.follow == wear::Follow::resonance && result.fit.grid.search.holds())
+    bars.add("edge",
+             worn_otherwise(result, within_nodes(FollowedNodeParams{}.part, result.model.cells, asymptote), true));
   if (const wear::WornChange doubt = left_in_doubt(result.model.cells, asymptote); doubt.volume > 0)
     bars.add("history", worn_otherwise(result, doubt, asymptote.confirmed_by_history));
   if (asymptote.decided_by == wear::FoundBy::history) {

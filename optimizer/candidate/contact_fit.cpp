@@ -8,7 +8,7 @@
 #include "optimizer/candidate/edge_search.hpp"
 #include "paths/resonance.hpp"
 #include "paths/steady_state.hpp"
-#include "wear/asymptote/asymptote.hpp"
+#include "wear/asymptote/followed_asymptote.hpp"
 #include "wear/measures.hpp"
 
 namespace dovetail::optimizer {
@@ -144,7 +144,7 @@ class GridSearch {
   [[nodiscard]] bool find_edges() {
     fit_.omega = peak_.omega;
     fit_.displacement = unworn_.displacement;
-    const wear::Asymptote worn = wear::asymptote(joint_, peak_.omega, release_, &unworn_);
+    const wear::Asymptote worn = worn_on_grid();
     if (worn.verdict != wear::Verdict::asymptote) return false;
     const std::vector<std::vector<Edge>> edges = rests_in_slip_
                                                      ? resting_edges(candidate_.cells, *candidate_.condensed, worn)
@@ -169,6 +169,13 @@ class GridSearch {
                .search = search_,
                .displacement = unworn_.displacement};
     return true;
+  }
+
+  /// Where the resonance is followed zones grow on the way: they are to end where nodes end at its end.
+  [[nodiscard]] wear::Asymptote worn_on_grid() const {
+    if (scene_.loading.follow == wear::Follow::resonance && !rests_in_slip_)
+      return wear::followed_asymptote(joint_, peak_.omega, release_, resonance_options(scene_), &unworn_).asymptote;
+    return wear::asymptote(joint_, peak_.omega, release_, &unworn_);
   }
 
   /// Where edges go to and fro, or their budget is spent: the grid that they would have left least, of those whose

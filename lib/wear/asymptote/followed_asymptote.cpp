@@ -27,6 +27,19 @@ void keep_doubt(const Asymptote& earlier, const reduction::ContactNodes& contact
     last.other_states.push_back(other_state(other.found_by, contact, other.depth + last.depth - earlier.depth));
 }
 
+/// Nodes worn off earlier stay so, and zones end where the last pass of all left them.
+void keep_released(const Asymptote& earlier, Asymptote& last) {
+  const int passes = static_cast<int>(earlier.trail.reserves.size());
+  ReleaseTrail all = earlier.trail;
+  all.reserves.insert(all.reserves.end(), last.trail.reserves.begin(), last.trail.reserves.end());
+  for (std::size_t i = 0; i < earlier.released.size(); ++i) {
+    if (all.released_in[i] < 0 && last.trail.released_in[i] >= 0)
+      all.released_in[i] = passes + last.trail.released_in[i];
+    last.released[i] = last.released[i] || earlier.released[i];
+  }
+  last.trail = std::move(all);
+}
+
 }  // namespace
 
 FollowedAsymptote followed_asymptote(const steady::Joint& joint, double omega, const AsymptoteOptions& options,
@@ -63,6 +76,7 @@ FollowedAsymptote followed_asymptote(const steady::Joint& joint, double omega, c
     if (stays) return result;
     const Asymptote earlier = std::move(last);
     last = asymptote(worn_joint, omega, onwards, nullptr, watcher);
+    keep_released(earlier, last);
     if (last.verdict == Verdict::asymptote) keep_doubt(earlier, joint.model->contact(), last);
     result.omegas.push_back(omega);
     result.solves += last.solves;

@@ -148,6 +148,11 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
   std::optional<optimizer::AccuracyGoal> goal =
       study.scene.solver.accuracy > 0 ? accuracy_goal(study, until) : truncation_goal(study, options.solver, until);
   if (goal) goal->many = false;
+  if (asked.scene.solver.accuracy > 0 && !goal)
+    streams.err
+        << options.study
+        << ": warning: solver.accuracy chooses nothing here: with --unworn none of the responses that objective "
+           "and constraints name is computed\n";
   const std::optional<optimizer::SettingsChoice> choice =
       settle(study, goal, [&](const optimizer::SettingsTried& tried) {
         streams.err << "dovetail: " << round_words(asked, tried) << "\n";
@@ -163,7 +168,8 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
   // A history may end elsewhere than where the rounds were.
   const bool judged =
       choice && choice->status == Status::converged && !goal->of_truncation && purpose.bars && evaluation.converged();
-  const AccuracyHeld held = judged ? accuracy_held(study.scene, *goal, evaluation) : AccuracyHeld{.reached = true};
+  const AccuracyHeld held =
+      judged ? accuracy_held(study.scene, *goal, evaluation, !options.no_history) : AccuracyHeld{.reached = true};
   if (!held.reached) inaccurate = held.words;
   if (choice)
     for (const std::string& words : {taken_words(asked, *choice), digit_words(*choice)})
@@ -172,11 +178,6 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
   // Rounds ask no history, and know nothing of what else no setting buys.
   const std::optional<optimizer::Dominant> whole =
       choice && !goal->of_truncation ? whole_bar(*goal, evaluation) : std::nullopt;
-  // A doubt that nobody asked a history about counts for all of the value: another message says so.
-  const bool asked_history = !options.no_history || (whole && whole->source != "history");
-  if (const std::string words = whole_words(whole);
-      !words.empty() && asked_history && choice->status == Status::converged && held.reached)
-    evaluation.messages.push_back(words);
   std::vector<std::string> unjudged;
   if (options.unworn && evaluation.converged()) unjudged = keep_unworn(study.problem, evaluation);
   optimizer::annotate(study.problem, study.optimizer.constraint_tolerance, evaluation);

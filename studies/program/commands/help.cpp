@@ -25,12 +25,12 @@ CommandHelp evaluate() {
                     "study, or --harmonics auto, --samples auto, also \"accuracy\": {\"status\", \"settings\", "
                     "\"response\", \"source\",\n"
                     "\"relative_bar\", \"relative_bar_total\", \"asked\", \"not_held\", \"raised\", \"rounds\", "
-                    "\"one_more_digit\"[, \"reached\", \"whole_bar\"]}:\n"
+                    "\"work\", \"one_more_digit\"[, \"reached\", \"whole_bar\"]}:\n"
                     "what was chosen, and the response whose bar is largest over what was asked; exit status 3 where "
                     "that is not\n"
-                    "reached. not_held: responses asked for whose value is zero or missing, or has no bar. "
-                    "one_more_digit: null where\n"
-                    "no settings there are should leave a tenth."};
+                    "reached with all parts of the bars. not_held: responses asked for whose value is zero or missing, "
+                    "or has no bar.\n"
+                    "one_more_digit: null where no settings there are should leave a tenth."};
 }
 
 CommandHelp reduce() {

@@ -167,8 +167,12 @@ std::string came_to(const Json& accuracy) {
   if (!accuracy.is_object() || !accuracy.contains("relative_bar") || !accuracy.at("relative_bar").is_number())
     return "no bar says what is reached";
   const bool reached = accuracy.at("status") == to_string(Status::converged);
-  return fmt::format("at {} {}: {} to {:.2g} %", accuracy.value("at", kStart), reached ? "reached" : "not reached",
-                     accuracy.at("response").get<std::string>(), 100 * accuracy.at("relative_bar").get<double>());
+  std::string text =
+      fmt::format("at {} {}: {} to {:.3g} %", accuracy.value("at", kStart), reached ? "reached" : "not reached",
+                  accuracy.at("response").get<std::string>(), 100 * accuracy.at("relative_bar").get<double>());
+  if (accuracy.contains("not_held"))
+    for (const Json& name : accuracy.at("not_held")) text += ", " + name.get<std::string>() + " held to none";
+  return text;
 }
 
 /// Everything that the choice hangs on; which keys the file gives, too, for a key that is given stays.
@@ -176,6 +180,11 @@ std::string question_of(const Study& study) {
   std::string text = std::string("dovetail ") + version() + "\n" + physics_text(study.scene);
   for (const std::string& key : study.given)
     if (optimizer::buys_accuracy(study.scene, key)) text += "given " + key + "\n";
+  const auto accuracy_of = [&text](const auto& terms) {
+    for (const auto& term : terms) text += term.response + " " + shortest(term.accuracy) + "\n";
+  };
+  accuracy_of(study.problem.objective);
+  accuracy_of(study.problem.constraints);
   return optimizer::fingerprint(study.problem, study.optimizer, text);
 }
 

@@ -68,11 +68,11 @@ namespace {
 
 /// How well the response is known that is known worst.
 std::string known(const optimizer::Dominant& by) {
-  std::string text = fmt::format("{} to {:.2g} % (asked: {:.2g} %)", by.response, 100 * by.relative, 100 * by.asked);
+  std::string text = fmt::format("{} to {:.3g} % (asked: {:.3g} %)", by.response, 100 * by.relative, 100 * by.asked);
   if (!by.source.empty()) text += ", most of it by " + by.source;
   // Doubts of the worn state, edges of zones; with harmonics and samples alone to be chosen, all else.
   if (by.whole > kTellWhole * by.relative)
-    text += fmt::format("; {:.2g} % with what this does not buy", 100 * by.whole);
+    text += fmt::format("; {:.3g} % with what this does not buy", 100 * by.whole);
   return text;
 }
 
@@ -94,14 +94,6 @@ std::optional<optimizer::Dominant> whole_bar(const optimizer::AccuracyGoal& goal
   return worst;
 }
 
-std::string whole_words(const std::optional<optimizer::Dominant>& whole) {
-  if (!whole || whole->relative <= whole->asked) return {};
-  return fmt::format(
-      "as far as settings buy it the accuracy asked for is reached; with all parts of its bar {} is known to {:.2g} % "
-      "(asked: {:.2g} %), most of it by {}",
-      whole->response, 100 * whole->relative, 100 * whole->asked, whole->source);
-}
-
 std::string digit_words(const optimizer::SettingsChoice& choice) {
   if (choice.status != Status::converged) return {};
   if (!choice.one_more_digit) return "a tenth of these bars: no settings there are should leave as little";
@@ -109,26 +101,36 @@ std::string digit_words(const optimizer::SettingsChoice& choice) {
 }
 
 AccuracyHeld accuracy_held(const optimizer::Scene& scene, const optimizer::AccuracyGoal& goal,
-                           const optimizer::Evaluation& evaluation) {
+                           const optimizer::Evaluation& evaluation, bool asked_history) {
   std::optional<optimizer::Dominant> by;
+  optimizer::Forecast bars(scene, goal);
   if (!evaluation.error_sources.empty()) {
-    optimizer::Forecast bars(scene, goal);
     bars.add(optimizer::settings_of(scene), evaluation);
     by = bars.dominant();
   }
   if (!by) return {.reached = false, .words = "the accuracy asked for is not known to be reached: no bar says how"};
-  const bool reached = by->relative <= by->asked;
-  std::string words = fmt::format("the accuracy asked for is {}reached: {}", reached ? "" : "not ", known(*by));
-  if (const std::string whole = whole_words(whole_bar(goal, evaluation)); reached && !whole.empty())
-    words += "; " + whole;
+  std::string words;
+  bool reached = by->relative <= by->asked;
+  const std::optional<optimizer::Dominant> whole = whole_bar(goal, evaluation);
+  if (reached && whole && whole->relative > whole->asked && (asked_history || whole->source != "history")) {
+    reached = false;
+    words = fmt::format(
+        "as far as settings buy it the accuracy asked for is reached; with all parts of its bar {} is known to {:.3g} "
+        "% (asked: {:.3g} %), most of it by {}",
+        whole->response, 100 * whole->relative, 100 * whole->asked, whole->source);
+  } else {
+    words = fmt::format("the accuracy asked for is {}reached: {}", reached ? "" : "not ", known(*by));
+  }
+  if (const std::vector<std::string> not_held = bars.not_held(); !not_held.empty())
+    words += fmt::format("; without a value or an error bar, and so held to none: {}", fmt::join(not_held, ", "));
   return {.reached = reached, .words = words};
 }
 
 std::string round_words(const Study& study, const optimizer::SettingsTried& tried) {
   const optimizer::Scene there = optimizer::with_settings(study.scene, tried.settings);
   std::string text = fmt::format("{} edges per flank", there.mesh.flank_elements);
-  if (const double beside = tried.settings.beside; beside != 1 && optimizer::chooses_beside(study.scene, {}))
-    text += fmt::format(" (beside them {:.2g} times the file's)", beside);
+  if (optimizer::chooses_beside(study.scene, {}))
+    text += fmt::format(", {:.2g} mm elements beside them", 1e3 * there.mesh.bulk_size);
   text += fmt::format(", {} harmonics, {} samples, {} modes: ", there.solver.harmonics, there.solver.samples,
                       there.solver.modes);
   if (tried.out_of_line) text += "out of line with most others, left out: ";
@@ -158,8 +160,9 @@ std::string accuracy_complaint(const Study& study, const optimizer::SettingsChoi
         fmt::format("; no settings are foreseen to leave less than {:.3g} times what was asked", *choice.out_of_reach);
   if (choice.work_refused)
     foreseen = fmt::format(
-        "; the next settings would bring the work of choosing from {:.3g} to {:.3g} times that of an evaluation at the "
-        "file's, of which solver.accuracy_work allows {:g}",
+        "; the next settings would bring the work of choosing from {:.3g} to {:.3g} times that of an evaluation at "
+        "those "
+        "to begin with, of which solver.accuracy_work allows {:g}",
         choice.work, *choice.work_refused, study.scene.solver.accuracy_work);
   return fmt::format("the accuracy asked for is not reached: {}{}{}{}", known(*choice.tried.by), foreseen,
                      held.empty() ? "" : ". Given, and kept, are ", fmt::join(held, ", "));

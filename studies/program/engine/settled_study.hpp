@@ -30,18 +30,17 @@ std::optional<optimizer::SettingsChoice> settle(Study& study, const std::optiona
 /// over what was asked; nothing where none has a bar.
 [[nodiscard]] std::optional<optimizer::Dominant> whole_bar(const optimizer::AccuracyGoal& goal,
                                                            const optimizer::Evaluation& evaluation);
-/// That a whole bar is larger than what was asked, though what settings buy of it is not; empty where it is not.
-[[nodiscard]] std::string whole_words(const std::optional<optimizer::Dominant>& whole);
 /// What a tenth of the bars would cost; empty where not even what was asked is reached.
 [[nodiscard]] std::string digit_words(const optimizer::SettingsChoice& choice);
 
 /// What of an accuracy asked for holds at a design that was computed with bars.
 struct AccuracyHeld {
-  bool reached = false;  ///< as far as settings buy it
+  bool reached = false;  ///< with all parts of the bars
   std::string words = {};
 };
+/// @param asked_history  of doubts of worn states; where none was, what only a history would settle does not count
 [[nodiscard]] AccuracyHeld accuracy_held(const optimizer::Scene& scene, const optimizer::AccuracyGoal& goal,
-                                         const optimizer::Evaluation& evaluation);
+                                         const optimizer::Evaluation& evaluation, bool asked_history = true);
 
 /// A round in a line for people.
 [[nodiscard]] std::string round_words(const Study& study, const optimizer::SettingsTried& tried);

@@ -173,16 +173,17 @@ std::string read_response(SectionReader& section, Problems& problems) {
   return {};
 }
 
-/// Accuracy asked of one response where that of the others is given; 0 where it is not.
-double read_accuracy(SectionReader& section, const optimizer::Scene& scene, Problems& problems) {
+/// Accuracy asked of one response; 0 where it is not.
+/// @param of_all  whether one is asked of the others
+double read_accuracy(SectionReader& section, bool of_all, Problems& problems) {
   const std::optional<double> accuracy = section.number("accuracy", kAccuracyRange);
-  if (accuracy && scene.solver.accuracy == 0)
+  if (accuracy && !of_all)
     problems.add(*section.node()->find("accuracy"), section.path("accuracy"),
-                 "counts only where solver.accuracy is given, for all other responses");
+                 "counts only where solver.accuracy or optimizer.verify_accuracy is given, for all other responses");
   return accuracy.value_or(0);
 }
 
-std::vector<ObjectiveTerm> read_objective(SectionReader& root, const optimizer::Scene& scene, Problems& problems) {
+std::vector<ObjectiveTerm> read_objective(SectionReader& root, bool accurate, Problems& problems) {
   std::vector<ObjectiveTerm> terms;
   const auto tables = entries(root, "objective", problems);
   for (const auto& [node, path] : tables) {
@@ -193,7 +194,7 @@ std::vector<ObjectiveTerm> read_objective(SectionReader& root, const optimizer::
     const std::optional<double> scale = section.number("scale", kPositive);
     term.scale = scale.value_or(0);
     term.absolute = section.truth("absolute").value_or(false);
-    term.accuracy = read_accuracy(section, scene, problems);
+    term.accuracy = read_accuracy(section, accurate, problems);
     section.finish();
     if (term.weight == 0)
       problems.add(*node->find("weight"), section.path("weight"), "must not be 0: the term would have no effect");
@@ -205,8 +206,7 @@ std::vector<ObjectiveTerm> read_objective(SectionReader& root, const optimizer::
   return terms;
 }
 
-std::vector<ResponseConstraint> read_constraints(SectionReader& root, const optimizer::Scene& scene,
-                                                 Problems& problems) {
+std::vector<ResponseConstraint> read_constraints(SectionReader& root, bool accurate, Problems& problems) {
   std::vector<ResponseConstraint> limits;
   std::map<std::pair<std::string, bool>, std::pair<double, double>> band;
   for (const auto& [node, path] : entries(root, "constraint", problems)) {
@@ -217,7 +217,7 @@ std::vector<ResponseConstraint> read_constraints(SectionReader& root, const opti
     limit.upper = section.number("upper", kAnyNumber);
     limit.scale = section.number("scale", kPositive).value_or(0);
     limit.absolute = section.truth("absolute").value_or(false);
-    limit.accuracy = read_accuracy(section, scene, problems);
+    limit.accuracy = read_accuracy(section, accurate, problems);
     section.finish();
     const Node* lower = node->find("lower");
     const Node* upper = node->find("upper");
@@ -242,11 +242,13 @@ std::vector<ResponseConstraint> read_constraints(SectionReader& root, const opti
 
 }  // namespace
 
-optimizer::Problem read_problem(SectionReader& root, const optimizer::Scene& scene, Problems& problems) {
+optimizer::Problem read_problem(SectionReader& root, const optimizer::Scene& scene,
+                                const optimizer::OptimizerOptions& options, Problems& problems) {
   optimizer::Problem problem;
   std::vector<DesignVariable> variables = read_variables(root, scene, problems);
-  problem.objective = read_objective(root, scene, problems);
-  problem.constraints = read_constraints(root, scene, problems);
+  const bool accurate = scene.solver.accuracy > 0 || options.verify_accuracy > 0;
+  problem.objective = read_objective(root, accurate, problems);
+  problem.constraints = read_constraints(root, accurate, problems);
   const bool varies = root.node() && root.node()->find("variable");
   if (problem.objective.empty() && (varies || (root.node() && root.node()->find("objective"))))
     problems.missing(nullptr, "objective",

@@ -149,7 +149,7 @@ Study read_study(const Document& document) {
   optimizer.fields(study.optimizer, option_table<optimizer::OptimizerOptions>());
   optimizer.finish();
 
-  study.problem = read_problem(root, study.scene, problems);
+  study.problem = read_problem(root, study.scene, study.optimizer, problems);
   read_exports(root, study, problems);
   root.finish();
   problems.raise();

@@ -167,7 +167,7 @@ TEST_F(Run, HandsOverAtSettingsForTheAccuracyAskedFor) {
     EXPECT_THAT(record.best_design->notes,
                 testing::Contains(
                     testing::ContainsRegex("The accuracy asked for is reached: .* to 10 % \\(asked: 20 %\\), most of "
-                                           "it by mesh; 1.1e\\+02 % with what this does not buy.")));
+                                           "it by mesh; 110 % with what this does not buy.")));
     EXPECT_THAT(record.best_design->notes, Not(testing::Contains(HasSubstr("the search had"))));  // it had the same
     EXPECT_THAT(record.provenance.settings.at("optimizer.verify_accuracy"), HasSubstr("0.2, at the best design "));
     EXPECT_EQ(record.provenance.settings.count("solver.accuracy"), 0U);
@@ -177,7 +177,7 @@ TEST_F(Run, HandsOverAtSettingsForTheAccuracyAskedFor) {
   ASSERT_EQ(run(false, factory), kDone) << err_.str();
   says_what_was_chosen();
   EXPECT_THAT(err_.str(), HasSubstr("settings for the best design"));
-  EXPECT_THAT(err_.str(), HasSubstr("10 edges per flank, 5 harmonics"));
+  EXPECT_THAT(err_.str(), HasSubstr("10 edges per flank, 3 mm elements beside them, 5 harmonics"));
   EXPECT_TRUE(fs::exists(results() / "best_settings.json"));
   const Study searched = load_study((results() / "study.toml").string());
   const Study best = load_study((results() / "best.toml").string());
@@ -208,7 +208,8 @@ TEST_F(Run, ChoosesSettingsInTheMiddleWhereTheStartIsInfeasible) {
   std::string text = replaced(study_template("sample"), "max_evaluations = 100", "max_evaluations = 3");
   text = replaced(without(text, "harmonics"), "flank_elements = 24", "flank_elements = 10");
   text = replaced(replaced(text, "neck_width_mm = 8.5", "neck_width_mm = 12"), "upper = 9.5", "upper = 12");
-  replace_file(study(), replaced(text, "accuracy = 0\n", "accuracy = 0.5\n"));
+  text = replaced(text, "accuracy = 0\n", "accuracy = 0.5\n");
+  replace_file(study(), text);
   int calls = 0;
   ASSERT_EQ(run(false, counted(calls)), kDone) << err_.str();
   EXPECT_THAT(err_.str(), HasSubstr("modes: infeasible\n"));
@@ -217,6 +218,10 @@ TEST_F(Run, ChoosesSettingsInTheMiddleWhereTheStartIsInfeasible) {
   const report::RunRecord record = report::read_results(results() / "results.h5");
   EXPECT_THAT(record.provenance.settings.at("solver.accuracy"),
               HasSubstr("0.5, at the middle of the variables' ranges reached"));
+  // What is asked of one response is asked of the settings.
+  replace_file(study(), replaced(text, "upper = 300e6\n", "upper = 300e6\naccuracy = 0.1\n"));
+  EXPECT_THAT([&] { run(true, counted(calls)); },
+              testing::ThrowsMessage<InputError>(HasSubstr("was made for another study, accuracy")));
 }
 
 // The wear history may say something else of the best design than the search, which does not ask it.

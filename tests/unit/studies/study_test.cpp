@@ -185,6 +185,15 @@ TEST(Study, AsperitiesAreStiffOrRigid) {
   EXPECT_THAT(told("1e8"), HasSubstr("contact.normal_stiffness_n_per_m3 = 1e+08: must be 0 (rigid) or >= 1e+09"));
 }
 
+TEST(Study, AnAccuracyOfOneResponseNeedsOneOfAll) {
+  const std::string text = replaced(sample(), "upper = 300e6\n", "upper = 300e6\naccuracy = 0.1\n");
+  EXPECT_THAT([&] { (void)read(text); }, testing::ThrowsMessage<InputError>(HasSubstr("counts only where")));
+  for (const char* key : {"\naccuracy = ", "\nverify_accuracy = "}) {
+    const std::string of_all = replaced(text, std::string(key) + "0\n", std::string(key) + "0.2\n");
+    EXPECT_EQ(read(of_all).problem.constraints.front().accuracy, 0.1);
+  }
+}
+
 TEST(Study, SectionsThatAreNoneAreRefused) {
   EXPECT_THAT(complaints("scene = 3\nvariable = 2\n"), HasSubstr("s.toml:1: scene = 3: must be a section, [scene]"));
   EXPECT_THAT(complaints("variable = 2\n"), HasSubstr("variable = 2: must be written as [[variable]]"));

@@ -105,6 +105,35 @@ TEST(Accuracy, OfTruncationAloneAsksTheOwnMesh) {
   EXPECT_EQ(sources.count("mesh"), 0U);
 }
 
+// A response that a mesh does not resolve has no bar there; asked for by name, it is looked for on a finer one.
+TEST(Accuracy, AnUnresolvedResponseAsksForAFinerMesh) {
+  const std::string peak = "contact_pressure_max_pa";
+  Scene scene;
+  scene.geometry.flank("left").edge_radius = scene.geometry.flank("right").edge_radius = 0.02;
+  ASSERT_TRUE(find_response(peak)->has_limit(scene));
+  const Laws laws;
+  AccuracyGoal goal{.relative = 0.05, .responses = {peak}};
+  const auto probe = [&](const Settings& s) {
+    AccuracyAnswer answer = laws.probe()(s);
+    Evaluation& evaluation = answer.evaluation;
+    const double bar = std::pow(s.mesh, -2.2);
+    evaluation.responses[peak] = 1;
+    evaluation.error_sources[peak] = {{"mesh", bar}};
+    if (bar > *find_response(peak)->largest_bar)
+      evaluation.unbounded = {peak};
+    else
+      evaluation.error_estimates[peak] = bar;
+    return answer;
+  };
+  const SettingsChoice choice = choose_settings(scene, goal, probe);
+  EXPECT_EQ(choice.status, Status::converged);
+  EXPECT_TRUE(choice.not_held.empty());
+  EXPECT_GT(choice.settings.mesh, 3);
+  // Where nothing is named it is left out, as it always was.
+  goal.responses.clear();
+  EXPECT_LT(choose_settings(scene, goal, probe).settings.mesh, 2);
+}
+
 TEST(Accuracy, OutOfReachIsSaid) {
   const Scene scene;
   AccuracyGoal goal = kGoal;

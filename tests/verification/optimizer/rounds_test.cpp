@@ -111,6 +111,26 @@ TEST(Rounds, APartThatIsSmallByChanceCountsForMore) {
   }
 }
 
+// Settings are taken where bars of what is asked are small, and so may be those of all else.
+TEST(Rounds, BarsOfWhatIsNotAskedAreRaisedToo) {
+  const Laws laws{.mesh = 0.05, .harmonics = 0.05};
+  const std::string beside = "dissipated_energy_j";
+  ASSERT_NE(find_response(beside), nullptr);
+  int calls = 0;
+  const SettingsChoice choice = choose_settings(Scene{}, kGoal, [&](const Settings& s) {
+    AccuracyAnswer answer = laws.probe()(s);
+    answer.evaluation.responses[beside] = 1 + 0.5 * calls++;
+    answer.evaluation.error_sources[beside] = {{"mesh", 0.01}};
+    answer.evaluation.error_estimates[beside] = 0.01;
+    return answer;
+  });
+  ASSERT_EQ(choice.status, Status::converged);
+  ASSERT_GT(choice.rounds.size(), 1U);
+  EXPECT_EQ(choice.raised.count(kVolume), 0U);
+  EXPECT_GE(choice.evaluation.error_estimates.at(beside), 0.49);
+  EXPECT_EQ(choice.evaluation.error_estimates.at(beside), choice.evaluation.error_sources.at(beside).at("mesh"));
+}
+
 // One round before that is out of line raises nothing.
 TEST(Rounds, APartIsHeldToTheLesserOfWhatTwoRoundsExpect) {
   const Scene scene;

@@ -1,0 +1,45 @@
+#include "studies/program/engine/settled_study.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace dovetail::studies {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr const char *kVolume = "asymptotic_wear_volume_m3", *kPressure = "contact_pressure_mean_pa";
+
+/// What is told of two responses asked to 2 %; the bar of the volume, whose value is 1, has these parts.
+AccuracyHeld held(const std::map<std::string, double>& parts, bool asked_history = true, double pressure = 1) {
+  optimizer::Evaluation evaluation;
+  evaluation.responses = {{kVolume, 1}, {kPressure, pressure}};
+  evaluation.error_sources = {{kVolume, parts}, {kPressure, {{"mesh", 1e-3}}}};
+  for (const auto& [name, sources] : evaluation.error_sources)
+    for (const auto& [source, bar] : sources) evaluation.error_estimates[name] += bar;
+  evaluation.model = {{"dofs", 1e4}, {"contact_nodes", 20}, {"jacobians_spent", 9}};
+  const optimizer::AccuracyGoal goal{.relative = 0.02, .responses = {kVolume, kPressure}};
+  return accuracy_held(optimizer::Scene(), goal, evaluation, asked_history);
+}
+
+TEST(AccuracyHeld, CountsEveryPartOfTheBars) {
+  EXPECT_TRUE(held({{"mesh", 0.01}}).reached);
+  EXPECT_FALSE(held({{"mesh", 0.03}}).reached);
+  for (const char* source : {"edge", "history"}) {
+    const AccuracyHeld other = held({{"mesh", 0.01}, {source, 0.02}});
+    EXPECT_FALSE(other.reached) << source;
+    EXPECT_THAT(other.words, HasSubstr("with all parts of its bar asymptotic_wear_volume_m3 is known to 3 %"));
+  }
+  // A doubt that was to be left is none.
+  EXPECT_TRUE(held({{"mesh", 0.01}, {"history", 0.02}}, false).reached);
+  EXPECT_FALSE(held({{"mesh", 0.01}, {"edge", 0.02}}, false).reached);
+}
+
+TEST(AccuracyHeld, NamesWhatIsHeldToNone) {
+  EXPECT_THAT(held({{"mesh", 0.01}}).words, Not(HasSubstr("held to none")));
+  EXPECT_THAT(held({{"mesh", 0.01}}, true, 0).words, HasSubstr("held to none: contact_pressure_mean_pa"));
+}
+
+}  // namespace
+}  // namespace dovetail::studies
