@@ -63,10 +63,11 @@ struct Computation {
   return how;
 }
 
-/// Lays contact nodes on a candidate so that the worn zones of its asymptote - at the unworn resonance, or where that is
-/// followed as the joint wears at its end - end where nodes end: edges are found on one grid, a grid is laid with an end of a cell on each of them, and so on until they stay.
-/// Worn volume and profile are then those of whole nodes, and continuous in the design but for the number of cells.
-/// Where there are no edges the first grid stays. Where a state on the way is not found the last grid stays, unsettled.
+/// Lays contact nodes on a candidate so that the worn zones of its asymptote - at the unworn resonance, or where that
+/// is followed as the joint wears at its end - end where nodes end: edges are found on one grid, a grid is laid with an
+/// end of a cell on each of them, and so on until they stay. Worn volume and profile are then those of whole nodes, and
+/// continuous in the design but for the number of cells. Where there are no edges the first grid stays. Where a state
+/// on the way is not found the last grid stays, unsettled.
 ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateModel& candidate);
 
 }  // namespace dovetail::optimizer
