@@ -43,21 +43,22 @@ SettingsChoice choose_settings(const Scene& scene, const AccuracyGoal& goal, con
 }
 
 SettingsChoice choose_settings(const Scene& reference, const Scene& scene, const AccuracyGoal& goal,
-                               const AccuracyListener& told) {
+                               const AccuracyListener& told, const AccuracyMemory& memory) {
   Purpose purpose{.truncation_alone = goal.of_truncation, .history = false};
   if (!goal.responses.empty()) purpose.until = last_stage(goal.responses);
   const bool beside = chooses_beside(scene, goal.fixed) && !goal.of_truncation;
-  return choose_settings(
-      scene, goal,
-      [&](const Settings& settings) -> AccuracyAnswer {
-        Evaluation found = SceneEvaluator(with_settings(reference, settings), goal.responses)
-                               .evaluate(with_settings(scene, settings), purpose)
-                               .evaluation;
-        std::map<std::string, double> leaves;
-        if (beside && found.converged()) leaves = left_beside(reference, scene, settings, purpose, found);
-        return {std::move(found), std::move(leaves)};
-      },
-      told);
+  const auto computed = [&](const Settings& settings) -> AccuracyAnswer {
+    Evaluation found = SceneEvaluator(with_settings(reference, settings), goal.responses)
+                           .evaluate(with_settings(scene, settings), purpose)
+                           .evaluation;
+    std::map<std::string, double> leaves;
+    if (beside && found.converged()) leaves = left_beside(reference, scene, settings, purpose, found);
+    return {std::move(found), std::move(leaves)};
+  };
+  const auto probe = [&](const Settings& settings) {
+    return memory ? memory(settings, [&] { return computed(settings); }) : computed(settings);
+  };
+  return choose_settings(scene, goal, probe, told);
 }
 
 }  // namespace dovetail::optimizer

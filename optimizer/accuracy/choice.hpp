@@ -61,6 +61,9 @@ using AccuracyProbe = std::function<AccuracyAnswer(const Settings&)>;
 /// Hears of every round and says whether to go on.
 using AccuracyListener = std::function<bool(const SettingsTried&)>;
 
+/// An answer that was given before, or the one that it computes.
+using AccuracyMemory = std::function<AccuracyAnswer(const Settings&, const std::function<AccuracyAnswer()>& compute)>;
+
 /// Rounds of an evaluation with bars, from whose parts the next settings follow: of all there are, the cheapest that
 /// should be accurate enough. What no setting buys (doubts of the worn state, the edges of zones) is left out of
 /// what is asked for. Where after two rounds (three, where those contradict each other) none of them foresees settings
@@ -70,6 +73,6 @@ using AccuracyListener = std::function<bool(const SettingsTried&)>;
 
 /// The same on meshes of a reference, of the scene until the last stage that the responses of the goal need.
 [[nodiscard]] SettingsChoice choose_settings(const Scene& reference, const Scene& scene, const AccuracyGoal& goal,
-                                             const AccuracyListener& told = {});
+                                             const AccuracyListener& told = {}, const AccuracyMemory& memory = {});
 
 }  // namespace dovetail::optimizer

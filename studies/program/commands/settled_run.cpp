@@ -16,6 +16,7 @@
 #include "studies/program/answers/accuracy_json.hpp"
 #include "studies/program/answers/run_output.hpp"
 #include "studies/program/answers/version.hpp"
+#include "studies/program/commands/kept_rounds.hpp"
 #include "studies/program/engine/engine.hpp"
 #include "studies/program/engine/settled_study.hpp"
 #include "studies/program/study_file/best_file.hpp"
@@ -31,6 +32,8 @@ constexpr const char* kFile = "settings.json";
 constexpr const char *kStart = "the start", *kMiddle = "the middle of the variables' ranges",
                      *kBest = "the best design";
 constexpr const char* kBestFile = "best_settings.json";
+/// The rounds of a choice that is not made yet.
+constexpr const char *kRounds = "settings_rounds.jsonl", *kBestRounds = "best_settings_rounds.jsonl";
 
 /// What a run searches with and its study file does not give.
 struct Chosen {
@@ -93,15 +96,17 @@ std::optional<Chosen> kept(const std::filesystem::path& file, const std::string&
 /// @param many  many designs are computed at those settings
 /// @param stop  set: the choice ends after the round at hand
 std::optional<optimizer::SettingsChoice> choose(const Study& there, const char* where, bool many,
-                                                const std::atomic<bool>* stop, std::ostream& err, Chosen& result) {
+                                                const optimizer::AccuracyMemory& rounds, const std::atomic<bool>* stop,
+                                                std::ostream& err, Chosen& result) {
   Study settled = there;
   const auto stopped = [stop] { return stop != nullptr && stop->load(); };
   std::optional<optimizer::AccuracyGoal> goal = accuracy_goal(settled);
   if (goal) goal->many = many;
-  std::optional<optimizer::SettingsChoice> choice = settle(settled, goal, [&](const optimizer::SettingsTried& tried) {
+  const auto tell = [&](const optimizer::SettingsTried& tried) {
     err << "dovetail: " << round_words(there, tried) << "\n";
     return !stopped();
-  });
+  };
+  std::optional<optimizer::SettingsChoice> choice = settle(settled, goal, tell, rounds);
   if (!choice || stopped()) return choice;
   for (const auto& [key, value] : settings_by_key(there.scene, choice->settings))
     if (!there.given.contains(key)) result.settings[key] = value;
@@ -139,17 +144,17 @@ Study with_chosen(const Study& study, const Chosen& chosen, const std::filesyste
   return result;
 }
 
-Chosen chosen(const Study& asked, const RunEngineFactory& make_engine, std::ostream& err) {
+Chosen chosen(const Study& asked, KeptRounds& rounds, const RunEngineFactory& make_engine, std::ostream& err) {
   Chosen result{.settings = {}, .noise = asked.optimizer.noise};
   Study at_start = asked;
   at_start.scene = start_scene(asked);
   const char* where = kStart;
-  std::optional<optimizer::SettingsChoice> choice = choose(at_start, where, true, nullptr, err, result);
+  std::optional<optimizer::SettingsChoice> choice = choose(at_start, where, true, rounds.at(0), nullptr, err, result);
   if (choice && !choice->tried.by && asked.problem.space.size() > 0) {
     where = kMiddle;
     err << "dovetail: settings from " << where << " instead\n";
     at_start.scene = reference_scene(asked);
-    choice = choose(at_start, where, true, nullptr, err, result);
+    choice = choose(at_start, where, true, rounds.at(1), nullptr, err, result);
     if (!choice->tried.by) where = kStart;
   }
   if (asked.optimizer.noise > 0) return result;
@@ -204,8 +209,10 @@ SettledStudy settled_run(const Study& asked, const std::filesystem::path& direct
                                .allowed = "was made for another study, accuracy or accuracy_work than the one at "
                                           "hand: resume that one, or begin anew without --resume"});
   if (!settled) {
-    settled = chosen(asked, make_engine, err);
+    KeptRounds rounds(directory / kRounds, question);
+    settled = chosen(asked, rounds, make_engine, err);
     keep(file, question, *settled);
+    rounds.forget();
   }
   const bool at_start = chooses && settled->accuracy.is_object() && settled->accuracy.value("at", kStart) == kStart;
   return {.study = with_chosen(asked, *settled, file),
@@ -251,9 +258,11 @@ SettledStudy settled_best(const Study& asked, const Study& searched, const optim
   if (!settled) {
     err << "dovetail: settings for the best design\n";
     settled = Chosen{.settings = {}, .noise = searched.optimizer.noise};
-    choose(verified(there), kBest, false, &interrupt.flag(), err, *settled);
+    KeptRounds rounds(directory / kBestRounds, question);
+    choose(verified(there), kBest, false, rounds.at(0), &interrupt.flag(), err, *settled);
     if (interrupt.requested()) return {.study = searched};
     keep(file, question, *settled);
+    rounds.forget();
   }
   return {.study = with_chosen(searched, *settled, file),
           .accuracy = came_to(settled->accuracy),

@@ -57,9 +57,11 @@ std::optional<optimizer::AccuracyGoal> truncation_goal(const Study& study, const
 }
 
 std::optional<optimizer::SettingsChoice> settle(Study& study, const std::optional<optimizer::AccuracyGoal>& goal,
-                                                const optimizer::AccuracyListener& told) {
+                                                const optimizer::AccuracyListener& told,
+                                                const optimizer::AccuracyMemory& memory) {
   if (!goal) return {};
-  optimizer::SettingsChoice choice = optimizer::choose_settings(reference_scene(study), study.scene, *goal, told);
+  optimizer::SettingsChoice choice =
+      optimizer::choose_settings(reference_scene(study), study.scene, *goal, told, memory);
   study.scene = optimizer::with_settings(study.scene, choice.settings);
   return choice;
 }

@@ -24,7 +24,8 @@ namespace dovetail::studies {
 /// scene has them from then on.
 /// @return nothing where there is no goal
 std::optional<optimizer::SettingsChoice> settle(Study& study, const std::optional<optimizer::AccuracyGoal>& goal,
-                                                const optimizer::AccuracyListener& told = {});
+                                                const optimizer::AccuracyListener& told = {},
+                                                const optimizer::AccuracyMemory& memory = {});
 
 /// Of the responses that an accuracy is asked of, the one whose whole bar, with what no setting buys of it, is largest
 /// over what was asked; nothing where none has a bar.
