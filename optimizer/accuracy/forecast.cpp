@@ -64,7 +64,9 @@ void raise_bars(const BarParts& least, Evaluation& evaluation) {
   for (const auto& [name, parts] : least) {
     const auto value = evaluation.responses.find(name);
     const auto bars = evaluation.error_sources.find(name);
-    if (value == evaluation.responses.end() || bars == evaluation.error_sources.end()) continue;
+    if (value == evaluation.responses.end() || bars == evaluation.error_sources.end() ||
+        std::ranges::find(evaluation.unbounded, name) != evaluation.unbounded.end())
+      continue;
     for (const auto& [source, relative] : parts) {
       double& bar = bars->second[source];
       const double more = relative * std::abs(value->second) - bar;
@@ -100,6 +102,7 @@ void Forecast::add(const Settings& at, const Evaluation& evaluation, const std::
   const Round one_more = std::exchange(before_, std::exchange(last_, {.at = at, .parts = {}}));
   whole_.clear();
   known_.clear();
+  unresolved_.clear();
   dofs_ = evaluation.model.at("dofs");
   const auto nodes = static_cast<Eigen::Index>(evaluation.model.at("contact_nodes"));
   contact_ = evaluation.model.at("jacobians_spent") *
@@ -179,12 +182,14 @@ void Forecast::take_orders(const Forecast& later) {
 std::vector<std::string> Forecast::not_held() const {
   std::vector<std::string> names;
   for (const std::string& name : goal_->responses)
-    if (std::ranges::none_of(last_.parts, [&](const Part& part) { return part.response->name == name; }))
+    if (std::ranges::none_of(last_.parts, [&](const Part& part) { return part.response->name == name; }) &&
+        std::ranges::find(unresolved_, name, &Response::name) == unresolved_.end())
       names.push_back(name);
   return names;
 }
 
 double Forecast::excess(const Settings& there) const {
+  if (!resolves() && finer(Knob::mesh, there, last_.at) < kForecast.step) return kInfinity;
   double largest = 0, sum = 0;
   const Response* of = nullptr;
   for (const Part& part : last_.parts) {
@@ -197,6 +202,11 @@ double Forecast::excess(const Settings& there) const {
 }
 
 std::optional<Dominant> Forecast::dominant() const {
+  if (!resolves()) {
+    const std::string name(unresolved_.front()->name);
+    return Dominant{
+        .response = name, .source = "mesh", .relative = kInfinity, .whole = kInfinity, .asked = goal_->asked(name)};
+  }
   std::map<const Response*, double> sums;
   for (const Part& part : last_.parts) sums[part.response] += part.share;
   const auto worst = std::ranges::max_element(sums, {}, [](const auto& s) { return s.second; });
@@ -227,25 +237,24 @@ double Forecast::operations(const Settings& there) const {
                         std::pow(finer(Knob::samples, there, last_.at), kForecast.contact_by_samples);
 }
 
-/// A response without a value has no accuracy, one without a limit none that could be bought. One that is asked of and
-/// that no bar is given on this mesh, as it does not resolve it, is known to no part of its value.
+/// A response without a value has no accuracy, one without a limit none that could be bought. One that
+/// is asked of and that the mesh does not resolve has none there.
 void Forecast::add(const Response& response, const Evaluation& evaluation, std::optional<double> beside) {
   const std::string name(response.name);
   const auto value = evaluation.responses.find(name);
   const auto bars = evaluation.error_sources.find(name);
   if (value == evaluation.responses.end() || value->second == 0 || bars == evaluation.error_sources.end()) return;
-  const bool bounded = std::ranges::find(evaluation.unbounded, name) == evaluation.unbounded.end(),
-             unresolved = response.largest_bar && response.has_limit(*scene_) && !goal_->responses.empty();
-  if (!bounded && !unresolved) return;
+  if (std::ranges::find(evaluation.unbounded, name) != evaluation.unbounded.end()) {
+    if (goal_->resolves && !goal_->responses.empty() && response.largest_bar && response.has_limit(*scene_))
+      unresolved_.push_back(&response);
+    return;
+  }
   double whole = 0;
   for (const auto& [source, bar] : bars->second)
     if (source != "history") whole += bar;  // no round asks a history: what it would settle is not known here
-  const double unknown = bounded ? 0 : std::max(0.0, std::abs(value->second) - whole);
-  whole += unknown;
   whole_[name] = whole / std::abs(value->second);
   known_[name] = {.value = value->second, .bar = whole};
-  for (const auto& [source, given] : bars->second) {
-    const double bar = given + (source == "mesh" ? unknown : 0);
+  for (const auto& [source, bar] : bars->second) {
     const Knob knob = knob_of(source);
     if (!counts(knob, *goal_)) continue;
     constexpr double kLeast = kForecast.least_share;

@@ -20,6 +20,8 @@ struct AccuracyGoal {
   std::set<std::string> fixed = {};         ///< keys that stay as they are
   /// Of harmonics and samples alone: parts of bars by anything else count neither for nor against.
   bool of_truncation = false;
+  /// One of `responses` that a mesh does not resolve is looked for on finer ones; false: it is left out.
+  bool resolves = true;
   /// Many evaluations follow at those settings: cheaper ones are worth a round where these are accurate enough.
   bool many = true;
 
@@ -32,7 +34,8 @@ struct AccuracyGoal {
 /// The part of a bar that counts most.
 struct Dominant {
   std::string response = {}, source = {};
-  double relative = 0;  ///< what settings buy of the bar of the response, over its value
+  double relative = 0;  ///< what settings buy of the bar of the response, over its value; infinite where the mesh does
+                        ///< not resolve it
   double whole = 0;     ///< the same with what no setting buys, but what a history would settle
   double asked = 0;     ///< the same that was asked for
 };
@@ -46,7 +49,7 @@ enum class Knob { none, mesh, beside, harmonics, samples, modes, resonance };
 /// Parts of the bars of responses, over the values of these, by their sources.
 using BarParts = std::map<std::string, std::map<std::string, double>>;
 
-/// Makes bars of an evaluation at least as large as these; responses that have no bar keep none.
+/// Makes bars of an evaluation at least as large as these; responses that have none, or are not resolved, stay so.
 void raise_bars(const BarParts& least, Evaluation& evaluation);
 
 /// What evaluations with bars foresee of other settings: bars by the orders in which their parts fall, operations by
@@ -74,7 +77,10 @@ class Forecast {
 
   /// Responses asked for by name of which nothing is known.
   [[nodiscard]] std::vector<std::string> not_held() const;
-  /// Largest bar over what is allowed of it.
+  /// Whether the mesh resolves all that is asked of.
+  [[nodiscard]] bool resolves() const { return unresolved_.empty(); }
+  /// Largest bar over what is allowed of it; where the mesh does not resolve a response infinite on all that are not
+  /// finer by a step.
   [[nodiscard]] double excess(const Settings& there) const;
   [[nodiscard]] std::optional<Dominant> dominant() const;
   /// Of an evaluation without bars, to compare settings by. Counted and not timed, so that the same is chosen on every
@@ -111,8 +117,9 @@ class Forecast {
   const AccuracyGoal* goal_;
   bool in_space_;
   Round last_, before_;
-  double dofs_ = 0;     // unknowns of the mesh
-  double contact_ = 0;  // operations of all that follows the matrices
+  std::vector<const Response*> unresolved_;  // responses asked of that the last mesh does not resolve
+  double dofs_ = 0;                          // unknowns of the mesh
+  double contact_ = 0;                       // operations of all that follows the matrices
   std::map<std::string, Known> known_;
   std::map<std::string, double> whole_;  // bars over values, with what no setting buys but what a history would settle
 };

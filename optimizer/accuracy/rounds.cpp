@@ -53,7 +53,8 @@ double strictest(const AccuracyGoal& goal) {
 
 std::optional<SettingsChoice::Digit> one_more_digit(const std::vector<Settings>& all, const Forecast& forecast,
                                                     const SettingsChoice& choice, double history_tolerance) {
-  if (choice.tried.excess == 0) return {};  // no bar is left to be divided
+  // No bar is left to be divided, or none is known.
+  if (choice.tried.excess == 0 || !std::isfinite(choice.tried.excess)) return {};
   const double tenth = choice.tried.excess / 10;
   Settings there = cheapest(all, forecast, tenth);
   if (forecast.excess(there) > tenth) return {};
@@ -109,6 +110,7 @@ Foreseen foreseen(const std::vector<Settings>& all, const Forecast& last, std::s
   Foreseen least = by(last);
   for (const KnownRound& round : rounds) {
     if (least.excess <= 1) break;
+    if (!round.forecast.resolves()) continue;
     Forecast before = round.forecast;
     before.take_orders(last);
     if (const Foreseen other = by(before); other.excess < least.excess) least = other;
@@ -222,6 +224,7 @@ SettingsChoice Rounds::choice() const {
 BarParts Rounds::raised_beside(const KnownRound& best) const {
   AccuracyGoal others = goal_;
   others.responses.clear();
+  others.resolves = false;
   for (const Response& response : responses())
     if (std::ranges::find(goal_.responses, response.name) == goal_.responses.end())
       others.responses.emplace_back(response.name);

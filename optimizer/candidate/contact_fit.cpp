@@ -49,7 +49,7 @@ class GridSearch {
     ContactFit fit = laid();
     if (has_own_budget()) candidate_.budget->spend(joint_.options.budget->used());
     if (!candidate_.converged()) return fit;
-    if (fit.known) fit.grid = {.edges = laid_, .counts = counts_, .search = search_, .moved = fit.moved};
+    if (fit.known) fit.grid = {.edges = laid_, .counts = counts_, .search = search_, .moved = fit.moved, .grew = grew_};
     return fit;
   }
 
@@ -63,8 +63,11 @@ class GridSearch {
     if (!candidate_.converged()) return fit_;
     // Where the law lets nodes rest in slip the history says which ones wear.
     rests_in_slip_ = wear::rests_in_slip(*candidate_.condensed);
-    // A history on each grid is dear: what is asked of the design itself is left the rest.
-    if (rests_in_slip_) joint_.options.budget = new_budget(scene_.solver, candidate_, options_.share_of_budget);
+    follows_ = scene_.loading.follow == wear::Follow::resonance && !rests_in_slip_;
+    // A history on each grid, or a resonance that is followed there, is dear: what is asked of the design itself is
+    // left the rest.
+    if (rests_in_slip_ || follows_)
+      joint_.options.budget = new_budget(scene_.solver, candidate_, options_.share_of_budget);
     release_.arbitration = rests_in_slip_ ? wear::Arbitration::unsettled : wear::Arbitration::never;
     // At the resonance of the first grid on all of them: it hardly moves, and edges move less.
     if (!find_first_resonance()) return fit_;
@@ -110,6 +113,7 @@ class GridSearch {
       laid_ = start_.grid->edges;
       counts_ = start_.grid->counts;
       search_ = start_.grid->search;
+      grew_ = start_.grid->grew;
       end_cells_at_edges(flanks);
     }
     lay(flanks);
@@ -149,6 +153,7 @@ class GridSearch {
     const std::vector<std::vector<Edge>> edges = rests_in_slip_
                                                      ? resting_edges(candidate_.cells, *candidate_.condensed, worn)
                                                      : edge_places(candidate_.cells, worn.trail);
+    const EdgeSearch before = search_;
     found_ = search_.hold(edges, lengths_);
     Misfit misfit;
     for (std::size_t l = 0; l < found_.size(); ++l) {
@@ -166,16 +171,20 @@ class GridSearch {
                .flanks = candidate_.cells.flanks,
                .laid = laid_,
                .counts = counts_,
-               .search = search_,
+               .search = before,
                .displacement = unworn_.displacement};
     return true;
   }
 
-  /// Where the resonance is followed zones grow on the way: they are to end where nodes end at its end.
-  [[nodiscard]] wear::Asymptote worn_on_grid() const {
-    if (scene_.loading.follow == wear::Follow::resonance && !rests_in_slip_)
-      return wear::followed_asymptote(joint_, peak_.omega, release_, resonance_options(scene_), &unworn_).asymptote;
-    return wear::asymptote(joint_, peak_.omega, release_, &unworn_);
+  /// Where the resonance is followed zones grow on the way: they are to end where nodes end at its end. Where it is
+  /// lost on the way, where they end before.
+  [[nodiscard]] wear::Asymptote worn_on_grid() {
+    if (!follows_) return wear::asymptote(joint_, peak_.omega, release_, &unworn_);
+    wear::FollowedAsymptote followed = wear::followed_asymptote(joint_, peak_.omega, release_, {}, &unworn_);
+    const bool lost = followed.asymptote.verdict != wear::Verdict::asymptote && !spent(joint_.options.budget);
+    if (lost && followed.held) return std::move(*followed.held);
+    grew_ = grew_ || (followed.held && followed.asymptote.released != followed.held->released);
+    return std::move(followed.asymptote);
   }
 
   /// Where edges go to and fro, or their budget is spent: the grid that they would have left least, of those whose
@@ -243,7 +252,8 @@ class GridSearch {
   CellLengths cells_;
   steady::Joint joint_;
   wear::AsymptoteOptions release_;
-  bool rests_in_slip_ = false;
+  bool rests_in_slip_ = false, follows_ = false;
+  bool grew_ = false;                     // zones, on some grid, while the resonance was followed
   std::vector<EdgeLengths> lengths_;      // of every strip
   EdgeSearch::Places laid_, found_;       // edges that the grid was laid for, and those found on it
   std::vector<std::vector<int>> counts_;  // of cells between edges

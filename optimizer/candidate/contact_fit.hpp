@@ -26,6 +26,7 @@ struct LaidGrid {
   std::vector<std::vector<int>> counts;  ///< of cells between edges
   EdgeSearch search;                     ///< that led to them
   double moved = 0;                      ///< by how much they were left, see ContactFit
+  bool grew = false;                     ///< zones grew while the resonance was followed, on this grid or one before
 };
 
 struct ContactFit {
@@ -64,10 +65,10 @@ struct Computation {
 }
 
 /// Lays contact nodes on a candidate so that the worn zones of its asymptote - at the unworn resonance, or where that
-/// is followed as the joint wears at its end - end where nodes end: edges are found on one grid, a grid is laid with an
-/// end of a cell on each of them, and so on until they stay. Worn volume and profile are then those of whole nodes, and
-/// continuous in the design but for the number of cells. Where there are no edges the first grid stays. Where a state
-/// on the way is not found the last grid stays, unsettled.
+/// is followed as the joint wears at its end (not under an energy threshold) - end where nodes end: edges are found on
+/// one grid, a grid is laid with an end of a cell on each of them, and so on until they stay. Worn volume and profile
+/// are then those of whole nodes, and continuous in the design but for the number of cells. Where there are no edges
+/// the first grid stays. Where a state on the way is not found the last grid stays, unsettled.
 ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateModel& candidate);
 
 }  // namespace dovetail::optimizer

@@ -62,6 +62,16 @@ std::string fingerprint_of_header(const std::filesystem::path& file, const std::
   return header.value("fingerprint", "");
 }
 
+/// What is there, unless it is of no use.
+JournalContents known_or_empty(const std::filesystem::path& file, const std::string& fingerprint) {
+  try {
+    JournalContents contents = read_journal(file);
+    return contents.fingerprint == fingerprint ? contents : JournalContents();
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
 }  // namespace
 
 JournalContents read_journal(const std::filesystem::path& file) {
@@ -107,24 +117,29 @@ JournalContents read_journal(const std::filesystem::path& file) {
 }
 
 Journal Journal::create(const std::filesystem::path& file, const std::string& fingerprint) {
-  return open(file, fingerprint, true);
+  return open(file, fingerprint, Old::refused);
 }
 
 Journal Journal::resume(const std::filesystem::path& file, const std::string& fingerprint) {
-  return open(file, fingerprint, false);
+  return open(file, fingerprint, Old::resumed);
 }
 
-Journal Journal::open(const std::filesystem::path& file, const std::string& fingerprint, bool fresh) {
+Journal Journal::renew(const std::filesystem::path& file, const std::string& fingerprint) {
+  return open(file, fingerprint, Old::replaced);
+}
+
+Journal Journal::open(const std::filesystem::path& file, const std::string& fingerprint, Old old) {
   Journal journal;
   journal.file_ = file;
-  journal.descriptor_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | (fresh ? O_EXCL : 0), 0644);
+  journal.descriptor_ =
+      ::open(file.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | (old == Old::refused ? O_EXCL : 0), 0644);
   if (journal.descriptor_ < 0) {
     if (errno == EEXIST) refuse(file, 0, "exists", "must not exist for a new run; resume it or choose another place");
     system_failure(file, "cannot be opened for writing");
   }
   if (::flock(journal.descriptor_, LOCK_EX | LOCK_NB) != 0)
     refuse(file, 0, "in use", "must not be written by another run at the same time");
-  JournalContents contents = read_journal(file);
+  JournalContents contents = old == Old::replaced ? known_or_empty(file, fingerprint) : read_journal(file);
   if (contents.valid_bytes > 0 && contents.fingerprint != fingerprint)
     refuse(
         file, 1, contents.fingerprint,

@@ -41,6 +41,9 @@ class Journal {
   /// off. InputError when it belongs to another study (fingerprint), is damaged or is in use by another process.
   [[nodiscard]] static Journal resume(const std::filesystem::path& file, const std::string& fingerprint);
 
+  /// The same, but begins anew where what is there belongs to another question or is damaged.
+  [[nodiscard]] static Journal renew(const std::filesystem::path& file, const std::string& fingerprint);
+
   Journal(Journal&& other) noexcept;
   Journal& operator=(Journal&& other) noexcept;
   Journal(const Journal&) = delete;
@@ -57,7 +60,8 @@ class Journal {
 
  private:
   Journal() = default;
-  static Journal open(const std::filesystem::path& file, const std::string& fingerprint, bool fresh);
+  enum class Old { refused, resumed, replaced };
+  static Journal open(const std::filesystem::path& file, const std::string& fingerprint, Old old);
   void write_line(const std::string& record);
 
   int descriptor_ = -1;

@@ -97,8 +97,8 @@ struct Asymptote {
   Verdict verdict = Verdict::not_converged;
   Status status = Status::converged;  ///< of the last steady state asked for
   Eigen::VectorXd depth;              ///< [Nc] W, m; of the history if that decided
-  std::vector<bool> released;         ///< [Nc] worn off: carries nothing any more
-  ReleaseTrail trail;                 ///< of the passes of release
+  std::vector<bool> released;         ///< [Nc] worn off: carries nothing any more (followed: at some time)
+  ReleaseTrail trail;                 ///< of the passes of release (followed: of all asymptotes)
   double worn_volume = 0.0;           ///< m^3
   double largest_depth = 0.0;         ///< m
   Eigen::VectorXd unworn_rate;        ///< [Nc] dW of the unworn state, m per cycle

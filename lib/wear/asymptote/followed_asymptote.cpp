@@ -38,6 +38,7 @@ void keep_released(const Asymptote& earlier, Asymptote& last) {
     last.released[i] = last.released[i] || earlier.released[i];
   }
   last.trail = std::move(all);
+  last.passes += earlier.passes;
 }
 
 }  // namespace

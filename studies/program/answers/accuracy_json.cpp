@@ -1,5 +1,6 @@
 #include "studies/program/answers/accuracy_json.hpp"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace dovetail::studies {
@@ -20,8 +21,9 @@ Json settings_json(const optimizer::Scene& scene, const optimizer::Settings& set
 void add_dominant(const std::optional<optimizer::Dominant>& by, Json& json) {
   json["response"] = by ? Json(by->response) : Json();
   json["source"] = by ? Json(by->source) : Json();
-  json["relative_bar"] = by ? Json(by->relative) : Json();
-  json["relative_bar_total"] = by ? Json(by->whole) : Json();
+  const bool known = by && std::isfinite(by->relative);  // else the mesh does not resolve the response
+  json["relative_bar"] = known ? Json(by->relative) : Json();
+  json["relative_bar_total"] = known ? Json(by->whole) : Json();
   json["asked"] = by ? Json(by->asked) : Json();
 }
 

@@ -190,7 +190,9 @@ void present(const WearOptions& options, WearResult& result, const Streams& stre
 }  // namespace
 
 int run_wear(const WearOptions& given, const Streams& streams) {
-  LoadedModel loaded = load_model(given.input, given.set, given.solver, &streams.err);
+  std::optional<wear::Follow> follow;
+  if (given.follow) follow = given.follow == Drive::resonance ? wear::Follow::resonance : wear::Follow::fixed;
+  LoadedModel loaded = load_model(given.input, given.set, given.solver, &streams.err, follow);
   const WearOptions options = with_choices(given, loaded);
   const auto failed = [&](const std::string& why) { return not_converged(options.input, why, streams); };
   const auto stateless = [&](Status status, const std::string& why, int solves) {

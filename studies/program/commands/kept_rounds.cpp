@@ -1,7 +1,6 @@
 #include "studies/program/commands/kept_rounds.hpp"
 
 #include <algorithm>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -9,17 +8,11 @@ namespace dovetail::studies {
 
 namespace {
 
-optimizer::Journal opened(const std::filesystem::path& file, const std::string& question) {
-  try {
-    return optimizer::Journal::resume(file, question);
-  } catch (const InputError&) {
-    std::filesystem::remove(file);  // of another question, or damaged: they can be computed again
-  }
-  return optimizer::Journal::resume(file, question);
-}
+/// What a record is of: a round's evaluation, or what the mesh beside the flanks leaves of its responses.
+enum class Of { evaluation, beside };
 
-/// What tells rounds apart: the design and the settings.
-std::vector<double> numbers(int design, const optimizer::Settings& s) {
+/// What tells records apart: the design, the settings and what they are of.
+std::vector<double> numbers(int design, const optimizer::Settings& s, Of of) {
   return {static_cast<double>(design),
           s.mesh,
           s.beside,
@@ -27,27 +20,30 @@ std::vector<double> numbers(int design, const optimizer::Settings& s) {
           static_cast<double>(s.samples),
           static_cast<double>(s.modes),
           s.resonance_tolerance,
-          s.history_tolerance};
+          s.history_tolerance,
+          static_cast<double>(of)};
 }
 
 }  // namespace
 
 KeptRounds::KeptRounds(std::filesystem::path file, const std::string& question)
-    : file_(std::move(file)), journal_(opened(file_, question)) {}
+    : file_(std::move(file)), journal_(optimizer::Journal::renew(file_, question)) {}
 
-// A round is two records one after the other: its evaluation, and what the mesh beside the flanks leaves of responses.
 optimizer::AccuracyMemory KeptRounds::at(int design) {
   return [this, design](const optimizer::Settings& settings, const auto& compute) -> optimizer::AccuracyAnswer {
-    const std::vector<double> place = numbers(design, settings);
-    const std::vector<optimizer::JournalRecord>& known = journal_.records();
-    const auto found = std::ranges::find(known, place, &optimizer::JournalRecord::x);
-    if (found != known.end() && std::next(found) != known.end())
-      return {found->evaluation, std::next(found)->evaluation.responses};
+    const auto record = [&](Of of) -> const optimizer::Evaluation* {
+      const auto found =
+          std::ranges::find(journal_.records(), numbers(design, settings, of), &optimizer::JournalRecord::x);
+      return found == journal_.records().end() ? nullptr : &found->evaluation;
+    };
+    const optimizer::Evaluation *known = record(Of::evaluation), *known_beside = record(Of::beside);
+    if (known != nullptr && known_beside != nullptr) return {*known, known_beside->responses};
     optimizer::AccuracyAnswer answer = compute();
     optimizer::Evaluation beside;
     beside.responses = answer.beside;
-    journal_.append(place, answer.evaluation);
-    journal_.append(std::vector<double>(place.size(), -1), beside);
+    // The same bits each time: one of the two alone, where the program ended between them, is as good as new.
+    journal_.append(numbers(design, settings, Of::beside), beside);
+    journal_.append(numbers(design, settings, Of::evaluation), answer.evaluation);
     return answer;
   };
 }

@@ -120,7 +120,9 @@ std::optional<optimizer::SettingsChoice> choose(const Study& there, const char* 
 
 /// The study that asks for the accuracy of what is handed over, and of single responses for none that is coarser.
 Study verified(Study study) {
+  const bool of_search = study.scene.solver.accuracy > 0;
   study.scene.solver.accuracy = study.optimizer.verify_accuracy;
+  if (!of_search) return study;
   const auto refine = [&](auto& terms) {
     for (auto& term : terms)
       if (term.accuracy > study.optimizer.verify_accuracy) term.accuracy = 0;
@@ -185,8 +187,10 @@ std::string question_of(const Study& study) {
   std::string text = std::string("dovetail ") + version() + "\n" + physics_text(study.scene);
   for (const std::string& key : study.given)
     if (optimizer::buys_accuracy(study.scene, key)) text += "given " + key + "\n";
-  const auto accuracy_of = [&text](const auto& terms) {
-    for (const auto& term : terms) text += term.response + " " + shortest(term.accuracy) + "\n";
+  const auto accuracy_of = [&](const auto& terms) {
+    for (const auto& term : terms)
+      if (study.scene.solver.accuracy > 0 && term.accuracy > 0)
+        text += "accuracy of " + term.response + " " + shortest(term.accuracy) + "\n";
   };
   accuracy_of(study.problem.objective);
   accuracy_of(study.problem.constraints);
@@ -252,7 +256,7 @@ SettledStudy settled_best(const Study& asked, const Study& searched, const optim
   Study there = searched;
   there.given = asked.given;
   there.scene = scene_of(searched, best);
-  std::string question = question_of(there) + shortest(asked.optimizer.verify_accuracy);
+  std::string question = question_of(verified(there)) + shortest(asked.optimizer.verify_accuracy);
   const std::filesystem::path file = directory / kBestFile;
   std::optional<Chosen> settled = resume ? kept(file, question) : std::nullopt;
   if (!settled) {

@@ -176,8 +176,10 @@ InputError infeasible(const std::string& file, const std::vector<std::string>& m
 
 namespace {
 
-LoadedModel from_study(const std::string& file, const std::vector<Override>& given, std::ostream* err) {
-  const Study study = load_study(file, given);
+LoadedModel from_study(const std::string& file, const std::vector<Override>& given, std::ostream* err,
+                       std::optional<wear::Follow> follow) {
+  Study study = load_study(file, given);
+  if (follow) study.scene.loading.follow = *follow;
   if (err != nullptr && study.scene.solver.accuracy > 0)
     *err << file
          << ": warning: solver.accuracy chooses nothing here: mesh, modes, harmonics and samples are those of the file "
@@ -279,13 +281,13 @@ std::optional<reduction::ReducedModel> read_any_model(const std::string& input) 
 }
 
 LoadedModel load_model(const std::string& input, const std::vector<std::string>& set, const SolverChoice& solver,
-                       std::ostream* err) {
+                       std::ostream* err, std::optional<wear::Follow> follow) {
   if (is_hdf5_file(input)) {
     const steady::Options steady = model_options(input, set, solver);
     return from_model(input, reduction::read_model(input), steady, solver);
   }
   const Document document = load_document(input);
-  if (!is_model_document(document)) return from_study(input, overrides(set, solver), err);
+  if (!is_model_document(document)) return from_study(input, overrides(set, solver), err, follow);
   const steady::Options steady = model_options(input, set, solver);
   return from_model(input, read_model_document(document), steady, solver);
 }

@@ -56,9 +56,11 @@ struct LoadedModel {
 [[nodiscard]] std::optional<reduction::ReducedModel> read_any_model(const std::string& input);
 
 /// Throws InputError for wrong input and for a study whose geometry is infeasible.
-/// @param err  hears what of a study does not count here; null: nobody does
+/// @param err     hears what of a study does not count here; null: nobody does
+/// @param follow  what drives the wear, where it is not what the study says: contact nodes end where its zones end
 [[nodiscard]] LoadedModel load_model(const std::string& input, const std::vector<std::string>& set,
-                                     const SolverChoice& solver, std::ostream* err = nullptr);
+                                     const SolverChoice& solver, std::ostream* err = nullptr,
+                                     std::optional<wear::Follow> follow = {});
 
 /// Those given with --set, and the solver's options as overrides of the keys of [solver]. Throws InputError with all
 /// that are not KEY=VALUE, and for numbers that are neither whole nor auto.

@@ -70,6 +70,7 @@ namespace {
 
 /// How well the response is known that is known worst.
 std::string known(const optimizer::Dominant& by) {
+  if (!std::isfinite(by.relative)) return fmt::format("the mesh does not resolve {}", by.response);
   std::string text = fmt::format("{} to {:.3g} % (asked: {:.3g} %)", by.response, 100 * by.relative, 100 * by.asked);
   if (!by.source.empty()) text += ", most of it by " + by.source;
   // Doubts of the worn state, edges of zones; with harmonics and samples alone to be chosen, all else.
@@ -81,15 +82,22 @@ std::string known(const optimizer::Dominant& by) {
 }  // namespace
 
 std::optional<optimizer::Dominant> whole_bar(const optimizer::AccuracyGoal& goal,
-                                             const optimizer::Evaluation& evaluation) {
+                                             const optimizer::Evaluation& evaluation, bool asked_history) {
   std::optional<optimizer::Dominant> worst;
-  for (const auto& [name, bar] : evaluation.error_estimates) {
+  for (const auto& [name, all] : evaluation.error_sources) {
     const double value = evaluation.responses.at(name), asked = goal.asked(name);
-    if (value == 0 || (!goal.responses.empty() && std::ranges::count(goal.responses, name) == 0)) continue;
+    if (value == 0 || std::ranges::count(evaluation.unbounded, name) > 0 ||
+        (!goal.responses.empty() && std::ranges::count(goal.responses, name) == 0))
+      continue;
+    std::string largest;
+    double bar = 0, most = 0;
+    for (const auto& [source, part] : all) {
+      if (source == "history" && !asked_history) continue;
+      bar += part;
+      if (part > most) most = part, largest = source;
+    }
     const double relative = bar / std::abs(value);
     if (worst && relative / asked <= worst->relative / worst->asked) continue;
-    const auto& sources = evaluation.error_sources.at(name);
-    const auto largest = std::ranges::max_element(sources, {}, [](const auto& source) { return source.second; })->first;
     worst = optimizer::Dominant{
         .response = name, .source = largest, .relative = relative, .whole = relative, .asked = asked};
   }
@@ -113,8 +121,8 @@ AccuracyHeld accuracy_held(const optimizer::Scene& scene, const optimizer::Accur
   if (!by) return {.reached = false, .words = "the accuracy asked for is not known to be reached: no bar says how"};
   std::string words;
   bool reached = by->relative <= by->asked;
-  const std::optional<optimizer::Dominant> whole = whole_bar(goal, evaluation);
-  if (reached && whole && whole->relative > whole->asked && (asked_history || whole->source != "history")) {
+  const std::optional<optimizer::Dominant> whole = whole_bar(goal, evaluation, asked_history);
+  if (reached && whole && whole->relative > whole->asked) {
     reached = false;
     words = fmt::format(
         "as far as settings buy it the accuracy asked for is reached; with all parts of its bar {} is known to {:.3g} "
@@ -157,7 +165,7 @@ std::string accuracy_complaint(const Study& study, const optimizer::SettingsChoi
   for (const std::string& key : study.given)
     if (study.scene.solver.accuracy > 0 && optimizer::buys_accuracy(study.scene, key)) held.push_back(key);
   std::string foreseen;
-  if (choice.out_of_reach)
+  if (choice.out_of_reach && std::isfinite(*choice.out_of_reach))
     foreseen =
         fmt::format("; no settings are foreseen to leave less than {:.3g} times what was asked", *choice.out_of_reach);
   if (choice.work_refused)

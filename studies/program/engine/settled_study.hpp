@@ -29,8 +29,10 @@ std::optional<optimizer::SettingsChoice> settle(Study& study, const std::optiona
 
 /// Of the responses that an accuracy is asked of, the one whose whole bar, with what no setting buys of it, is largest
 /// over what was asked; nothing where none has a bar.
+/// @param asked_history  of doubts of worn states; where none was, what only a history would settle does not count
 [[nodiscard]] std::optional<optimizer::Dominant> whole_bar(const optimizer::AccuracyGoal& goal,
-                                                           const optimizer::Evaluation& evaluation);
+                                                           const optimizer::Evaluation& evaluation,
+                                                           bool asked_history = true);
 /// What a tenth of the bars would cost; empty where not even what was asked is reached.
 [[nodiscard]] std::string digit_words(const optimizer::SettingsChoice& choice);
 
@@ -39,7 +41,7 @@ struct AccuracyHeld {
   bool reached = false;  ///< with all parts of the bars
   std::string words = {};
 };
-/// @param asked_history  of doubts of worn states; where none was, what only a history would settle does not count
+/// @param asked_history  see whole_bar
 [[nodiscard]] AccuracyHeld accuracy_held(const optimizer::Scene& scene, const optimizer::AccuracyGoal& goal,
                                          const optimizer::Evaluation& evaluation, bool asked_history = true);
 

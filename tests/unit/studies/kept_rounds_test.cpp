@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <tuple>
 
 #include "core/replace_file.hpp"
 
@@ -42,6 +45,21 @@ TEST(KeptRounds, AnswerWhatWasAskedBefore) {
   EXPECT_EQ(computed, 3);
   (void)ask("another", 0, 1);
   EXPECT_EQ(computed, 4);
+  // What another run writes is left to it.
+  {
+    const KeptRounds writing(file, "another");
+    EXPECT_THROW((void)KeptRounds(file, "a third"), InputError);
+  }
+  (void)ask("another", 0, 1);
+  EXPECT_EQ(computed, 4);
+  // Cut off within a round it is computed again, however often.
+  std::string text(std::istreambuf_iterator<char>(std::ifstream(file).rdbuf()), {});
+  text.resize(text.rfind('\n', text.size() - 2) + 1);
+  replace_file(file, text);
+  const optimizer::AccuracyAnswer again = ask("another", 0, 1), known = ask("another", 0, 1);
+  EXPECT_EQ(computed, 5);
+  EXPECT_EQ(known.evaluation.responses, again.evaluation.responses);
+  computed = 4;
   replace_file(file, "torn");
   (void)ask("another", 0, 1);
   EXPECT_EQ(computed, 5);

@@ -11,13 +11,14 @@ using testing::Not;
 
 constexpr const char *kVolume = "asymptotic_wear_volume_m3", *kPressure = "contact_pressure_mean_pa";
 
-/// What is told of two responses asked to 2 %; the bar of the volume, whose value is 1, has these parts.
-AccuracyHeld held(const std::map<std::string, double>& parts, bool asked_history = true, double pressure = 1) {
+using Parts = std::map<std::string, double>;
+
+/// What is told of two responses asked to 2 %; their values are 1, and their bars have these parts.
+AccuracyHeld held(const Parts& parts, bool asked_history = true, double pressure = 1,
+                  const Parts& of_pressure = {{"mesh", 1e-3}}) {
   optimizer::Evaluation evaluation;
   evaluation.responses = {{kVolume, 1}, {kPressure, pressure}};
-  evaluation.error_sources = {{kVolume, parts}, {kPressure, {{"mesh", 1e-3}}}};
-  for (const auto& [name, sources] : evaluation.error_sources)
-    for (const auto& [source, bar] : sources) evaluation.error_estimates[name] += bar;
+  evaluation.error_sources = {{kVolume, parts}, {kPressure, of_pressure}};
   evaluation.model = {{"dofs", 1e4}, {"contact_nodes", 20}, {"jacobians_spent", 9}};
   const optimizer::AccuracyGoal goal{.relative = 0.02, .responses = {kVolume, kPressure}};
   return accuracy_held(optimizer::Scene(), goal, evaluation, asked_history);
@@ -34,6 +35,9 @@ TEST(AccuracyHeld, CountsEveryPartOfTheBars) {
   // A doubt that was to be left is none.
   EXPECT_TRUE(held({{"mesh", 0.01}, {"history", 0.02}}, false).reached);
   EXPECT_FALSE(held({{"mesh", 0.01}, {"edge", 0.02}}, false).reached);
+  EXPECT_FALSE(held({{"mesh", 0.01}, {"edge", 0.02}, {"history", 1}}, false).reached);
+  EXPECT_TRUE(held({{"mesh", 0.01}, {"edge", 0.006}, {"history", 0.005}}, false).reached);
+  EXPECT_FALSE(held({{"mesh", 0.01}, {"history", 1}}, false, 1, {{"mesh", 0.01}, {"edge", 0.02}}).reached);
 }
 
 TEST(AccuracyHeld, NamesWhatIsHeldToNone) {

@@ -116,7 +116,7 @@ TEST(Accuracy, AnUnresolvedResponseAsksForAFinerMesh) {
   const auto probe = [&](const Settings& s) {
     AccuracyAnswer answer = laws.probe()(s);
     Evaluation& evaluation = answer.evaluation;
-    const double bar = std::pow(s.mesh, -2.2);
+    const double bar = 0.5 * std::pow(s.mesh, -2.0);
     evaluation.responses[peak] = 1;
     evaluation.error_sources[peak] = {{"mesh", bar}};
     if (bar > *find_response(peak)->largest_bar)
@@ -128,7 +128,12 @@ TEST(Accuracy, AnUnresolvedResponseAsksForAFinerMesh) {
   const SettingsChoice choice = choose_settings(scene, goal, probe);
   EXPECT_EQ(choice.status, Status::converged);
   EXPECT_TRUE(choice.not_held.empty());
+  EXPECT_FALSE(std::isfinite(choice.rounds.front().by->relative));
   EXPECT_GT(choice.settings.mesh, 3);
+  // However little is asked, what has no bar does not do.
+  goal.relative = 0.6;
+  EXPECT_GE(choose_settings(scene, goal, probe).settings.mesh, 1.4);
+  goal.relative = 0.05;
   // Where nothing is named it is left out, as it always was.
   goal.responses.clear();
   EXPECT_LT(choose_settings(scene, goal, probe).settings.mesh, 2);

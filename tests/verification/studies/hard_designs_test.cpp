@@ -285,8 +285,6 @@ TEST(HardDesigns, ADoubtIsKeptWhereTheResonanceIsFollowed) {
   EXPECT_LE(followed.asymptote->bearing.share, held.asymptote->bearing.share);
 }
 
-// A radius of 0.3 mm takes the peak off over 0.8 um: 128 edges say 832 MPa, 24 say 340. With one of 0.05 mm
-// 24 edges say 399, 36 say 460 and 128 say 1054 MPa: the change from mesh to mesh does not tell how far it is.
 // A zone that grows by a node while the resonance is followed ends somewhere within it. Volumes with that node fall to
 // 4.03e-10 m^3 in proportion to its length (48 to 192 edges per flank), those of 24 to 40 edges are there without it.
 TEST(HardDesigns, AZoneThatGrowsWhereTheResonanceIsFollowedEndsWithinANode) {
@@ -305,17 +303,18 @@ TEST(HardDesigns, AZoneThatGrowsWhereTheResonanceIsFollowedEndsWithinANode) {
   for (const double edges : {24.0, 48.0}) {
     const optimizer::CandidateResult result = followed(edges, 7, false);
     EXPECT_LT(off(result), 0.15 * kLimit) << edges;  // 0.29 where cells do not follow the zone to its end
-    EXPECT_EQ(result.fit.grid.search.holds(), edges == 48) << edges;
     // All that is worn is worn off, whichever pass took it.
     const wear::Asymptote& worn = *result.asymptote;
     for (std::size_t i = 0; i < worn.released.size(); ++i)
       EXPECT_EQ(worn.released[i], worn.depth[static_cast<Eigen::Index>(i)] > 0) << i;
   }
   const optimizer::CandidateResult with_bar = followed(32, 5, true);
-  ASSERT_TRUE(with_bar.fit.grid.search.holds());
+  ASSERT_TRUE(with_bar.fit.grid.grew);
   EXPECT_LT(off(with_bar), with_bar.evaluation.error_sources.at(kWornVolume).at("edge"));
 }
 
+// A radius of 0.3 mm takes the peak off over 0.8 um: 128 edges say 832 MPa, 24 say 340. With one of 0.05 mm
+// 24 edges say 399, 36 say 460 and 128 say 1054 MPa: the change from mesh to mesh does not tell how far it is.
 TEST(HardDesigns, APeakThatTheMeshDoesNotResolveHasNoBar) {
   for (const double radius : {0.3, 0.05}) {
     const optimizer::Evaluation evaluation = evaluated({{"geometry.flank_edge_radius_mm", radius}}, true).evaluation;
