@@ -53,11 +53,11 @@ struct HistoryNodeParams {
   double others = 0.25;
 };
 
-/// Where the resonance is followed and a zone grew on the way, the node beyond it all but slips: it may end anywhere
-/// within that node. On meshes of 48 to 192 edges per flank such zones ended with a node more whose wear shrank in
-/// proportion to its length, on others without it.
+/// Of the node at each end of a zone, what a resonance that is followed leaves open: the friction left beyond the end
+/// hardly changes with where that is, and whether the zone grows with the resonance hangs on the length of its nodes.
+/// Of 12 designs of the quickstart's box on 24 to 80 edges per flank, against 72 to 112 edges: a fifth at most.
 struct FollowedNodeParams {
-  double part = 1;
+  double part = 0.25;
 };
 
 static_assert(CompanionParams{}.shorter_nodes < 1 && 1 < CompanionParams{}.longer_nodes, "on both sides");

@@ -84,7 +84,7 @@ void add_worn_bars(const Scene& scene, const CandidateResult& result, Bars& bars
                                     wear::width_changed_by(
                                         moved, {.volume = asymptote.worn_volume, .depth = asymptote.largest_depth}),
                                     moved < 1));
-  if (result.fit.grid.grew)
+  if (scene.loading.follow == wear::Follow::resonance)
     bars.add("edge",
              worn_otherwise(result, within_nodes(FollowedNodeParams{}.part, result.model.cells, asymptote), true));
   if (const wear::WornChange doubt = left_in_doubt(result.model.cells, asymptote); doubt.volume > 0)

@@ -49,7 +49,7 @@ class GridSearch {
     ContactFit fit = laid();
     if (has_own_budget()) candidate_.budget->spend(joint_.options.budget->used());
     if (!candidate_.converged()) return fit;
-    if (fit.known) fit.grid = {.edges = laid_, .counts = counts_, .search = search_, .moved = fit.moved, .grew = grew_};
+    if (fit.known) fit.grid = {.edges = laid_, .counts = counts_, .search = search_, .moved = fit.moved};
     return fit;
   }
 
@@ -113,7 +113,6 @@ class GridSearch {
       laid_ = start_.grid->edges;
       counts_ = start_.grid->counts;
       search_ = start_.grid->search;
-      grew_ = start_.grid->grew;
       end_cells_at_edges(flanks);
     }
     lay(flanks);
@@ -183,7 +182,6 @@ class GridSearch {
     wear::FollowedAsymptote followed = wear::followed_asymptote(joint_, peak_.omega, release_, {}, &unworn_);
     const bool lost = followed.asymptote.verdict != wear::Verdict::asymptote && !spent(joint_.options.budget);
     if (lost && followed.held) return std::move(*followed.held);
-    grew_ = grew_ || (followed.held && followed.asymptote.released != followed.held->released);
     return std::move(followed.asymptote);
   }
 
@@ -253,7 +251,6 @@ class GridSearch {
   steady::Joint joint_;
   wear::AsymptoteOptions release_;
   bool rests_in_slip_ = false, follows_ = false;
-  bool grew_ = false;                     // zones, on some grid, while the resonance was followed
   std::vector<EdgeLengths> lengths_;      // of every strip
   EdgeSearch::Places laid_, found_;       // edges that the grid was laid for, and those found on it
   std::vector<std::vector<int>> counts_;  // of cells between edges

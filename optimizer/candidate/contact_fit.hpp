@@ -26,7 +26,6 @@ struct LaidGrid {
   std::vector<std::vector<int>> counts;  ///< of cells between edges
   EdgeSearch search;                     ///< that led to them
   double moved = 0;                      ///< by how much they were left, see ContactFit
-  bool grew = false;                     ///< zones grew while the resonance was followed, on this grid or one before
 };
 
 struct ContactFit {
