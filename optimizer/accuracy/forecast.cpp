@@ -237,8 +237,8 @@ double Forecast::operations(const Settings& there) const {
                         std::pow(finer(Knob::samples, there, last_.at), kForecast.contact_by_samples);
 }
 
-/// A response without a value has no accuracy, one without a limit none that could be bought. One that
-/// is asked of and that the mesh does not resolve has none there.
+/// A response without a value has no accuracy, one without a limit none that could be bought. One that is asked of
+/// and that the mesh does not resolve has none there.
 void Forecast::add(const Response& response, const Evaluation& evaluation, std::optional<double> beside) {
   const std::string name(response.name);
   const auto value = evaluation.responses.find(name);

@@ -286,7 +286,8 @@ TEST(HardDesigns, ADoubtIsKeptWhereTheResonanceIsFollowed) {
 }
 
 // Zones that grow while the resonance is followed grow on some meshes and not on others; volumes of 24 to 80 edges per
-// flank are within 9 % of 4.28e-10 m^3, that of 64 to 128, and were up to 5.2e-10 where cells did not end with them.
+// flank are within 9 % of 4.28e-10 m^3, about that of 64 to 128 (where the finest two do not settle), and were up
+// to 5.2e-10 where cells did not end with them.
 TEST(HardDesigns, WhereZonesEndWhoseResonanceIsFollowedIsInTheBar) {
   constexpr double kFine = 4.28e-10;
   optimizer::Scene scene = load_study(QUICKSTART, {}).scene;
