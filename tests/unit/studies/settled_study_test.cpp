@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "studies/program/commands/settled_run.hpp"
+
 namespace dovetail::studies {
 namespace {
 
@@ -43,6 +45,19 @@ TEST(AccuracyHeld, CountsEveryPartOfTheBars) {
 TEST(AccuracyHeld, NamesWhatIsHeldToNone) {
   EXPECT_THAT(held({{"mesh", 0.01}}).words, Not(HasSubstr("held to none")));
   EXPECT_THAT(held({{"mesh", 0.01}}, true, 0).words, HasSubstr("held to none: contact_pressure_mean_pa"));
+}
+
+// What a search asks of one response is no excuse to hand it over less accurately than all others; where the search
+// asks for nothing it was said of what is handed over.
+TEST(AccuracyHeld, OfWhatIsHandedOverIsNoCoarserForOneResponseThanForAll) {
+  Study study;
+  study.optimizer.verify_accuracy = 0.02;
+  study.problem.objective = {{.response = kVolume, .accuracy = 0.05}};
+  study.problem.constraints = {{.response = kPressure, .lower = {}, .upper = 1e9, .accuracy = 0.01}};
+  EXPECT_EQ(goal_at_best(study)->asked(kVolume), 0.05);
+  study.scene.solver.accuracy = 0.1;
+  EXPECT_EQ(goal_at_best(study)->asked(kVolume), 0.02);
+  EXPECT_EQ(goal_at_best(study)->asked(kPressure), 0.01);
 }
 
 }  // namespace
