@@ -16,7 +16,7 @@ namespace {
 constexpr SettingsParams kForecast;
 
 Knob knob_of(const std::string& source) {
-  if (source == "mesh" || source == "contact_grid") return Knob::mesh;
+  if (source == "mesh" || source == "contact_grid" || source == "zone_ends") return Knob::mesh;
   if (source == "harmonics" || source == "pseudo_penalty") return Knob::harmonics;
   if (source == "samples") return Knob::samples;
   if (source == "modes") return Knob::modes;
@@ -189,7 +189,6 @@ std::vector<std::string> Forecast::not_held() const {
 }
 
 double Forecast::excess(const Settings& there) const {
-  if (!resolves() && finer(Knob::mesh, there, last_.at) < kForecast.step) return kInfinity;
   double largest = 0, sum = 0;
   const Response* of = nullptr;
   for (const Part& part : last_.parts) {
@@ -251,7 +250,7 @@ void Forecast::add(const Response& response, const Evaluation& evaluation, std::
   }
   double whole = 0;
   for (const auto& [source, bar] : bars->second)
-    if (source != "history") whole += bar;  // no round asks a history: what it would settle is not known here
+    if (source != "history" || !evaluation.left_to_history()) whole += bar;
   whole_[name] = whole / std::abs(value->second);
   known_[name] = {.value = value->second, .bar = whole};
   for (const auto& [source, bar] : bars->second) {
@@ -274,6 +273,7 @@ double Forecast::order(const Response& response, const std::string& source, Knob
     case Knob::mesh:
     case Knob::beside:
       if (source == "contact_grid") return response.grid_order;
+      if (source == "zone_ends") return 1;  // a part of a node
       return in_space_ ? response.mesh_order.in_space : response.mesh_order.in_plane;
     case Knob::harmonics:
       return kForecast.by_harmonics;

@@ -79,8 +79,9 @@ class Forecast {
   [[nodiscard]] std::vector<std::string> not_held() const;
   /// Whether the mesh resolves all that is asked of.
   [[nodiscard]] bool resolves() const { return unresolved_.empty(); }
-  /// Largest bar over what is allowed of it; where the mesh does not resolve a response infinite on all that are not
-  /// finer by a step.
+  /// Whether anything is known of what settings buy.
+  [[nodiscard]] bool knows() const { return !last_.parts.empty(); }
+  /// Largest bar over what is allowed of it, of all that have one.
   [[nodiscard]] double excess(const Settings& there) const;
   [[nodiscard]] std::optional<Dominant> dominant() const;
   /// Of an evaluation without bars, to compare settings by. Counted and not timed, so that the same is chosen on every

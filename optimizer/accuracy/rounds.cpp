@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <span>
 #include <utility>
 
@@ -78,19 +79,28 @@ void judge(std::vector<KnownRound>& rounds) {
     for (const KnownRound& other : rounds)
       if (!other.tried.out_of_line) round.forecast.reach(other.alone);
     round.tried.by = round.forecast.dominant();
-    round.tried.excess = round.forecast.excess(round.tried.settings);
+    round.tried.excess = round.forecast.resolves() ? round.forecast.excess(round.tried.settings) : kInfinity;
   }
 }
 
+/// By what is known of it; infinite where nothing is.
+double known_excess(const KnownRound& round) {
+  return round.forecast.knows() ? round.forecast.excess(round.tried.settings) : kInfinity;
+}
+
 /// The cheapest that is accurate enough; where none is, of those that are hardly less accurate than the best of them:
-/// what is missed all the same is not paid for.
+/// what is missed all the same is not paid for. Where no mesh resolves all that is asked of, the rest of it counts, and
+/// without a rest the first.
 const KnownRound& best_of(const std::vector<KnownRound>& rounds) {
+  const auto resolves = [](const KnownRound& round) { return !round.tried.out_of_line && round.forecast.resolves(); };
+  const bool resolved = std::ranges::any_of(rounds, resolves);
+  const auto heard = [&](const KnownRound& round) { return resolved ? resolves(round) : !round.tried.out_of_line; };
   double least = kInfinity;
   for (const KnownRound& round : rounds)
-    if (!round.tried.out_of_line) least = std::min(least, round.tried.excess);
+    if (heard(round)) least = std::min(least, known_excess(round));
   const double limit = least <= 1 ? 1 : kParams.hardly_worse * least;
-  const auto rank = [limit](const KnownRound& round) {
-    return std::pair{round.tried.out_of_line || round.tried.excess > limit, round.tried.operations};
+  const auto rank = [&](const KnownRound& round) {
+    return std::pair{!heard(round) || known_excess(round) > limit, std::isfinite(limit) ? round.tried.operations : 0};
   };
   return *std::ranges::min_element(rounds, {}, rank);
 }
@@ -102,7 +112,9 @@ struct Foreseen {
 
 /// What should do by the last round; where by that one nothing would, by the round before that foresees the least: one
 /// may be out of line.
-Foreseen foreseen(const std::vector<Settings>& all, const Forecast& last, std::span<const KnownRound> rounds) {
+/// @param resolved  only rounds that resolve all that is asked of count
+Foreseen foreseen(const std::vector<Settings>& all, const Forecast& last, std::span<const KnownRound> rounds,
+                  bool resolved) {
   const auto by = [&](const Forecast& forecast) {
     const Settings there = cheapest(all, forecast, kParams.aim);
     return Foreseen{.settings = there, .excess = forecast.excess(there)};
@@ -110,7 +122,7 @@ Foreseen foreseen(const std::vector<Settings>& all, const Forecast& last, std::s
   Foreseen least = by(last);
   for (const KnownRound& round : rounds) {
     if (least.excess <= 1) break;
-    if (!round.forecast.resolves()) continue;
+    if (resolved && !round.forecast.resolves()) continue;
     Forecast before = round.forecast;
     before.take_orders(last);
     if (const Foreseen other = by(before); other.excess < least.excess) least = other;
@@ -138,10 +150,11 @@ Settings Rounds::first() const {
 }
 
 const SettingsTried& Rounds::ask(const Settings& at) {
-  auto [evaluation, beside] = probe_(at);
+  AccuracyAnswer answer = probe_(at);
+  const Evaluation& evaluation = answer.evaluation;
   SettingsTried& tried = tried_.emplace_back(SettingsTried{.settings = at, .status = evaluation.status});
   if (evaluation.converged()) {
-    forecast_.add(at, evaluation, beside);
+    forecast_.add(at, evaluation, answer.beside);
     tried.by = forecast_.dominant();
     tried.operations = forecast_.operations(at);
     if (known_.empty()) not_held_ = forecast_.not_held();
@@ -149,7 +162,7 @@ const SettingsTried& Rounds::ask(const Settings& at) {
     if (known_.empty() || is_own(at)) unit_ = forecast_.operations(own_);
   }
   if (tried.by) {
-    known_.push_back({.tried = tried, .evaluation = std::move(evaluation), .alone = forecast_, .forecast = forecast_});
+    known_.push_back({.tried = tried, .answer = std::move(answer), .alone = forecast_, .forecast = forecast_});
     judge(known_);
     tried = known_.back().tried;
     for (const KnownRound& round : known_)
@@ -163,26 +176,34 @@ const SettingsTried& Rounds::ask(const Settings& at) {
 
 std::optional<Settings> Rounds::next() {
   if (static_cast<int>(tried_.size()) == kParams.rounds) return {};
-  const Settings& at = tried_.back().settings;
   if (known_.empty()) {
     // On the coarsest mesh there may be no answer where there is one on the own.
-    Settings there = at;
+    Settings there = tried_.back().settings;
     there.mesh = own_.mesh;
-    return tried_.size() > 1 || there == at ? std::nullopt : std::optional(there);
+    return tried_.size() > 1 || there == tried_.back().settings ? std::nullopt : std::optional(there);
   }
-  const SettingsTried& best = best_of(known_).tried;
-  if (best.excess <= 1 && !goal_.many) return {};
-  const Forecast& last = known_.back().forecast;
-  const Foreseen there = foreseen(all_, last, best.excess > 1 ? known_ : std::span<const KnownRound>());
+  const KnownRound& best = best_of(known_);
+  const bool resolved = best.forecast.resolves();
+  std::vector<Settings> open = may_resolve();
+  const bool climbs = !resolved && !open.empty();
+  if (open.empty() && (resolved || !best.forecast.knows())) return {};
+  if (open.empty()) open = all_;  // no mesh resolves it: the rest of what is asked counts
+  const double excess = climbs ? kInfinity : known_excess(best);
+  if (excess <= 1 && !goal_.many) return {};
+  // One that does not resolve a response says nothing of it, and where none does the finest was tried for nothing.
+  const bool from_best = !climbs && !known_.back().forecast.resolves();
+  const Forecast& last = from_best ? best.forecast : known_.back().forecast;
+  const Settings& at = from_best ? best.tried.settings : tried_.back().settings;
+  const Foreseen there = foreseen(open, last, excess > 1 ? known_ : std::span<const KnownRound>(), resolved);
   // Of two that contradict each other a third says more.
   const bool two_apart = known_.size() == 2 && !known_.front().alone.meets(known_.back().alone);
-  if (there.excess > 1 && best.excess > 1 && known_.size() > 1 && !two_apart) {
+  if (there.excess > 1 && excess > 1 && known_.size() > 1 && !two_apart) {
     out_of_reach_ = there.excess;
     return {};
   }
-  const Settings wanted = towards(there.settings, all_, at);
+  const Settings wanted = towards(there.settings, climbs ? all_ : open, at);
   const double cost = last.operations(wanted);
-  const bool hardly_cheaper = best.excess <= 1 && cost > kParams.worth * best.operations;
+  const bool hardly_cheaper = excess <= 1 && cost > kParams.worth * best.tried.operations;
   if (hardly_cheaper || std::ranges::find(tried_, wanted, &SettingsTried::settings) != tried_.end()) return {};
   const double work = (work_ + cost) / unit_, allowed = scene_.solver.accuracy_work;
   if (allowed == 0 || work <= allowed) return wanted;
@@ -208,7 +229,7 @@ SettingsChoice Rounds::choice() const {
   const KnownRound& best = best_of(known_);
   choice.settings = best.tried.settings;
   choice.tried = best.tried;
-  choice.evaluation = best.evaluation;
+  choice.evaluation = best.answer.evaluation;
   choice.raised = best.forecast.raised();
   choice.raised.merge(raised_beside(best));
   raise_bars(choice.raised, choice.evaluation);
@@ -232,7 +253,7 @@ BarParts Rounds::raised_beside(const KnownRound& best) const {
   Forecast last(scene_, others);
   std::vector<Forecast> alone;
   for (const KnownRound& round : known_) {
-    last.add(round.tried.settings, round.evaluation);
+    last.add(round.tried.settings, round.answer.evaluation, round.answer.beside);
     alone.push_back(last);
   }
   Forecast of_best = alone.at(static_cast<std::size_t>(&best - known_.data()));
@@ -244,6 +265,20 @@ BarParts Rounds::raised_beside(const KnownRound& best) const {
 bool Rounds::is_own(Settings at) const {
   at.history_tolerance = own_.history_tolerance;
   return at == own_;
+}
+
+std::vector<Settings> Rounds::may_resolve() const {
+  double coarse = 0;
+  for (const KnownRound& round : known_)
+    if (!round.forecast.resolves()) coarse = std::max(coarse, round.tried.settings.mesh);
+  const auto finer_than = [&](double mesh) {
+    std::vector<Settings> finer;
+    std::ranges::copy_if(all_, std::back_inserter(finer), [&](const Settings& s) { return s.mesh > mesh; });
+    return finer;
+  };
+  // The next rung hardly will, unless it is the last.
+  std::vector<Settings> by_a_step = finer_than(kParams.step * coarse);
+  return by_a_step.empty() ? finer_than(coarse) : by_a_step;
 }
 
 void Rounds::leave_out(const Settings& settings) {

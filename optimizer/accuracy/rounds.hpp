@@ -11,7 +11,7 @@ namespace dovetail::optimizer {
 /// A round that has bars.
 struct KnownRound {
   SettingsTried tried;
-  Evaluation evaluation;
+  AccuracyAnswer answer;
   Forecast alone, forecast;  ///< before and after the others were heard
 };
 
@@ -33,6 +33,8 @@ class Rounds {
   [[nodiscard]] BarParts raised_beside(const KnownRound& best) const;
   [[nodiscard]] bool is_own(Settings at) const;  // but for the histories, which no round asks
   void leave_out(const Settings& settings);
+  /// Those whose mesh may resolve all that is asked of; none where the finest one is known not to.
+  [[nodiscard]] std::vector<Settings> may_resolve() const;
 
   const Scene& scene_;
   const AccuracyGoal& goal_;

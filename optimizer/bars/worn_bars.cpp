@@ -85,7 +85,7 @@ void add_worn_bars(const Scene& scene, const CandidateResult& result, Bars& bars
                                         moved, {.volume = asymptote.worn_volume, .depth = asymptote.largest_depth}),
                                     moved < 1));
   if (scene.loading.follow == wear::Follow::resonance)
-    bars.add("edge",
+    bars.add("zone_ends",
              worn_otherwise(result, within_nodes(FollowedNodeParams{}.part, result.model.cells, asymptote), true));
   if (const wear::WornChange doubt = left_in_doubt(result.model.cells, asymptote); doubt.volume > 0)
     bars.add("history", worn_otherwise(result, doubt, asymptote.confirmed_by_history));

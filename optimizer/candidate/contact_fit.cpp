@@ -176,12 +176,13 @@ class GridSearch {
   }
 
   /// Where the resonance is followed zones grow on the way: they are to end where nodes end at its end. Where it is
-  /// lost on the way, where they end before.
+  /// lost on the way, or the budget is spent on the first grid, where they end before.
   [[nodiscard]] wear::Asymptote worn_on_grid() {
     if (!follows_) return wear::asymptote(joint_, peak_.omega, release_, &unworn_);
     wear::FollowedAsymptote followed = wear::followed_asymptote(joint_, peak_.omega, release_, {}, &unworn_);
-    const bool lost = followed.asymptote.verdict != wear::Verdict::asymptote && !spent(joint_.options.budget);
-    if (lost && followed.held) return std::move(*followed.held);
+    const bool lost = followed.asymptote.verdict != wear::Verdict::asymptote;
+    const bool better_known = spent(joint_.options.budget) && !best_.flanks.empty();
+    if (lost && !better_known && followed.held) return std::move(*followed.held);
     return std::move(followed.asymptote);
   }
 
@@ -192,9 +193,9 @@ class GridSearch {
       lay(best_.flanks);
       laid_ = best_.laid;
       counts_ = best_.counts;
-      search_ = best_.search;
-      fit_.displacement = best_.displacement;
     }
+    search_ = best_.search;
+    fit_.displacement = best_.displacement;
     fit_.moved = best_.misfit.moved;
     fit_.share = best_.misfit.share;
     fit_.settled = fit_.moved <= options_.tolerance;

@@ -34,6 +34,11 @@ struct Evaluation {
 
   [[nodiscard]] bool converged() const { return outcome_of(status) == Outcome::converged; }
   [[nodiscard]] bool infeasible() const { return outcome_of(status) == Outcome::infeasible; }
+  /// Whether its worn state is in doubt, and no history that was asked has settled that.
+  [[nodiscard]] bool left_to_history() const {
+    const auto found = model.find("wear_history_may_differ");
+    return found != model.end() && found->second != 0;
+  }
 };
 
 /// Evaluates one point of the design space (values in the study file's units, design-space order).

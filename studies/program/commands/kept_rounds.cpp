@@ -12,15 +12,16 @@ namespace {
 enum class Of { evaluation, beside };
 
 /// What tells records apart: the design, the settings and what they are of.
-std::vector<double> numbers(int design, const optimizer::Settings& s, Of of) {
+std::vector<double> numbers(int design, const optimizer::Settings& settings, Of of) {
+  const auto& [mesh, beside, harmonics, samples, modes, resonance_tolerance, history_tolerance] = settings;  // all
   return {static_cast<double>(design),
-          s.mesh,
-          s.beside,
-          static_cast<double>(s.harmonics),
-          static_cast<double>(s.samples),
-          static_cast<double>(s.modes),
-          s.resonance_tolerance,
-          s.history_tolerance,
+          mesh,
+          beside,
+          static_cast<double>(harmonics),
+          static_cast<double>(samples),
+          static_cast<double>(modes),
+          resonance_tolerance,
+          history_tolerance,
           static_cast<double>(of)};
 }
 

@@ -171,12 +171,16 @@ Chosen chosen(const Study& asked, KeptRounds& rounds, const RunEngineFactory& ma
 
 /// What an accuracy asked for came to, of what accuracy_json says of it.
 std::string came_to(const Json& accuracy) {
-  if (!accuracy.is_object() || !accuracy.contains("relative_bar") || !accuracy.at("relative_bar").is_number())
-    return "no bar says what is reached";
+  if (!accuracy.is_object() || !accuracy.contains("relative_bar")) return "no bar says what is reached";
+  const std::string where = accuracy.value("at", kStart), response = accuracy.value("response", "");
+  if (!accuracy.at("relative_bar").is_number())
+    return fmt::format("at {} not reached: no mesh tried resolves {}", where, response);
   const bool reached = accuracy.at("status") == to_string(Status::converged);
-  std::string text =
-      fmt::format("at {} {}: {} to {:.3g} %", accuracy.value("at", kStart), reached ? "reached" : "not reached",
-                  accuracy.at("response").get<std::string>(), 100 * accuracy.at("relative_bar").get<double>());
+  const double bought = accuracy.at("relative_bar").get<double>();
+  const double whole = accuracy.value("relative_bar_total", bought);
+  std::string text = fmt::format("at {} {}: {} to {:.3g} %", where,
+                                 reached ? "reached as far as settings buy it" : "not reached", response, 100 * bought);
+  if (whole > kTellWhole * bought) text += fmt::format(", {:.3g} % with what they do not buy", 100 * whole);
   if (accuracy.contains("not_held"))
     for (const Json& name : accuracy.at("not_held")) text += ", " + name.get<std::string>() + " held to none";
   return text;

@@ -12,9 +12,6 @@
 
 namespace dovetail::studies {
 
-/// Whole bar over what settings buy of it from which it is told.
-static constexpr double kTellWhole = 1.05;
-
 std::optional<optimizer::AccuracyGoal> accuracy_goal(const Study& study, optimizer::Stage until) {
   if (study.scene.solver.accuracy == 0) return {};
   optimizer::AccuracyGoal goal{.relative = study.scene.solver.accuracy};
@@ -92,7 +89,7 @@ std::optional<optimizer::Dominant> whole_bar(const optimizer::AccuracyGoal& goal
     std::string largest;
     double bar = 0, most = 0;
     for (const auto& [source, part] : all) {
-      if (source == "history" && !asked_history) continue;
+      if (source == "history" && !asked_history && evaluation.left_to_history()) continue;
       bar += part;
       if (part > most) most = part, largest = source;
     }

@@ -27,6 +27,9 @@ std::optional<optimizer::SettingsChoice> settle(Study& study, const std::optiona
                                                 const optimizer::AccuracyListener& told = {},
                                                 const optimizer::AccuracyMemory& memory = {});
 
+/// Whole bar over what settings buy of it from which it is told.
+inline constexpr double kTellWhole = 1.05;
+
 /// Of the responses that an accuracy is asked of, the one whose whole bar, with what no setting buys of it, is largest
 /// over what was asked; nothing where none has a bar.
 /// @param asked_history  of doubts of worn states; where none was, what only a history would settle does not count

@@ -1,10 +1,12 @@
 #include "studies/program/commands/kept_rounds.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <string>
 #include <tuple>
 
 #include "core/replace_file.hpp"
@@ -25,7 +27,7 @@ optimizer::AccuracyAnswer answer(double value) {
 
 // What was cut off goes on with the same bits; another design, other settings and another question are asked.
 TEST(KeptRounds, AnswerWhatWasAskedBefore) {
-  const fs::path file = fs::temp_directory_path() / "dovetail_kept_rounds.jsonl";
+  const fs::path file = fs::temp_directory_path() / ("dovetail_kept_rounds_" + std::to_string(::getpid()) + ".jsonl");
   fs::remove(file);
   int computed = 0;
   const auto ask = [&](const std::string& question, int design, double mesh) {

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <csignal>
@@ -12,6 +13,7 @@
 #include "core/replace_file.hpp"
 #include "optimizer/journal/journal.hpp"
 #include "studies/program/commands/commands.hpp"
+#include "studies/program/commands/kept_rounds.hpp"
 #include "studies/program/engine/interrupt.hpp"
 #include "studies/report/record/results_file.hpp"
 #include "tests/unit/studies/sample_study.hpp"
@@ -28,7 +30,8 @@ class Run : public testing::Test {
  protected:
   void SetUp() override {
     directory_ = fs::temp_directory_path() /
-                 ("dovetail_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+                 ("dovetail_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + "_" +
+                  std::to_string(::getpid()));
     fs::remove_all(directory_);
     fs::create_directories(directory_);
     std::string text = replaced(study_template("sample"), "max_evaluations = 100", "max_evaluations = 40");
@@ -205,6 +208,18 @@ TEST_F(Run, HandsOverAtSettingsForTheAccuracyAskedFor) {
   bar = 0.3;
   EXPECT_EQ(run(true, factory), kNotConverged);
   EXPECT_THAT(err_.str(), HasSubstr("the accuracy asked for is not reached"));
+  // A choice that was cut off goes on with the rounds that are kept, which are forgotten when it is made.
+  const fs::path rounds = results() / "best_settings_rounds.jsonl";
+  EXPECT_FALSE(fs::exists(rounds));
+  fs::remove(kept);
+  optimizer::Evaluation round = bowl(std::vector<double>{10, 3, 9});
+  round.error_sources["asymptotic_wear_volume_m3"] = {{"mesh", 0.123 * 1e-10}};
+  round.model = {{"dofs", 1e4}, {"contact_nodes", 20}, {"jacobians_spent", 9}};
+  (void)KeptRounds(rounds, settings.at("question")).at(0)(optimizer::settings_of(best.scene), [&] { return round; });
+  (void)run(true, factory);
+  EXPECT_THAT(err_.str(), HasSubstr("asymptotic_wear_volume_m3 to 12.3 % (asked: 20 %)"));
+  EXPECT_FALSE(fs::exists(rounds));
+  ASSERT_TRUE(fs::exists(kept));
 }
 
 // At a start that cannot be built there is nothing to choose settings by.
@@ -221,7 +236,7 @@ TEST_F(Run, ChoosesSettingsInTheMiddleWhereTheStartIsInfeasible) {
   EXPECT_THAT(err_.str(), HasSubstr("(asked: 50 %)"));
   const report::RunRecord record = report::read_results(results() / "results.h5");
   EXPECT_THAT(record.provenance.settings.at("solver.accuracy"),
-              HasSubstr("0.5, at the middle of the variables' ranges reached"));
+              HasSubstr("0.5, at the middle of the variables' ranges reached as far as settings buy it"));
   // What is asked of one response is asked of the settings.
   replace_file(study(), replaced(text, "upper = 300e6\n", "upper = 300e6\naccuracy = 0.1\n"));
   EXPECT_THAT([&] { run(true, counted(calls)); },

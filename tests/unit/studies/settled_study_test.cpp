@@ -17,11 +17,12 @@ using Parts = std::map<std::string, double>;
 
 /// What is told of two responses asked to 2 %; their values are 1, and their bars have these parts.
 AccuracyHeld held(const Parts& parts, bool asked_history = true, double pressure = 1,
-                  const Parts& of_pressure = {{"mesh", 1e-3}}) {
+                  const Parts& of_pressure = {{"mesh", 1e-3}}, bool in_doubt = true) {
   optimizer::Evaluation evaluation;
   evaluation.responses = {{kVolume, 1}, {kPressure, pressure}};
   evaluation.error_sources = {{kVolume, parts}, {kPressure, of_pressure}};
-  evaluation.model = {{"dofs", 1e4}, {"contact_nodes", 20}, {"jacobians_spent", 9}};
+  evaluation.model = {
+      {"dofs", 1e4}, {"contact_nodes", 20}, {"jacobians_spent", 9}, {"wear_history_may_differ", in_doubt ? 1 : 0}};
   const optimizer::AccuracyGoal goal{.relative = 0.02, .responses = {kVolume, kPressure}};
   return accuracy_held(optimizer::Scene(), goal, evaluation, asked_history);
 }
@@ -34,7 +35,8 @@ TEST(AccuracyHeld, CountsEveryPartOfTheBars) {
     EXPECT_FALSE(other.reached) << source;
     EXPECT_THAT(other.words, HasSubstr("with all parts of its bar asymptotic_wear_volume_m3 is known to 3 %"));
   }
-  // A doubt that was to be left is none.
+  // A doubt that was to be left is none; what a history that decided leaves counts.
+  EXPECT_FALSE(held({{"mesh", 0.01}, {"history", 0.02}}, false, 1, {{"mesh", 1e-3}}, false).reached);
   EXPECT_TRUE(held({{"mesh", 0.01}, {"history", 0.02}}, false).reached);
   EXPECT_FALSE(held({{"mesh", 0.01}, {"edge", 0.02}}, false).reached);
   EXPECT_FALSE(held({{"mesh", 0.01}, {"edge", 0.02}, {"history", 1}}, false).reached);

@@ -53,6 +53,7 @@ struct Laws {
       evaluation.model = {
           {"dofs", 16000 * std::pow(s.mesh, 0.4) * std::pow(s.beside, 0.8)},
           {"contact_nodes", nodes},
+          {"wear_history_may_differ", 1},
           {"jacobians_spent", contact_operations(s) / steady::jacobian_operations(static_cast<Eigen::Index>(nodes), 2,
                                                                                   s.harmonics, s.samples)}};
       return {evaluation, {{kVolume, left_beside(s)}}};

@@ -105,26 +105,37 @@ TEST(Accuracy, OfTruncationAloneAsksTheOwnMesh) {
   EXPECT_EQ(sources.count("mesh"), 0U);
 }
 
-// A response that a mesh does not resolve has no bar there; asked for by name, it is looked for on a finer one.
-TEST(Accuracy, AnUnresolvedResponseAsksForAFinerMesh) {
-  const std::string peak = "contact_pressure_max_pa";
+constexpr const char* kPeak = "contact_pressure_max_pa";
+
+/// Flanks whose rounded ends have a pressure peak that a fine mesh resolves.
+Scene rounded_ends() {
   Scene scene;
   scene.geometry.flank("left").edge_radius = scene.geometry.flank("right").edge_radius = 0.02;
-  ASSERT_TRUE(find_response(peak)->has_limit(scene));
-  const Laws laws;
-  AccuracyGoal goal{.relative = 0.05, .responses = {peak}};
-  const auto probe = [&](const Settings& s) {
+  return scene;
+}
+
+/// The volume by these laws, and a peak that so many times the edges resolve.
+AccuracyProbe with_peak(const Laws& laws, double resolves) {
+  return [laws, resolves](const Settings& s) {
     AccuracyAnswer answer = laws.probe()(s);
     Evaluation& evaluation = answer.evaluation;
-    const double bar = 0.5 * std::pow(s.mesh, -2.0);
-    evaluation.responses[peak] = 1;
-    evaluation.error_sources[peak] = {{"mesh", bar}};
-    if (bar > *find_response(peak)->largest_bar)
-      evaluation.unbounded = {peak};
+    const double bar = *find_response(kPeak)->largest_bar * std::pow(s.mesh / resolves, -2.0);
+    evaluation.responses[kPeak] = 1;
+    evaluation.error_sources[kPeak] = {{"mesh", bar}};
+    if (s.mesh < resolves)
+      evaluation.unbounded = {kPeak};
     else
-      evaluation.error_estimates[peak] = bar;
+      evaluation.error_estimates[kPeak] = bar;
     return answer;
   };
+}
+
+// A response that a mesh does not resolve has no bar there; asked for by name, it is looked for on a finer one.
+TEST(Accuracy, AnUnresolvedResponseAsksForAFinerMesh) {
+  const Scene scene = rounded_ends();
+  ASSERT_TRUE(find_response(kPeak)->has_limit(scene));
+  AccuracyGoal goal{.relative = 0.05, .responses = {kPeak}};
+  const AccuracyProbe probe = with_peak({}, 1.4);
   const SettingsChoice choice = choose_settings(scene, goal, probe);
   EXPECT_EQ(choice.status, Status::converged);
   EXPECT_TRUE(choice.not_held.empty());
@@ -137,6 +148,48 @@ TEST(Accuracy, AnUnresolvedResponseAsksForAFinerMesh) {
   // Where nothing is named it is left out, as it always was.
   goal.responses.clear();
   EXPECT_LT(choose_settings(scene, goal, probe).settings.mesh, 2);
+}
+
+TEST(Accuracy, WhatTheFinestMeshAloneResolvesIsFoundThere) {
+  const AccuracyGoal goal{.relative = 0.5, .responses = {kPeak}};
+  const SettingsChoice choice = choose_settings(rounded_ends(), goal, with_peak({}, 5));
+  EXPECT_EQ(choice.status, Status::converged);
+  EXPECT_GT(choice.settings.mesh, 5);
+}
+
+// The others are held to what is asked; of one alone nothing says what other settings would do.
+TEST(Accuracy, WhereNoMeshResolvesOneTheOthersCount) {
+  const Scene scene = rounded_ends();
+  constexpr double kNever = 100;
+  for (const bool fixed : {true, false}) {
+    AccuracyGoal goal{.relative = 0.02, .responses = {kVolume, kPeak}};
+    if (fixed) goal.fixed = {"mesh.flank_elements"};
+    const Laws laws{.mesh = 0.005};
+    const SettingsChoice choice = choose_settings(scene, goal, with_peak(laws, kNever));
+    EXPECT_EQ(choice.status, Status::iteration_limit);
+    EXPECT_EQ(choice.tried.by->response, kPeak);
+    EXPECT_LE(laws.sum(choice.settings), goal.relative) << fixed;
+    EXPECT_LT(choice.settings.mesh, 3);  // the finest tried is more than twice as fine
+    const SettingsChoice alone =
+        choose_settings(scene, {.relative = 0.02, .responses = {kPeak}, .fixed = goal.fixed}, with_peak(laws, kNever));
+    EXPECT_EQ(alone.status, Status::iteration_limit);
+    Settings own = settings_of(scene);
+    own.history_tolerance = alone.settings.history_tolerance;
+    EXPECT_EQ(alone.settings, own);
+  }
+}
+
+// Where the search looks on for cheaper settings it stays on meshes that resolve all that is asked of.
+TEST(Accuracy, CheaperSettingsAreOnMeshesThatResolve) {
+  AccuracyGoal goal{.relative = 0.3, .responses = {kVolume, kPeak}};
+  const SettingsChoice choice = choose_settings(rounded_ends(), goal, with_peak({}, 1.8));
+  EXPECT_EQ(choice.status, Status::converged);
+  bool resolved = false;
+  for (const SettingsTried& round : choice.rounds) {
+    EXPECT_GT(round.settings.mesh, resolved ? 1.34 : 0) << "known not to";
+    resolved = resolved || round.settings.mesh >= 1.8;
+  }
+  EXPECT_TRUE(resolved);
 }
 
 TEST(Accuracy, OutOfReachIsSaid) {
@@ -320,6 +373,18 @@ TEST(Accuracy, TurnsNoKnobThatBuysNothing) {
   EXPECT_LE(choice.settings.modes, Scene{}.solver.modes);
   ASSERT_TRUE(choice.tried.by);
   EXPECT_NEAR(choice.tried.by->whole - choice.tried.by->relative, 0.07, 1e-12);
+}
+
+// A part of a node at the ends of zones is a shorter one on a finer mesh.
+TEST(Accuracy, WhatAFollowedResonanceLeavesOfTheEndsOfZonesIsBought) {
+  const Laws laws{.mesh = 0.001, .harmonics = 0.001, .samples = 0.001};
+  const SettingsChoice choice = choose_settings(Scene{}, kGoal, [&](const Settings& s) {
+    AccuracyAnswer answer = laws.probe()(s);
+    answer.evaluation.error_sources[kVolume]["zone_ends"] = 0.04 / s.mesh;
+    return answer;
+  });
+  EXPECT_EQ(choice.status, Status::converged);
+  EXPECT_GT(choice.settings.mesh, 2);
 }
 
 TEST(Accuracy, OfOneResponseMayBeAnother) {

@@ -55,7 +55,7 @@ TEST(BarsOfHardDesigns, WhereZonesEndWhoseResonanceIsFollowedIsInTheBar) {
   for (const auto& [source, part] : parts) bar += source == "history" ? 0 : part;
   const double volume = result.evaluation.responses.at("asymptotic_wear_volume_m3");
   EXPECT_LT(std::abs(volume - kFine), bar);
-  EXPECT_GT(parts.at("edge"), 0.05 * volume);
+  EXPECT_GT(parts.at("zone_ends"), 0.05 * volume);
   EXPECT_LT(bar, 0.3 * volume);
 }
 
