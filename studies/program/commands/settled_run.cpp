@@ -171,8 +171,9 @@ Chosen chosen(const Study& asked, KeptRounds& rounds, const RunEngineFactory& ma
 
 /// What an accuracy asked for came to, of what accuracy_json says of it.
 std::string came_to(const Json& accuracy) {
-  if (!accuracy.is_object() || !accuracy.contains("relative_bar")) return "no bar says what is reached";
-  const std::string where = accuracy.value("at", kStart), response = accuracy.value("response", "");
+  if (!accuracy.is_object() || !accuracy.contains("response") || !accuracy.at("response").is_string())
+    return "no bar says what is reached";
+  const std::string where = accuracy.value("at", kStart), response = accuracy.at("response").get<std::string>();
   if (!accuracy.at("relative_bar").is_number())
     return fmt::format("at {} not reached: no mesh tried resolves {}", where, response);
   const bool reached = accuracy.at("status") == to_string(Status::converged);

@@ -200,6 +200,17 @@ TEST_F(Run, HandsOverAtSettingsForTheAccuracyAskedFor) {
   EXPECT_EQ(run(true, factory), kNotConverged);
   EXPECT_THAT(report::read_results(results() / "results.h5").best_design->notes,
               testing::Contains(HasSubstr("not reached: asymptotic_wear_volume_m3 to 25 %")));
+  // Where nothing had a bar, or a response was not resolved, that is said.
+  const auto came_to = [&](const nlohmann::ordered_json& response) {
+    nlohmann::ordered_json without = none;
+    without["accuracy"]["response"] = response;
+    without["accuracy"]["relative_bar"] = without["accuracy"]["relative_bar_total"] = nullptr;
+    replace_file(kept, without.dump());
+    EXPECT_EQ(run(true, factory), kDone) << err_.str();
+    return report::read_results(results() / "results.h5").provenance.settings.at("optimizer.verify_accuracy");
+  };
+  EXPECT_THAT(came_to(nullptr), HasSubstr("no bar says what is reached"));
+  EXPECT_THAT(came_to("contact_pressure_max_pa"), HasSubstr("no mesh tried resolves contact_pressure_max_pa"));
   replace_file(kept, none.dump());
   // What is missed there is no answer, be it by a part that no setting buys.
   edge = 1;
