@@ -55,7 +55,8 @@ struct HistoryNodeParams {
 
 /// Of the node at each end of a zone, what a resonance that is followed leaves open: the friction left beyond the end
 /// hardly changes with where that is, and whether the zone grows with the resonance hangs on the length of its nodes.
-/// Of 12 designs of the quickstart's box on 24 to 80 edges per flank, against 72 to 112 edges: a fifth at most.
+/// 12 designs of the quickstart's box on 24 to 80 edges per flank, against 72 to 112 edges (which do not always
+/// settle): about a fifth.
 struct FollowedNodeParams {
   double part = 0.25;
 };
