@@ -53,7 +53,7 @@ SectorSystem build_sector_system(const SectorMesh& sector, std::span<const Mater
   system.full = assembler.stiffness_and_mass(sector.mesh, materials);
   system.constraints = real_constraints(sector, bore);
   system.stiffness = constrain(system.full.stiffness, system.constraints);
-  system.mass = constrain(system.full.mass, system.constraints);
+  system.mass = constrain(system.full.mass.pruned(), system.constraints);
   system.mass.prune(0.0);
   const Eigen::SparseMatrix<double>& t = system.constraints.transformation;
   system.centrifugal = t.transpose() * centrifugal_load(system.full.mass, sector.mesh);

@@ -5,6 +5,12 @@
 #include <Eigen/SparseCore>
 #include <type_traits>
 
+// Of the OpenMP runtime that CHOLMOD brings; <omp.h> is not found by every compiler.
+extern "C" {
+int omp_get_max_active_levels();
+void omp_set_max_active_levels(int levels);
+}
+
 namespace dovetail::numerics {
 
 template <class Scalar>
@@ -37,6 +43,16 @@ inline void start_cholmod(cholmod_common& common) {
   common.print = 0;
   common.itype = CHOLMOD_INT;
   common.error_handler = nullptr;
+}
+
+/// cholmod_factorize in one thread. CHOLMOD asks OpenMP for four threads in every supernode, whatever the user allows;
+/// what they share is so little that waiting for each other nearly doubles the time of a factorisation, and candidates
+/// keep the other cores busy.
+inline void factorise_alone(cholmod_sparse& matrix, cholmod_factor* factor, cholmod_common& common) {
+  const int levels = omp_get_max_active_levels();
+  omp_set_max_active_levels(0);
+  cholmod_factorize(&matrix, factor, &common);
+  omp_set_max_active_levels(levels);
 }
 
 }  // namespace dovetail::numerics

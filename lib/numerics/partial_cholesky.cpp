@@ -19,8 +19,6 @@ namespace dovetail::numerics {
 namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
-// Row by row: what a supernode gathers and scatters is contiguous.
-using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Its first `columns` columns of a supernode: a dense block, the triangle on top of the rest.
 struct Panel {
@@ -34,12 +32,30 @@ struct Panel {
 
 }  // namespace
 
+/// A symbolic factor.
+struct EliminationOrder::Analysis {
+  cholmod_common common{};
+  cholmod_factor* factor = nullptr;
+
+  Analysis() { start_cholmod(common); }
+  ~Analysis() {
+    cholmod_free_factor(&factor, &common);
+    cholmod_finish(&common);
+  }
+  Analysis(const Analysis&) = delete;
+  Analysis& operator=(const Analysis&) = delete;
+};
+
 struct PartialCholesky::Factor {
   cholmod_common common{};
   cholmod_factor* factor = nullptr;
   Eigen::Index interior = 0;
 
-  Factor() { start_cholmod(common); }
+  Factor(const cholmod_factor* analysed, Eigen::Index size_of_interior) : interior(size_of_interior) {
+    start_cholmod(common);
+    factor = cholmod_copy_factor(const_cast<cholmod_factor*>(analysed), &common);  // which reads it only
+    if (factor == nullptr) throw std::bad_alloc();
+  }
   ~Factor() {
     cholmod_free_factor(&factor, &common);
     cholmod_finish(&common);
@@ -47,7 +63,6 @@ struct PartialCholesky::Factor {
   Factor(const Factor&) = delete;
   Factor& operator=(const Factor&) = delete;
 
-  void analyse(const Sparse& lower, EliminationOrder& kept);
   Status factorise(Sparse& lower, double& shift);
 
   [[nodiscard]] int supernodes() const { return static_cast<int>(factor->nsuper); }
@@ -65,29 +80,9 @@ struct PartialCholesky::Factor {
   [[nodiscard]] const int* order() const { return static_cast<const int*>(factor->Perm); }
 
   [[nodiscard]] Eigen::MatrixXd border_factor() const;
-  void eliminate(Rows& x) const;
-  void substitute(Rows& x) const;
+  void eliminate(Eigen::MatrixXd& x) const;
+  void substitute(Eigen::MatrixXd& x) const;
 };
-
-// The order that is best for the interior, with the border last and as it is.
-void PartialCholesky::Factor::analyse(const Sparse& lower, EliminationOrder& kept) {
-  std::vector<int> order(static_cast<std::size_t>(lower.rows()));
-  std::iota(order.begin(), order.end(), 0);
-  if (interior > 0) {
-    Sparse inner = lower.topLeftCorner(interior, interior);
-    inner.makeCompressed();
-    std::ranges::copy(kept.of(inner), order.begin());
-  }
-
-  common.supernodal = CHOLMOD_SUPERNODAL;
-  common.nmethods = 1;
-  common.method[0].ordering = CHOLMOD_GIVEN;
-  common.postorder = 0;  // it would mix the border with the interior
-  cholmod_sparse view = lower_view(lower);
-  factor = cholmod_analyze_p(&view, order.data(), nullptr, 0, &common);
-  if (factor == nullptr) throw std::bad_alloc();
-  assert(std::equal(order.begin(), order.end(), this->order()));
-}
 
 // The whole of A has no Cholesky factor, so its border gets a shift that makes S + shift I positive definite. It is
 // large beside the negative part that S has in a body that floats, and no larger than the rest of S.
@@ -99,7 +94,7 @@ Status PartialCholesky::Factor::factorise(Sparse& lower, double& shift) {
     for (Eigen::Index k = interior; k < lower.rows(); ++k) lower.coeffRef(k, k) += added;
     if (attempt > 0) shift *= kParams.growth;
     cholmod_sparse view = lower_view(lower);
-    cholmod_factorize(&view, factor, &common);
+    factorise_alone(view, factor, common);
     if (common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
     if (common.status == CHOLMOD_OK && factor->minor >= factor->n) return Status::converged;
     // The column that failed.
@@ -121,13 +116,13 @@ Eigen::MatrixXd PartialCholesky::Factor::border_factor() const {
   return result;
 }
 
-void PartialCholesky::Factor::eliminate(Rows& x) const {
-  const auto k = static_cast<int>(x.cols());
-  Rows update;
+void PartialCholesky::Factor::eliminate(Eigen::MatrixXd& x) const {
+  const auto k = static_cast<int>(x.cols()), n = static_cast<int>(x.rows());
+  Eigen::MatrixXd update;
   for (int s = 0; s < supernodes(); ++s) {
     const Panel p = panel(s, false);
     if (p.columns == 0) break;
-    double* top = x.row(p.first).data();
+    double* top = x.data() + p.first;
     update.resize(p.below(), k);
     if (k == 1) {
       cblas_dtrsv(CblasColMajor, CblasLower, CblasNoTrans, CblasNonUnit, p.columns, p.values, p.height, top, 1);
@@ -135,25 +130,35 @@ void PartialCholesky::Factor::eliminate(Rows& x) const {
       cblas_dgemv(CblasColMajor, CblasNoTrans, p.below(), p.columns, 1.0, p.rectangle(), p.height, top, 1, 0.0,
                   update.data(), 1);
     } else {
-      cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, k, p.columns, 1.0, p.values,
-                  p.height, top, k);
+      cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, p.columns, k, 1.0, p.values,
+                  p.height, top, n);
       if (p.below() == 0) continue;
-      cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, k, p.below(), p.columns, 1.0, top, k, p.rectangle(),
-                  p.height, 0.0, update.data(), k);
+      cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, p.below(), k, p.columns, 1.0, p.rectangle(), p.height, top,
+                  n, 0.0, update.data(), p.below());
     }
-    for (int row = 0; row < p.below(); ++row) x.row(p.rows[p.columns + row]) -= update.row(row);
+    const int* rows = p.rows + p.columns;
+    for (int column = 0; column < k; ++column) {
+      double* target = x.col(column).data();
+      const double* source = update.col(column).data();
+      for (int row = 0; row < p.below(); ++row) target[rows[row]] -= source[row];
+    }
   }
 }
 
-void PartialCholesky::Factor::substitute(Rows& x) const {
-  const auto k = static_cast<int>(x.cols());
-  Rows known;
+void PartialCholesky::Factor::substitute(Eigen::MatrixXd& x) const {
+  const auto k = static_cast<int>(x.cols()), n = static_cast<int>(x.rows());
+  Eigen::MatrixXd known;
   for (int s = supernodes() - 1; s >= 0; --s) {
     const Panel p = panel(s, false);
     if (p.columns == 0) continue;
-    double* top = x.row(p.first).data();
+    double* top = x.data() + p.first;
     known.resize(p.below(), k);
-    for (int row = 0; row < p.below(); ++row) known.row(row) = x.row(p.rows[p.columns + row]);
+    const int* rows = p.rows + p.columns;
+    for (int column = 0; column < k; ++column) {
+      double* target = known.col(column).data();
+      const double* source = x.col(column).data();
+      for (int row = 0; row < p.below(); ++row) target[row] = source[rows[row]];
+    }
     if (k == 1) {
       if (p.below() > 0)
         cblas_dgemv(CblasColMajor, CblasTrans, p.below(), p.columns, -1.0, p.rectangle(), p.height, known.data(), 1,
@@ -161,35 +166,60 @@ void PartialCholesky::Factor::substitute(Rows& x) const {
       cblas_dtrsv(CblasColMajor, CblasLower, CblasTrans, CblasNonUnit, p.columns, p.values, p.height, top, 1);
     } else {
       if (p.below() > 0)
-        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, k, p.columns, p.below(), -1.0, known.data(), k,
-                    p.rectangle(), p.height, 1.0, top, k);
-      cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasNoTrans, CblasNonUnit, k, p.columns, 1.0, p.values,
-                  p.height, top, k);
+        cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, p.columns, k, p.below(), -1.0, p.rectangle(), p.height,
+                    known.data(), p.below(), 1.0, top, n);
+      cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasTrans, CblasNonUnit, p.columns, k, 1.0, p.values, p.height,
+                  top, n);
     }
   }
 }
 
-std::vector<int> EliminationOrder::of(const Sparse& lower_interior) {
-  const std::span<const int> outer(lower_interior.outerIndexPtr(), static_cast<std::size_t>(lower_interior.cols() + 1));
-  const std::span<const int> inner(lower_interior.innerIndexPtr(), static_cast<std::size_t>(lower_interior.nonZeros()));
-  const std::lock_guard lock(mutex_);
-  if (std::ranges::equal(outer, outer_) && std::ranges::equal(inner, inner_)) return order_;
+namespace {
+
+/// The order that is best for the interior, with the border last and as it is.
+std::vector<int> border_last(const Sparse& lower, Eigen::Index border) {
+  std::vector<int> order(static_cast<std::size_t>(lower.rows()));
+  std::iota(order.begin(), order.end(), 0);
+  const Eigen::Index interior = lower.rows() - border;
+  if (interior == 0) return order;
+  Sparse inner = lower.topLeftCorner(interior, interior);
+  inner.makeCompressed();
   cholmod_common common{};
   start_cholmod(common);
   common.supernodal = CHOLMOD_SIMPLICIAL;  // only its order is needed
-  cholmod_sparse view = lower_view(lower_interior);
+  cholmod_sparse view = lower_view(inner);
   cholmod_factor* found = cholmod_analyze(&view, &common);
   const bool enough_memory = found != nullptr;
-  if (enough_memory) {
-    const int* order = static_cast<const int*>(found->Perm);
-    order_.assign(order, order + lower_interior.cols());
-    outer_.assign(outer.begin(), outer.end());
-    inner_.assign(inner.begin(), inner.end());
-  }
+  if (enough_memory) std::copy_n(static_cast<const int*>(found->Perm), interior, order.begin());
   cholmod_free_factor(&found, &common);
   cholmod_finish(&common);
   if (!enough_memory) throw std::bad_alloc();
-  return order_;
+  return order;
+}
+
+}  // namespace
+
+std::shared_ptr<const EliminationOrder::Analysis> EliminationOrder::of(const Sparse& lower, Eigen::Index border) {
+  const std::span<const int> outer(lower.outerIndexPtr(), static_cast<std::size_t>(lower.cols() + 1));
+  const std::span<const int> inner(lower.innerIndexPtr(), static_cast<std::size_t>(lower.nonZeros()));
+  const std::lock_guard lock(mutex_);
+  if (analysis_ && border == border_ && std::ranges::equal(outer, outer_) && std::ranges::equal(inner, inner_))
+    return analysis_;
+  std::vector<int> order = border_last(lower, border);
+  const auto found = std::make_shared<Analysis>();
+  cholmod_common& common = found->common;
+  common.nmethods = 1;
+  common.method[0].ordering = CHOLMOD_GIVEN;
+  common.postorder = 0;  // it would mix the border with the interior
+  cholmod_sparse view = lower_view(lower);
+  found->factor = cholmod_analyze_p(&view, order.data(), nullptr, 0, &common);
+  if (found->factor == nullptr) throw std::bad_alloc();
+  assert(std::ranges::equal(order, std::span(static_cast<const int*>(found->factor->Perm), order.size())));
+  outer_.assign(outer.begin(), outer.end());
+  inner_.assign(inner.begin(), inner.end());
+  border_ = border;
+  analysis_ = found;
+  return found;
 }
 
 PartialCholesky::PartialCholesky() = default;
@@ -216,10 +246,8 @@ Status PartialCholesky::factorise(const Sparse& a, Eigen::Index border, Eliminat
   const double size = border > 0 ? lower.diagonal().tail(border).cwiseAbs().mean() : 0;
   double shift = size > 0 ? size : 1;
 
-  auto factor = std::make_unique<Factor>();
-  factor->interior = interior;
   EliminationOrder own;
-  factor->analyse(lower, order ? *order : own);
+  auto factor = std::make_unique<Factor>((order ? *order : own).of(lower, border)->factor, interior);
   const Status status = factor->factorise(lower, shift);
   if (status != Status::converged) return status;
   // L L^T by LAPACK, which has U U^T: U is L in reverse order.
@@ -236,7 +264,7 @@ Eigen::MatrixXd PartialCholesky::eliminate(const Eigen::Ref<const Eigen::MatrixX
   assert(factor_ && b.rows() == size());
   const Eigen::Map<const Eigen::VectorXi> order(factor_->order(), size());
   Eigen::MatrixXd y(b.rows(), b.cols());
-  Rows block;
+  Eigen::MatrixXd block;
   for (Eigen::Index first = 0; first < b.cols(); first += FactorParams{}.columns) {
     const Eigen::Index columns = std::min(FactorParams{}.columns, b.cols() - first);
     block = b.middleCols(first, columns)(order, Eigen::all);
@@ -250,12 +278,12 @@ Eigen::MatrixXd PartialCholesky::substitute(const Eigen::Ref<const Eigen::Matrix
   assert(factor_ && y.rows() == size());
   const Eigen::Map<const Eigen::VectorXi> order(factor_->order(), size());
   Eigen::MatrixXd x(y.rows(), y.cols());
-  Rows block;
+  Eigen::MatrixXd block;
   for (Eigen::Index first = 0; first < y.cols(); first += FactorParams{}.columns) {
     const Eigen::Index columns = std::min(FactorParams{}.columns, y.cols() - first);
     block = y.middleCols(first, columns);
     factor_->substitute(block);
-    for (Eigen::Index row = 0; row < size(); ++row) x.row(order(row)).segment(first, columns) = block.row(row);
+    x.middleCols(first, columns)(order, Eigen::all) = block;
   }
   return x;
 }

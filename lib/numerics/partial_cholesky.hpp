@@ -10,18 +10,20 @@
 
 namespace dovetail::numerics {
 
-/// Keeps the order of elimination that was found last, for matrices with the same pattern. May be used from several
-/// threads.
+/// Keeps the order of elimination that was found last, and what it makes of the pattern, for matrices with the same
+/// pattern. May be used from several threads.
 class EliminationOrder {
  public:
-  /// Of the interior of a matrix, of which only the lower triangle is there: the one kept if it is of this pattern,
-  /// else a new one, which is kept.
-  [[nodiscard]] std::vector<int> of(const Eigen::SparseMatrix<double>& lower_interior);
+  struct Analysis;
+  /// Of a matrix, of which only the lower triangle is there, in the order that is best for all but its last `border`
+  /// rows: the one kept if it is of this pattern, else a new one, which is kept.
+  [[nodiscard]] std::shared_ptr<const Analysis> of(const Eigen::SparseMatrix<double>& lower, Eigen::Index border);
 
  private:
   std::mutex mutex_;
   std::vector<int> outer_, inner_;  // of the pattern
-  std::vector<int> order_;
+  Eigen::Index border_ = 0;
+  std::shared_ptr<const Analysis> analysis_;
 };
 
 /// A symmetric sparse matrix with all but its last rows and columns, the border b, eliminated:

@@ -105,7 +105,7 @@ Status SparseCholesky<Scalar>::factorise(const Matrix& a) {
   // BLAS kernels let a NaN through as a pivot, so look at the input.
   if (!std::isfinite(values.cwiseAbs().sum())) return Status::not_finite;
   cholmod_sparse view = lower_view(a);
-  cholmod_factorize(&view, s.factor, &s.common);
+  factorise_alone(view, s.factor, s.common);
   if (s.common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
   if (s.common.status != CHOLMOD_OK || s.factor->minor < s.factor->n) return Status::singular;
   s.factorised = true;

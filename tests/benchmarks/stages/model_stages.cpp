@@ -33,10 +33,7 @@ double assembled_bytes(const fem::SectorSystem& system) {
 /// The order of elimination is kept from design to design: found here, it is in no stage.
 void find_order(Chain& chain) {
   const reduction::FullModel full = chain.matrices->full_model(chain.matrices->matrices().system.stiffness);
-  const Sparse lower = full.stiffness.triangularView<Eigen::Lower>();
-  Sparse interior = lower.topLeftCorner(full.internal_size(), full.internal_size());
-  interior.makeCompressed();
-  (void)chain.patterns.order->of(interior);
+  (void)numerics::PartialCholesky().factorise(full.stiffness, full.contact_size(), chain.patterns.order.get());
 }
 
 void take_matrices(Chain& chain) {
