@@ -1,10 +1,10 @@
 #include <gmock/gmock.h>
 
-#include "numerics/blas.hpp"
+#include "numerics/process.hpp"
 
 // Of every test program.
 int main(int argc, char** argv) {
-  dovetail::numerics::prepare_blas(argv);
+  dovetail::numerics::prepare_process(argv);
   testing::InitGoogleMock(&argc, argv);
   return RUN_ALL_TESTS();
 }

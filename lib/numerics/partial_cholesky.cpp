@@ -222,6 +222,21 @@ std::shared_ptr<const EliminationOrder::Analysis> EliminationOrder::of(const Spa
   return found;
 }
 
+namespace {
+
+/// Entries of the border's diagonal must be there for the shift.
+void hold_diagonal(Sparse& lower, Eigen::Index border) {
+  const Eigen::Index first = lower.rows() - border;
+  Sparse diagonal(lower.rows(), lower.cols());
+  for (Eigen::Index k = first; k < lower.rows(); ++k) {
+    const Sparse::InnerIterator top(lower, k);
+    if (!top || top.row() != k) diagonal.insert(k, k) = 0;
+  }
+  if (diagonal.nonZeros() > 0) lower += diagonal;
+}
+
+}  // namespace
+
 PartialCholesky::PartialCholesky() = default;
 PartialCholesky::~PartialCholesky() = default;
 PartialCholesky::PartialCholesky(PartialCholesky&&) noexcept = default;
@@ -235,11 +250,8 @@ Status PartialCholesky::factorise(const Sparse& a, Eigen::Index border, Eliminat
   assert(a.rows() == a.cols() && border >= 0 && border <= a.rows());
   const Eigen::Index interior = a.rows() - border;
   factor_.reset();
-  // Entries of the border's diagonal must be there for the shift.
-  Sparse diagonal(a.rows(), a.cols());
-  diagonal.reserve(Eigen::VectorXi::Ones(a.cols()));
-  for (Eigen::Index k = interior; k < a.rows(); ++k) diagonal.insert(k, k) = 0;
-  Sparse lower = Sparse(a.triangularView<Eigen::Lower>()) + diagonal;
+  Sparse lower = a.triangularView<Eigen::Lower>();
+  hold_diagonal(lower, border);
   const Eigen::Map<const Eigen::VectorXd> values(lower.valuePtr(), lower.nonZeros());
   // BLAS kernels let a NaN through as a pivot, so look at the input.
   if (!std::isfinite(values.cwiseAbs().sum())) return Status::not_finite;

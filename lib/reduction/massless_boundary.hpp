@@ -24,7 +24,7 @@ struct ReductionOptions {
   double damping_ratio = 1e-3;
   /// 0 < . < 1. Relative residual of the free-interface modes; eigenvalues err by its square. Static responses
   /// are exact whatever its value.
-  double eigen_tolerance = 1e-6;
+  double eigen_tolerance = 1e-4;
 };
 
 /// How the modes of a structure were found, and what they are.

@@ -2,12 +2,12 @@
 
 #include <iostream>
 
-#include "numerics/blas.hpp"
+#include "numerics/process.hpp"
 #include "studies/program/commands/command_line.hpp"
 #include "studies/program/engine/interrupt.hpp"
 
 int main(int argc, char** argv) {
-  dovetail::numerics::prepare_blas(argv);
+  dovetail::numerics::prepare_process(argv);
   // Jacobians of tens of megabytes come and go in every iteration: memory given back to the system each time would have
   // to be mapped page by page again, which takes longer than filling it.
   constexpr int kKept = 1 << 30;

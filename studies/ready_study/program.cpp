@@ -5,7 +5,7 @@
 
 #include "core/errors.hpp"
 #include "core/replace_file.hpp"
-#include "numerics/blas.hpp"
+#include "numerics/process.hpp"
 
 namespace dovetail::ready_study {
 
@@ -19,7 +19,7 @@ void Call::say(const std::string& what) const {
 }
 
 int run(int argc, char** argv, const Program& program) try {
-  numerics::prepare_blas(argv);
+  numerics::prepare_process(argv);
   CLI::App app{program.about};
   Call call;
   app.add_option("folder", call.folder, std::string("Folder of ") + program.files)->required();

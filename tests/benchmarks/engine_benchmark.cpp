@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "numerics/blas.hpp"
+#include "numerics/process.hpp"
 #include "paths/frequency_response.hpp"
 #include "steady/tangent.hpp"
 #include "studies/work_precision/newton_step.hpp"
@@ -212,7 +212,7 @@ void table(const Medians& median) {
 }  // namespace dovetail
 
 int main(int argc, char** argv) {
-  dovetail::numerics::prepare_blas(argv);
+  dovetail::numerics::prepare_process(argv);
   // Interleaving lets the figures that are compared meet the same state of the machine.
   std::vector<std::string> defaults{"--benchmark_repetitions=7", "--benchmark_report_aggregates_only=true",
                                     "--benchmark_enable_random_interleaving=true", "--benchmark_min_time=0.2"};

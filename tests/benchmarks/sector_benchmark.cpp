@@ -13,7 +13,7 @@
 #include <functional>
 #include <vector>
 
-#include "numerics/blas.hpp"
+#include "numerics/process.hpp"
 #include "optimizer/candidate/candidate_model.hpp"
 #include "studies/program/study_file/study.hpp"
 
@@ -143,7 +143,7 @@ void growth() {
 }  // namespace
 
 int main(int, char** arguments) {
-  dovetail::numerics::prepare_blas(arguments);
+  dovetail::numerics::prepare_process(arguments);
   print_load();
   growth();
   return 0;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/errors.hpp"
-#include "numerics/blas.hpp"
+#include "numerics/process.hpp"
 #include "optimizer/evaluator.hpp"
 #include "studies/program/engine/engine.hpp"
 #include "studies/program/study_file/study.hpp"
@@ -78,7 +78,7 @@ int main(int argc, char** argv) {
     std::cerr << "usage: smoothness STUDY.toml [POINTS] [PAGE.html]\n";
     return 2;
   }
-  dovetail::numerics::prepare_blas(argv);
+  dovetail::numerics::prepare_process(argv);
   try {
     return dovetail::run(argv[1], argc > 2 ? std::max(4, std::atoi(argv[2])) : 41,
                          argc > 3 ? argv[3] : "smoothness.html");

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "numerics/blas.hpp"
+#include "numerics/process.hpp"
 #include "tests/benchmarks/stages/scene_report.hpp"
 
 namespace {
@@ -93,7 +93,7 @@ void measure_scenes(const Choice& choice) {
 }  // namespace
 
 int main(int count, char** arguments) {
-  dovetail::numerics::prepare_blas(arguments);
+  dovetail::numerics::prepare_process(arguments);
   Choice choice;
   CLI::App app("Stages of an evaluation beside their limits");
   describe(app, choice);

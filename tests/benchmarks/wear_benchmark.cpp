@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "numerics/blas.hpp"
+#include "numerics/process.hpp"
 #include "paths/frequency_response.hpp"
 #include "paths/resonance.hpp"
 #include "studies/program/engine/engine.hpp"
@@ -165,7 +165,7 @@ void times() {
 int main(int count, char** arguments) {
   std::vector<std::string> names(arguments + 1, arguments + count);
   if (names.empty()) names = {"section", "crowned", "mismatch", "block", "punch", "lift_off", "space", "times"};
-  dovetail::numerics::prepare_blas(arguments);
+  dovetail::numerics::prepare_process(arguments);
   std::printf(
       "scene     nodes decided  doubt       profile    volume      step | Jacobians: released, answer, 0.5 %% history, "
       "ratio | "

@@ -7,12 +7,12 @@
 #include <optional>
 #include <string>
 
-#include "numerics/blas.hpp"
+#include "numerics/process.hpp"
 #include "tests/hard_cases/suite.hpp"
 
 // Solves the hard cases and prints what became of them. Exit status 1 when a converged state is wrong.
 int main(int argc, char** argv) {
-  dovetail::numerics::prepare_blas(argv);
+  dovetail::numerics::prepare_process(argv);
   using namespace dovetail::hard_cases;
   CLI::App app("Hard cases of the steady state: each converges, checked independently, or says why not.");
   std::vector<std::string> only;

@@ -10,8 +10,9 @@ namespace dovetail::reduction {
 namespace {
 
 TEST(Params, TellRigidFromSoftModesAtTheUsualTolerance) {
-  const double tolerance = ReductionOptions{}.eigen_tolerance, error = tolerance * tolerance;
-  EXPECT_LT(error, FloatingParams{}.rigid) << "eigenvalues err by less than what separates the rigid ones";
+  // In a Krylov space modes converge the earlier the softer they are.
+  EXPECT_LE(ReductionOptions{}.eigen_tolerance * FloatingParams{}.soft, 1e-7)
+      << "soft modes, which a reduction takes for exact, nearly are";
   EXPECT_GE(FloatingParams{}.search_always, ReductionOptions{}.modes) << "a search goes beyond the modes kept";
 }
 

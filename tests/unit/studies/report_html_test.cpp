@@ -26,6 +26,13 @@ bool has_nan(const std::string& page) {
   return std::regex_search(page, std::regex("(^|[^a-zA-Z])-?nan([^a-zA-Z]|$)"));
 }
 
+TEST(ReportWords, MoreEvaluationsArePromisedToHelpOnlyWhereTheBudgetEndedTheSearch) {
+  RunRecord record = sample_record();
+  EXPECT_THAT(ending(record), HasSubstr("used up the evaluations it was allowed; more may find better designs."));
+  record.message = "going on from the best design brought nothing better; 4 evaluations of the budget are left";
+  EXPECT_THAT(ending(record), AllOf(HasSubstr(record.message + "."), Not(HasSubstr("more may find"))));
+}
+
 TEST(Escape, LeavesNothingThatMarkupUnderstands) {
   EXPECT_EQ(escape("a<b>&\"c'"), "a&lt;b&gt;&amp;&quot;c&#39;");
 }

@@ -1,9 +1,11 @@
-#include "numerics/blas.hpp"
+#include "numerics/process.hpp"
 
 #include <cblas.h>
+#include <malloc.h>
 #include <unistd.h>
 
 #include <cstdlib>
+#include <limits>
 #include <string_view>
 
 namespace dovetail::numerics {
@@ -22,12 +24,15 @@ const char* better_kernels() {
 
 }  // namespace
 
-void prepare_blas(char** arguments) {
+void prepare_process(char** arguments) {
   constexpr const char* kVariable = "OPENBLAS_CORETYPE";
   const char* kernels = std::getenv(kVariable) == nullptr ? better_kernels() : nullptr;
   // Where that fails the slow kernels do.
   if (kernels != nullptr && ::setenv(kVariable, kernels, 0) == 0) ::execv("/proc/self/exe", arguments);
   openblas_set_num_threads(1);
+  // Without effect under allocators other than that of the GNU library.
+  ::mallopt(M_MMAP_THRESHOLD, 1 << 30);
+  ::mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
 }
 
 }  // namespace dovetail::numerics

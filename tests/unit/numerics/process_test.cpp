@@ -1,4 +1,4 @@
-#include "numerics/blas.hpp"
+#include "numerics/process.hpp"
 
 #include <cblas.h>
 #include <gtest/gtest.h>
