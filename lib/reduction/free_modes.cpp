@@ -15,6 +15,34 @@ namespace dovetail::reduction {
 
 namespace {
 constexpr FloatingParams kFloating = {};
+
+/// Eigenpairs of the Schur complement up to `limit`, which is next to nothing beside its largest eigenvalue. They are
+/// few, and far from the others: the complement, lifted a little, has a Cholesky factor, and a Krylov method on its
+/// inverse finds them in a few steps, where a decomposition takes several times a factorisation.
+numerics::SymmetricPairs soft_pairs(const Eigen::MatrixXd& schur, double limit, double largest) {
+  const Eigen::Index n = schur.rows();
+  if (n >= kFloating.krylov_from) {
+    const double lift = kFloating.lift * largest;
+    Eigen::MatrixXd lifted = schur;
+    lifted.diagonal().array() += lift;
+    const numerics::DenseCholesky factor(std::move(lifted));
+    Eigen::SparseMatrix<double> identity(n, n);
+    identity.setIdentity();
+    const numerics::ShiftInverse<double> inverse{.rows = n,
+                                                 .solve = [&](const Eigen::MatrixXd& b) { return factor.solve(b); }};
+    Status status = factor.status();  // not converged: something is softer than that
+    for (int count = kFloating.soft_pairs; status == Status::converged && count < n / 2; count *= 2) {
+      const numerics::Modes<double> modes = numerics::nearest_modes(
+          inverse, identity, {.count = count, .shift = -lift, .tolerance = kFloating.soft_tolerance});
+      status = modes.status;
+      const Eigen::Index found = (modes.eigenvalues.array() <= limit).count();
+      if (status == Status::converged && found < modes.eigenvalues.size())
+        return {.status = status, .values = modes.eigenvalues.head(found), .vectors = modes.vectors.leftCols(found)};
+    }
+  }
+  return numerics::pairs_up_to(schur, limit);
+}
+
 }  // namespace
 
 FloatingInverse::FloatingInverse(const numerics::PartialCholesky& stiffness, const Eigen::SparseMatrix<double>& mass)
@@ -24,7 +52,7 @@ FloatingInverse::FloatingInverse(const numerics::PartialCholesky& stiffness, con
   // The largest row sum, a bound of the eigenvalues near the largest of them.
   const double largest = contact == 0 ? 0 : schur_inverse_.cwiseAbs().colwise().sum().maxCoeff();
   const double threshold = kFloating.rigid * largest;
-  const numerics::SymmetricPairs low = numerics::pairs_up_to(schur_inverse_, threshold);
+  const numerics::SymmetricPairs low = soft_pairs(schur_inverse_, threshold, largest);
   status_ = low.status;
   if (status_ != Status::converged) return;
   negative_ = static_cast<int>((low.values.array() < -threshold).count());

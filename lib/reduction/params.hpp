@@ -14,6 +14,13 @@ struct FloatingParams {
   /// of some 1e-13; the rigid stiffness that spin softening leaves at speed is above 1e-9. Smaller: rigid modes are
   /// inverted; larger: spin-softened ones are taken for rigid.
   double rigid = 1e-11;
+  /// How such directions are found. From so many rows on by a Krylov method: below, a decomposition takes no longer. On
+  /// the complement plus this part of its largest: far above what is rigid, far below what is elastic. At first so many
+  /// pairs: one more than a body has rigid ones. To this residual: what a decomposition in double precision leaves.
+  Eigen::Index krylov_from = 300;
+  double lift = 1e-6;
+  int soft_pairs = 7;
+  double soft_tolerance = 1e-10;
   /// Modes that are asked for in search of negative ones, over those first asked for, and in any case. Fewer: negative
   /// modes behind many elastic ones are not found; more: work for models that have none.
   Eigen::Index search_range = 4, search_always = 100;
@@ -52,6 +59,7 @@ struct ModelFileParams {
 };
 
 static_assert(FloatingParams{}.rigid < FloatingParams{}.soft, "rigid modes are soft");
+static_assert(FloatingParams{}.rigid < 1e-3 * FloatingParams{}.lift, "what is rigid stands out in the inverse");
 static_assert(FlexibilityParams{}.singular < FloatingParams{}.rigid, "what is no stiffness is above rounding");
 static_assert(ResponseParams{}.negligible <= ResponseParams{}.parallel * ResponseParams{}.parallel,
               "what is represented is not kept for its direction");
