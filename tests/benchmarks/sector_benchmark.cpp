@@ -87,7 +87,7 @@ Row in_own_process(const std::function<Row()>& measure) {
 
 constexpr std::array<Size, 4> kSizes{
     {{.flank = 6, .aerofoil = 4, .slot = 7, .fillet = 1.0, .bulk = 20e-3, .blend = 1, .growth = 1},
-     {.flank = 6, .aerofoil = 6, .slot = 7, .fillet = 1.0, .bulk = 15e-3, .blend = 1, .growth = 0.4},
+     {.flank = 6, .aerofoil = 8, .slot = 7, .fillet = 0.7, .bulk = 15e-3, .blend = 0.8, .growth = 0.4},
      {.flank = 8, .aerofoil = 10, .slot = 8, .fillet = 0.7, .bulk = 10e-3, .blend = 0.8, .growth = 0.4},
      {.flank = 8, .aerofoil = 10, .slot = 10, .fillet = 0.5, .bulk = 8e-3, .blend = 0.7, .growth = 0.4}}};
 Row linear_stages(const Size& size) {
