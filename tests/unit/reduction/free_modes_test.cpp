@@ -38,7 +38,7 @@ class FloatingInverseOf : public testing::TestWithParam<Floating> {
       2 * Eigen::MatrixXd::Identity(bodies_ * kPoints, bodies_* kPoints).sparseView();
 };
 // A border below and above where the method changes, and more bodies than directions are asked for at first.
-INSTANTIATE_TEST_SUITE_P(Bodies, FloatingInverseOf, testing::Values(Floating{2, 10}, Floating{6, 60}, Floating{9, 60}));
+INSTANTIATE_TEST_SUITE_P(Bodies, FloatingInverseOf, testing::Values(Floating{2, 10}, Floating{6, 70}, Floating{9, 60}));
 
 TEST_P(FloatingInverseOf, FreeBodiesLeavesOutTheirRigidMotion) {
   const Eigen::SparseMatrix<double> k = chains(bodies_, 0);
@@ -59,9 +59,9 @@ TEST_P(FloatingInverseOf, FreeBodiesLeavesOutTheirRigidMotion) {
   EXPECT_LT((rigid.transpose() * (mass_ * x)).norm(), 1e-10 * x.norm());
 }
 
-// Pushed away by less than a chain is stiff, and by more than the lift of the Krylov method.
+// Pushed away by less and by more than the lift of the Krylov method (some 3e-5 here), by less than a chain is stiff.
 TEST_P(FloatingInverseOf, BodiesPushedAwayCountsThem) {
-  for (const double ground : {-1e-8, -1e-5}) {
+  for (const double ground : {-1e-8, -1e-4}) {
     const Eigen::SparseMatrix<double> k = chains(bodies_, ground);
     numerics::PartialCholesky factor;
     ASSERT_EQ(factor.factorise(k, border_), Status::converged);
