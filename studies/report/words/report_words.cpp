@@ -229,13 +229,13 @@ std::string ending(const RunRecord& record) {
   }
   const std::size_t all = record.evaluations.size();
   const std::optional<Status> status = named<Status>(record.status);
-  const bool budget_used = status == Status::iteration_limit && record.message.starts_with("the budget of");
+  const std::string why = record.message.empty() ? record.status : record.message;
   const std::string how =
       status == Status::interrupted ? "The run was interrupted; what follows is the state until then."
-      : status == Status::converged ? "The search converged."
-      : budget_used                 ? "The search used up the evaluations it was allowed; more may find better designs."
-                    : "The search stopped early: " + (record.message.empty() ? record.status : record.message) +
-                          (record.message.ends_with(".") ? "" : ".");
+      : status == Status::converged
+          ? "The search converged."
+          : fmt::format("The search {}: {}{}", status == Status::iteration_limit ? "ended" : "stopped early", why,
+                        why.ends_with(".") ? "" : ".");
   return fmt::format(
       "{} It looked at {} candidate{}: {} feasible, {} breaking a limit or a geometric rule, {} not computed.", how,
       all, all == 1 ? "" : "s", feasible, all - feasible - failed, failed);
