@@ -99,6 +99,8 @@ Scene finer(Scene scene, int level) {
   raise("mesh.flank_elements", std::ldexp(scene.mesh.flank_elements, level));
   raise("solver.harmonics", 2 * scene.solver.harmonics + 1);
   raise("solver.samples", quality::samples_for(scene.solver.harmonics, 2 * scene.solver.samples));
+  // What designs share with others to first order is looked at, too; and one design alone is cheaper with its own.
+  scene.solver.prestress = Prestress::own;
   return scene;
 }
 

@@ -51,8 +51,8 @@ struct Verification {
   [[nodiscard]] bool converged() const { return outcome_of(status) == Outcome::converged; }
 };
 
-/// The scene on a mesh with 2^level times the edges along the flanks; with 2H+1 harmonics and 2N samples. No more of
-/// each than its key allows.
+/// The scene on a mesh with 2^level times the edges along the flanks; with 2H+1 harmonics and 2N samples, no more of
+/// each than its key allows; and with its own preload in the stiffness where designs share theirs.
 [[nodiscard]] Scene finer(Scene scene, int level);
 
 /// A design on such a mesh; never with bars.
@@ -64,7 +64,7 @@ struct FinerDesign {
   Scene scene, reference;
 };
 
-/// With twice the edges along the flanks, twice the harmonics plus one and twice the samples.
+/// At finer(scene, 1).
 [[nodiscard]] FinerDesign twice_as_fine(const SceneEvaluator& evaluator, const Scene& scene);
 
 /// @param result  the design as the search has it, with bars

@@ -3,8 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <map>
 #include <numbers>
+#include <set>
+#include <utility>
 
 #include "paths/frequency_response.hpp"
 #include "studies/report/record/design_record.hpp"
@@ -18,6 +22,15 @@ using optimizer::CandidateResult;
 using optimizer::Scene;
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
+
+/// Where curves with friction are computed.
+struct CurveParams {
+  /// Every so many of the frequencies at first, a power of 2.
+  std::size_t first = 4;
+  /// How far a point may lie from the line between its neighbours, of the highest amplitude: lines drawn between all
+  /// three are then within a quarter of it, which is a pixel or two of a drawing.
+  double bend = 0.02;
+};
 
 /// Half range of frequencies on either side of the resonances.
 struct Band {
@@ -62,13 +75,46 @@ void add_point(double omega, double amplitude, Status status, ResponseCurve& cur
   curve.status.emplace_back(to_string(status));
 }
 
+/// Points of a curve by their place among all frequencies: the amplitude, and how the point ended.
+using Points = std::map<std::size_t, std::pair<double, Status>>;
+
+/// The places halfway to the neighbours of every point at which the curve bends, or that failed.
+std::set<std::size_t> between_bends(const Points& points) {
+  double highest = 0;
+  for (const auto& [place, point] : points) highest = std::max(highest, point.first);
+  std::set<std::size_t> places;
+  for (auto here = std::next(points.begin()); std::next(here) != points.end(); ++here) {
+    const auto &before = *std::prev(here), &after = *std::next(here);
+    const auto [left, right] = std::pair(here->first - before.first, after.first - here->first);
+    const auto all = {before.second.second, here->second.second, after.second.second};
+    const bool failed = std::ranges::any_of(all, [](Status status) { return status != Status::converged; });
+    const double slope = (after.second.first - before.second.first) / static_cast<double>(left + right);
+    const double bend = here->second.first - before.second.first - slope * static_cast<double>(left);
+    if (!failed && std::abs(bend) <= CurveParams{}.bend * highest) continue;
+    if (left > 1) places.insert(here->first - left / 2);
+    if (right > 1) places.insert(here->first + right / 2);
+  }
+  return places;
+}
+
+/// At as many of the frequencies as show it: from every few of them on, those where it bends.
 ResponseCurve frictional_curve(const Scene& scene, const CandidateModel& model, const Numbers& omega,
                                const steady::Condition& condition) {
+  const steady::Joint joint{model.condensed, condition, optimizer::steady_options(scene.solver)};
+  std::set<std::size_t> places;
+  for (std::size_t place = 0; place < omega.size(); place += CurveParams{}.first) places.insert(place);
+  places.insert({omega.size() / 2, omega.size() - 1});  // the resonance, and the end
+  Points points;
+  while (!places.empty()) {
+    Numbers at;
+    for (const std::size_t place : places) at.push_back(omega[place]);
+    auto place = places.begin();
+    for (const steady::State& state : paths::frequency_response(joint, at))
+      points[*place++] = {state.status == Status::converged ? state.amplitudes(0) : 0, state.status};
+    places = points.size() < 3 ? std::set<std::size_t>{} : between_bends(points);
+  }
   ResponseCurve curve;
-  const steady::Options steady = optimizer::steady_options(scene.solver);
-  for (const steady::State& state : paths::frequency_response({model.condensed, condition, steady}, omega))
-    add_point(omega[curve.status.size()], state.status == Status::converged ? state.amplitudes(0) : 0, state.status,
-              curve);
+  for (const auto& [place, point] : points) add_point(omega[place], point.first, point.second, curve);
   return curve;
 }
 

@@ -8,7 +8,7 @@ namespace dovetail::report {
 
 /// What make_design_record computes beyond the evaluation.
 struct DesignRecordOptions {
-  int curve_points = 61;         ///< >= 0, of each response curve; 0: no curves
+  int curve_points = 61;         ///< >= 0, at most, of each response curve; 0: no curves
   double curve_widths = 12;      ///< > 0, half range of the curves in half-power widths of the unworn peak
   int nodal_diameter_modes = 5;  ///< >= 0, modes per nodal diameter; 0: none
   int history_steps = 30;        ///< >= 0, steps of the wear history; 0: none
@@ -22,7 +22,7 @@ struct DesignRecordOptions {
 /// A design with its curves. What the evaluation computed is copied; response curves (unworn, worn, glued) around the
 /// resonance, frequencies over nodal diameters and the wear history are computed; those of stages that were not asked
 /// for are left out. Never throws for what a candidate is like: pieces after the stage that failed stay empty, with a
-/// sentence in `notes`. Cost at the default sizes: about 2 curve_points warm-started steady states, a
+/// sentence in `notes`. Cost at the default sizes: about curve_points warm-started steady states, a
 /// sparse factorisation per nodal diameter, and history_steps steady states.
 [[nodiscard]] DesignRecord make_design_record(const optimizer::Scene& scene, const optimizer::CandidateResult& result,
                                               const DesignRecordOptions& options = {});

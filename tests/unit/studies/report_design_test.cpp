@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
+
+#include "paths/frequency_response.hpp"
 
 namespace dovetail::report {
 namespace {
@@ -49,20 +52,22 @@ TEST(DesignRecord, AgreesWithTheEvaluation) {
                                                  {.curve_points = 11, .nodal_diameter_modes = 2, .history_steps = 3});
   EXPECT_EQ(record.responses, design.result.evaluation.responses);
 
-  // The middle point of each curve is its resonance.
-  ASSERT_EQ(record.unworn.amplitude_m.size(), 11U);
-  EXPECT_NEAR(record.unworn.amplitude_m[5] / record.responses.at("peak_amplitude_m"), 1, 1e-6);
-  EXPECT_NEAR(record.unworn.frequency_hz[5] / record.responses.at("resonance_hz"), 1, 1e-12);
-  ASSERT_EQ(record.worn.amplitude_m.size(), 11U);
-  EXPECT_NEAR(record.worn.amplitude_m[5] / record.responses.at("worn_peak_amplitude_m"), 1, 1e-6);
-  for (const ResponseCurve* curve : {&record.unworn, &record.worn, &record.glued}) {
-    EXPECT_EQ(std::max_element(curve->amplitude_m.begin(), curve->amplitude_m.end()) - curve->amplitude_m.begin(), 5);
-    EXPECT_TRUE(std::is_sorted(curve->frequency_hz.begin(), curve->frequency_hz.end()));
-  }
+  // The highest point of each curve is its resonance.
+  const auto peak = [](const ResponseCurve& curve) {
+    const auto highest = std::ranges::max_element(curve.amplitude_m) - curve.amplitude_m.begin();
+    return std::pair(curve.frequency_hz[static_cast<std::size_t>(highest)],
+                     *std::ranges::max_element(curve.amplitude_m));
+  };
+  EXPECT_NEAR(peak(record.unworn).second / record.responses.at("peak_amplitude_m"), 1, 1e-6);
+  EXPECT_NEAR(peak(record.unworn).first / record.responses.at("resonance_hz"), 1, 1e-12);
+  EXPECT_NEAR(peak(record.worn).second / record.responses.at("worn_peak_amplitude_m"), 1, 1e-6);
+  EXPECT_EQ(record.glued.amplitude_m.size(), 11U);
+  for (const ResponseCurve* curve : {&record.unworn, &record.worn, &record.glued})
+    EXPECT_TRUE(std::ranges::is_sorted(curve->frequency_hz));
 
   // Friction only takes energy out: the glued peak is the highest, and lies highest.
-  EXPECT_GT(record.glued.amplitude_m[5], record.unworn.amplitude_m[5]);
-  EXPECT_GT(record.glued.frequency_hz[5], record.unworn.frequency_hz[5]);
+  EXPECT_GT(peak(record.glued).second, peak(record.unworn).second);
+  EXPECT_GT(peak(record.glued).first, peak(record.unworn).first);
 
   // Nodal diameters 0 .. 23 of 47 sectors; the first mode of diameter 0 is the glued frequency of the reduced model,
   // whose own estimate of its error is far below 1e-4.
@@ -84,6 +89,26 @@ TEST(DesignRecord, AgreesWithTheEvaluation) {
   EXPECT_EQ(record.history->cycles.front(), 0);
   EXPECT_TRUE(std::is_sorted(record.history->worn_volume_m3.begin(), record.history->worn_volume_m3.end()));
   EXPECT_EQ(record.history->profile_depth_m.size(), record.history->profile_states.size() * contact.flank.size());
+}
+
+// Fewer points than may be computed, and lines between them that show the rest.
+TEST(DesignRecord, CurvesHavePointsWhereTheyBend) {
+  const Evaluated& design = evaluated();
+  const DesignRecord record =
+      make_design_record(design.scene, design.result, {.nodal_diameter_modes = 0, .history_steps = 0, .fields = false});
+  const ResponseCurve& drawn = record.unworn;
+  EXPECT_LT(drawn.frequency_hz.size(), 45U);
+  EXPECT_GT(drawn.frequency_hz.size(), 16U);
+  Numbers between;
+  for (std::size_t i = 1; i < drawn.frequency_hz.size(); ++i)
+    between.push_back(std::numbers::pi * (drawn.frequency_hz[i - 1] + drawn.frequency_hz[i]));
+  const std::vector<steady::State> states = paths::frequency_response(
+      {design.result.model.condensed, {}, optimizer::steady_options(design.scene.solver)}, between);
+  const double highest = *std::ranges::max_element(drawn.amplitude_m);
+  for (std::size_t i = 0; i < states.size(); ++i)
+    EXPECT_NEAR(states[i].amplitudes(0) / highest, (drawn.amplitude_m[i] + drawn.amplitude_m[i + 1]) / 2 / highest,
+                0.01)
+        << drawn.frequency_hz[i] << " Hz";
 }
 
 TEST(DesignRecord, SaysWhyADesignHasNoCurves) {
