@@ -11,11 +11,11 @@ namespace {
 
 using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-/// Columns `first` to `first + N` of the product. Plain sums over N, which is known, stay in registers.
+/// Columns `first` to `first + N` of the product, from N columns that lie `stride` apart. Plain sums over N, which is
+/// known, stay in registers.
 template <int N>
-void multiply(const Eigen::Map<const SparseRows>& a, const Rows& x, Eigen::Index first, Rows& product) {
-  const double* const columns = x.data() + first;
-  const Eigen::Index stride = x.cols();
+void multiply(const Eigen::Map<const SparseRows>& a, const double* columns, Eigen::Index stride, Eigen::Index first,
+              Rows& product) {
   for (Eigen::Index row = 0; row < a.rows(); ++row) {
     std::array<double, N> sum{};
     for (Eigen::Map<const SparseRows>::InnerIterator entry(a, row); entry; ++entry) {
@@ -23,18 +23,28 @@ void multiply(const Eigen::Map<const SparseRows>& a, const Rows& x, Eigen::Index
       const double* const there = columns + entry.col() * stride;
       for (std::size_t k = 0; k < N; ++k) sum[k] += value * there[k];
     }
-    std::ranges::copy(sum, product.data() + row * stride + first);
+    std::ranges::copy(sum, product.data() + row * product.cols() + first);
   }
 }
 
 Rows multiplied(const Eigen::Map<const SparseRows>& a, const Rows& x) {
   assert(a.cols() == x.rows());
+  constexpr int kWide = 16;  // as many sums as there are registers for
   Rows product(a.rows(), x.cols());
   Eigen::Index first = 0;
-  for (; first + 8 <= x.cols(); first += 8) multiply<8>(a, x, first, product);
-  for (; first + 6 <= x.cols(); first += 6) multiply<6>(a, x, first, product);  // a block of modes
-  for (; first + 2 <= x.cols(); first += 2) multiply<2>(a, x, first, product);
-  for (; first < x.cols(); ++first) multiply<1>(a, x, first, product);
+  // Of many columns a copy of some lies together: their rows are asked for in no order, and the cache holds them.
+  Eigen::Matrix<double, Eigen::Dynamic, kWide, Eigen::RowMajor> some;
+  for (; first + kWide <= x.cols(); first += kWide) {
+    some = x.middleCols<kWide>(first);
+    multiply<kWide>(a, some.data(), kWide, first, product);
+  }
+  const auto narrow = [&]<int N>() {
+    for (; first + N <= x.cols(); first += N) multiply<N>(a, x.data() + first, x.cols(), first, product);
+  };
+  narrow.operator()<8>();
+  narrow.operator()<6>();  // a block of modes
+  narrow.operator()<2>();
+  narrow.operator()<1>();
   return product;
 }
 

@@ -84,15 +84,10 @@ struct Blocks {
   /// Adds Psi^T D Psi, with the fields of unit coordinates Psi = [X A^T, Phi] [[G^-1, -G^-1 Phi_r], [0, I]].
   void add(const StiffnessChange& change, const Sparse& average) {
     const Eigen::Index nc = contact.rows(), m = coupling.cols();
-    Eigen::MatrixXd of_fields(nc + m, nc + m);
-    of_fields.topLeftCorner(nc, nc) = average * change.on_trace * average.transpose();
-    of_fields.topRightCorner(nc, m) = average * change.between;
-    of_fields.bottomLeftCorner(m, nc) = of_fields.topRightCorner(nc, m).transpose();
-    of_fields.bottomRightCorner(m, m) = change.on_basis;
     Eigen::MatrixXd coordinates = Eigen::MatrixXd::Identity(nc + m, nc + m);
     coordinates.topRows(nc) << contact, coupling;
-    const Eigen::MatrixXd added =
-        symmetric(numerics::transposed_product(coordinates, numerics::product(of_fields, coordinates)));
+    const Eigen::MatrixXd added = symmetric(
+        numerics::transposed_product(coordinates, numerics::product(change.on_contact(average), coordinates)));
     contact += added.topLeftCorner(nc, nc);
     coupling += added.topRightCorner(nc, m);
     glued += added.bottomRightCorner(m, m);

@@ -67,10 +67,25 @@ StiffnessChange stiffness_change(const ResidualFlexibility& structure, Sparse ch
   result.on_basis = 0.5 * (on_basis + on_basis.transpose());
   // Fields of contact forces decay: of them the rows count where the change is not negligible.
   const std::vector<int> rows = rows_that_count(result.whole);
-  const Eigen::MatrixXd x = forced.size() > 0 ? Eigen::MatrixXd(forced(rows, Eigen::all)) : forced_on(rows, structure);
-  const numerics::Rows changed = numerics::product(on_rows(result.whole, rows), numerics::Rows(x));
-  result.on_trace = numerics::transposed_product(x, Eigen::MatrixXd(changed));
-  result.between = numerics::transposed_product(x, Eigen::MatrixXd(on_phi(rows, Eigen::all)));
+  result.on_rows = on_rows(result.whole, rows);
+  if (forced.size() > 0)
+    result.fields = forced(rows, Eigen::all).transpose();
+  else
+    result.fields = forced_on(rows, structure).transpose();
+  result.of_basis = on_phi(rows, Eigen::all);
+  return result;
+}
+
+Eigen::MatrixXd StiffnessChange::on_contact(const Sparse& average) const {
+  const Eigen::Index nc = average.rows(), m = on_basis.rows();
+  const Eigen::MatrixXd x =
+      numerics::product(Eigen::SparseMatrix<double, Eigen::RowMajor>(average), fields).transpose();
+  const Eigen::MatrixXd changed = numerics::product(on_rows, numerics::Rows(x));
+  Eigen::MatrixXd result(nc + m, nc + m);
+  result.topLeftCorner(nc, nc) = numerics::transposed_product(x, changed);
+  result.topRightCorner(nc, m) = numerics::transposed_product(x, of_basis);
+  result.bottomLeftCorner(m, nc) = result.topRightCorner(nc, m).transpose();
+  result.bottomRightCorner(m, m) = on_basis;
   return result;
 }
 

@@ -44,6 +44,7 @@ struct SettingsChoice {
   std::optional<Digit> one_more_digit;
   /// Where no settings there are should be accurate enough: the least excess foreseen of any.
   std::optional<double> out_of_reach;
+  bool ran_idle = false;               ///< the last rounds, at finer settings, were no more accurate than those before
   double work = 0;                     ///< of the rounds, in evaluations of the scene, both without bars
   std::optional<double> work_refused;  ///< what it would have been with a round that was refused for it
 };
@@ -67,7 +68,7 @@ using AccuracyMemory = std::function<AccuracyAnswer(const Settings&, const std::
 /// Rounds of an evaluation with bars, from whose parts the next settings follow: of all there are, the cheapest that
 /// should be accurate enough. What no setting buys (doubts of the worn state, the edges of zones) is left out of
 /// what is asked for. Where after two rounds (three, where those contradict each other) none of them foresees settings
-/// that would do, it ends: finer ones cost ever more.
+/// that would do, or rounds in a row bring nothing, it ends: finer ones cost ever more.
 [[nodiscard]] SettingsChoice choose_settings(const Scene& scene, const AccuracyGoal& goal, const AccuracyProbe& probe,
                                              const AccuracyListener& told = {});
 

@@ -58,6 +58,10 @@ struct SettingsParams {
   double worth = 0.85;          ///< of the operations: for less than that saved nothing else is tried
   double step = 1.58;           ///< no setting changes by more from one round to the next
   int rounds = 10;
+  /// Where none is accurate enough, so many rounds in a row that do not bring what is left below this times the least
+  /// before them end the search: bars that scatter lead to ever finer settings.
+  int patience = 3;
+  double progress = 0.95;
 };
 
 /// Whether one round reaches the next rung from any of a ladder.
@@ -73,5 +77,6 @@ static_assert(climbable(SettingLadders{}.mesh) && climbable(SettingLadders{}.bes
               "a knob whose next rung is out of reach stays where it is for ever");
 static_assert(SettingsParams{}.aim < 1 && SettingsParams{}.worth < 1 && SettingsParams{}.step > 1,
               "shares and a factor");
+static_assert(SettingsParams{}.patience > 1 && SettingsParams{}.progress < 1, "one round may be out of line");
 
 }  // namespace dovetail::optimizer

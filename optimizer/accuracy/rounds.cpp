@@ -57,6 +57,7 @@ std::optional<SettingsChoice::Digit> one_more_digit(const std::vector<Settings>&
   // No bar is left to be divided, or none is known.
   if (choice.tried.excess == 0 || !std::isfinite(choice.tried.excess)) return {};
   const double tenth = choice.tried.excess / 10;
+  if (choice.out_of_reach && tenth < *choice.out_of_reach) return {};
   Settings there = cheapest(all, forecast, tenth);
   if (forecast.excess(there) > tenth) return {};
   there.history_tolerance = history_tolerance;
@@ -103,6 +104,18 @@ const KnownRound& best_of(const std::vector<KnownRound>& rounds) {
     return std::pair{!heard(round) || known_excess(round) > limit, std::isfinite(limit) ? round.tried.operations : 0};
   };
   return *std::ranges::min_element(rounds, {}, rank);
+}
+
+/// Whether the last rounds brought nothing, each by what it says alone: together they raise each other's bars.
+bool runs_idle(const std::vector<KnownRound>& rounds) {
+  double least = kInfinity;
+  int idle = 0;
+  for (const KnownRound& round : rounds) {
+    const double excess = round.alone.knows() ? round.alone.excess(round.tried.settings) : kInfinity;
+    idle = excess < kParams.progress * least || !std::isfinite(least) ? 0 : idle + 1;
+    least = std::min(least, excess);
+  }
+  return idle >= kParams.patience;
 }
 
 struct Foreseen {
@@ -190,6 +203,8 @@ std::optional<Settings> Rounds::next() {
   if (open.empty()) open = all_;  // no mesh resolves it: the rest of what is asked counts
   const double excess = climbs ? kInfinity : known_excess(best);
   if (excess <= 1 && !goal_.many) return {};
+  ran_idle_ = excess > 1 && !climbs && runs_idle(known_);
+  if (ran_idle_) return {};
   // One that does not resolve a response says nothing of it, and where none does the finest was tried for nothing.
   const bool from_best = !climbs && !known_.back().forecast.resolves();
   const Forecast& last = from_best ? best.forecast : known_.back().forecast;
@@ -217,6 +232,7 @@ SettingsChoice Rounds::choice() const {
   choice.rounds = tried_;
   choice.not_held = not_held_;
   choice.out_of_reach = out_of_reach_;
+  choice.ran_idle = ran_idle_;
   choice.work = work_ / unit_;
   choice.work_refused = work_refused_;
   for (SettingsTried& round : choice.rounds)

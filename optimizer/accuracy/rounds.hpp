@@ -46,6 +46,7 @@ class Rounds {
   std::vector<KnownRound> known_;
   std::vector<std::string> not_held_;
   std::optional<double> out_of_reach_;
+  bool ran_idle_ = false;
   double unit_ = kInfinity;  // operations of the scene's own settings; unknown before the first round with bars
   double work_ = 0;          // of rounds from that on; of those that failed what was foreseen
   std::optional<double> work_refused_;

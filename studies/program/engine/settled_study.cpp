@@ -146,7 +146,12 @@ std::string round_words(const Study& study, const optimizer::SettingsTried& trie
 
 std::string taken_words(const Study& study, const optimizer::SettingsChoice& choice) {
   if (choice.rounds.size() < 2) return {};
-  return "taken: " + round_words(study, choice.tried);
+  const bool cheaper =
+      choice.tried.excess > 1 && std::ranges::any_of(choice.rounds, [&](const optimizer::SettingsTried& round) {
+        return !round.out_of_line && round.excess < choice.tried.excess;
+      });
+  return "taken: " + round_words(study, choice.tried) +
+         (cheaper ? "; hardly less accurate than the best of these, and cheaper" : "");
 }
 
 std::string accuracy_complaint(const Study& study, const optimizer::SettingsChoice& choice) {
@@ -163,8 +168,11 @@ std::string accuracy_complaint(const Study& study, const optimizer::SettingsChoi
     if (study.scene.solver.accuracy > 0 && optimizer::buys_accuracy(study.scene, key)) held.push_back(key);
   std::string foreseen;
   if (choice.out_of_reach && std::isfinite(*choice.out_of_reach))
-    foreseen =
-        fmt::format("; no settings are foreseen to leave less than {:.3g} times what was asked", *choice.out_of_reach);
+    foreseen = *choice.out_of_reach < 1.05
+                   ? "; no settings are foreseen to leave less than what was asked"
+                   : fmt::format("; no settings are foreseen to leave less than {:.3g} times what was asked",
+                                 *choice.out_of_reach);
+  if (choice.ran_idle) foreseen = "; the last rounds, at other settings, were no more accurate than those before";
   if (choice.work_refused)
     foreseen = fmt::format(
         "; the next settings would bring the work of choosing from {:.3g} to {:.3g} times that of an evaluation at "

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "optimizer/responses/response_table.hpp"
@@ -220,19 +221,39 @@ TEST(Accuracy, OutOfReachOfEverySettingCostsTwoRounds) {
   EXPECT_FALSE(choose_settings(Scene{}, kGoal, Laws{}.probe()).out_of_reach);
 }
 
-// Bars that promise to fall and hardly do: the work of the rounds is limited, and what they found stays.
+// Bars that scatter, larger on finer settings: rounds that bring nothing end it, long before the last.
+TEST(Accuracy, RoundsThatBringNothingEndIt) {
+  const Laws laws{.mesh = 0.05, .harmonics = 0.05};
+  int calls = 0;
+  const SettingsChoice choice = choose_settings(Scene{}, kGoal, [&](const Settings& s) {
+    AccuracyAnswer answer = laws.probe()(s);
+    constexpr std::array kScatter{1.0, 0.5, 0.3, 0.6, 0.45, 0.7, 0.4, 0.8, 0.5, 0.6};
+    const double scale = kScatter.at(static_cast<std::size_t>(calls++));
+    const double sum = laws.sum(s);
+    for (auto& [source, bar] : answer.evaluation.error_sources[kVolume])
+      bar *= scale * laws.sum(settings_of(Scene{})) / sum;
+    return answer;
+  });
+  EXPECT_LE(calls, 6);
+  EXPECT_TRUE(choice.ran_idle);
+  EXPECT_EQ(choice.status, Status::iteration_limit);
+  EXPECT_FALSE(choose_settings(Scene{}, kGoal, Laws{}.probe()).ran_idle);
+}
+
+// Bars that fall by less than they promise: the work of the rounds is limited, and what they found stays.
 TEST(Accuracy, TheWorkOfAChoiceIsLimited) {
   const Laws laws{.mesh = 0.05, .harmonics = 0.05};
-  // Each round leaves 5 % less than the one before, whatever it was asked for.
+  // Each round leaves a third less than the one before, whatever it was asked for.
   const auto choose = [&](double work) {
     Scene scene;
     scene.solver.accuracy_work = work;
     double scale = 1;
     return choose_settings(scene, kGoal, [&](const Settings& s) {
       AccuracyAnswer answer = laws.probe()(s);
-      scale *= 0.95;
+      scale *= 0.65;
       const double sum = laws.sum(s);
-      for (auto& [source, bar] : answer.evaluation.error_sources[kVolume]) bar *= scale * laws.sum(Settings{}) / sum;
+      for (auto& [source, bar] : answer.evaluation.error_sources[kVolume])
+        bar *= scale * laws.sum(settings_of(Scene{})) / sum;
       return answer;
     });
   };
@@ -241,11 +262,11 @@ TEST(Accuracy, TheWorkOfAChoiceIsLimited) {
     for (const SettingsTried& round : choice.rounds) sum += round.operations;
     return sum / choice.rounds.front().operations;
   };
-  const SettingsChoice all = choose(0), some = choose(2);
-  EXPECT_EQ(all.status, Status::iteration_limit);
-  EXPECT_GT(spent(all), 2);
+  const SettingsChoice all = choose(0), some = choose(4);
+  EXPECT_NE(all.status, Status::budget_spent);
+  EXPECT_GT(spent(all), 4);
   EXPECT_EQ(some.status, Status::budget_spent);
-  EXPECT_LE(spent(some), 2);
+  EXPECT_LE(spent(some), 4);
   EXPECT_GT(some.rounds.size(), 1U);
   EXPECT_LT(some.rounds.size(), all.rounds.size());
   ASSERT_TRUE(some.tried.by);
