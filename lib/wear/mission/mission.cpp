@@ -1,0 +1,198 @@
+#include "wear/mission/mission.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "wear/measures.hpp"
+#include "wear/no_wear.hpp"
+#include "wear/release/passes.hpp"
+#include "wear/wearing_joint.hpp"
+
+namespace dovetail::wear {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+bool same(const VectorXd& a, const VectorXd& b, double tolerance) {
+  return (a - b).cwiseAbs().maxCoeff() <= tolerance * std::max(largest(a), largest(b));
+}
+
+/// All loads on the same flanks.
+class MissionSearch {
+ public:
+  MissionSearch(std::span<const MissionLoad> loads, const MissionOptions& options, const Watcher& watcher)
+      : loads_(loads), options_(options), watcher_(watcher) {
+    for (const MissionLoad& load : loads_) joints_.emplace_back(load.joint, load.omega, watcher_);
+  }
+
+  [[nodiscard]] Mission run() {
+    if (begin() && release() && (certify() || result_.status == Status::stalled)) look_at_the_order();
+    for (const WearingJoint& joint : joints_) result_.solves += joint.solves();
+    return std::move(result_);
+  }
+
+ private:
+  [[nodiscard]] bool ended(std::size_t load, Status status, Verdict verdict = Verdict::not_converged) {
+    result_.failed = load;
+    result_.status = status;
+    result_.verdict = verdict;
+    return false;
+  }
+
+  /// Every load on the flanks as they are.
+  [[nodiscard]] bool begin() {
+    const Index nodes = loads_.front().joint.model->nodes();
+    result_.released.assign(static_cast<std::size_t>(nodes), false);
+    result_.depth = VectorXd::Zero(nodes);
+    for (std::size_t k = 0; k < joints_.size(); ++k) {
+      start_ = k == 0 ? joints_[k].start() : VectorXd(start_.cwiseMax(joints_[k].start()));
+      steady::State state = joints_[k].worn(joints_[k].start(), {});
+      if (state.status != Status::converged) return ended(k, state.status);
+      const double none = no_wear_rate(options_.asymptote.rate_threshold, joints_[k].model(), state);
+      fastest_.push_back(largest(state.wear_rate));
+      thresholds_.push_back(std::max(none, options_.asymptote.relative_threshold * fastest_.back()));
+      result_.states.push_back(std::move(state));
+    }
+    return true;
+  }
+
+  [[nodiscard]] bool release() {
+    for (int pass = 0;; ++pass) {
+      std::vector<bool> next = result_.released;
+      bool slipping = false;
+      for (std::size_t k = 0; k < joints_.size(); ++k) {
+        const std::vector<bool> slips = wear_off(result_.states[k], result_.released, thresholds_[k]);
+        for (std::size_t i = 0; i < next.size(); ++i)
+          if (slips[i]) next[i] = slipping = true;
+      }
+      if (!slipping) break;
+      if (pass >= options_.asymptote.passes) return ended(0, Status::iteration_limit);
+      for (std::size_t k = 0; k < joints_.size(); ++k) {
+        bool held = false;
+        for (std::size_t i = 0; i < next.size(); ++i)
+          held = held || (!next[i] && result_.states[k].nodes[i].carries_load);
+        steady::State state = joints_[k].released(next, result_.states[k].displacement, !held);
+        if (state.status != Status::converged)
+          return held || cut_short(state.status) ? ended(k, state.status)
+                                                 : ended(k, Status::converged, Verdict::no_asymptote);
+        result_.states[k] = std::move(state);
+      }
+      result_.released = std::move(next);
+    }
+    VectorXd depth = start_;
+    for (std::size_t k = 0; k < joints_.size(); ++k)
+      depth = depth.cwiseMax(joints_[k].depth(result_.released, result_.states[k]));
+    set_depth(depth);
+    return true;
+  }
+
+  void set_depth(const VectorXd& depth) {
+    result_.depth = depth;
+    result_.worn_volume = worn_volume(joints_.front().model().contact(), depth);
+    result_.largest_depth = largest(depth);
+    result_.least_volume = result_.largest_volume = result_.worn_volume;
+  }
+
+  /// Every load once more, with contact everywhere: it wears no further.
+  [[nodiscard]] bool certify() {
+    for (std::size_t k = 0; k < joints_.size(); ++k) {
+      steady::State state = joints_[k].worn(result_.depth, result_.states[k].displacement);
+      if (state.status != Status::converged) return ended(k, state.status);
+      const double allowed = std::max(thresholds_[k], options_.asymptote.certificate_limit * fastest_[k]);
+      if (largest(state.wear_rate) > allowed) return ended(k, Status::stalled);
+      result_.states[k] = std::move(state);
+    }
+    result_.verdict = Verdict::asymptote;
+    return true;
+  }
+
+  /// Each load in turn, until it has come to rest, where in doubt by its history.
+  [[nodiscard]] std::optional<VectorXd> in_turn(bool reversed) {
+    AsymptoteOptions alone = options_.asymptote;
+    alone.certify_finer = false;
+    VectorXd depth = start_;
+    for (int round = 0; round < options_.rounds; ++round) {
+      const VectorXd before = depth;
+      for (std::size_t i = 0; i < loads_.size(); ++i) {
+        const MissionLoad& load = loads_[reversed ? loads_.size() - 1 - i : i];
+        const Asymptote rest = asymptote(load.joint.worn(depth), load.omega, alone, nullptr, watcher_);
+        result_.solves += rest.solves;
+        if (rest.verdict != Verdict::asymptote) return {};
+        depth = rest.depth;
+      }
+      if (same(before, depth, options_.unchanged)) return depth;
+    }
+    return {};
+  }
+
+  /// Where what all loads release together does not rest - pressures shift, and nodes touch that were free - the flanks
+  /// are those that the loads leave in turn.
+  void look_at_the_order() {
+    for (const bool reversed : {false, true}) {
+      const std::optional<VectorXd> depth = in_turn(reversed);
+      if (!depth) continue;
+      if (result_.verdict != Verdict::asymptote) {
+        set_depth(*depth);
+        if (!certify()) return;
+        result_.failed.reset();
+        result_.status = Status::converged;
+      }
+      const double volume = worn_volume(joints_.front().model().contact(), *depth);
+      result_.least_volume = std::min(result_.least_volume, volume);
+      result_.largest_volume = std::max(result_.largest_volume, volume);
+      if (!same(*depth, result_.depth, options_.state_tolerance)) result_.order_matters = true;
+    }
+  }
+
+  std::span<const MissionLoad> loads_;
+  const MissionOptions& options_;
+  const Watcher& watcher_;
+  std::vector<WearingJoint> joints_;
+  std::vector<double> fastest_, thresholds_;  // of each load, m per cycle
+  VectorXd start_;
+  Mission result_;
+};
+
+}  // namespace
+
+Mission mission(std::span<const MissionLoad> loads, const MissionOptions& options, const Watcher& watcher) {
+  if (std::vector<Violation> wrong = violations(options.asymptote, "asymptote"); !wrong.empty())
+    throw InputError(std::move(wrong));
+  return MissionSearch(loads, options, watcher).run();
+}
+
+MissionHistory mission_history(std::span<const MissionLoad> loads, const MissionHistoryOptions& options,
+                               const Watcher& watcher) {
+  MissionHistory result;
+  std::vector<WearingJoint> joints;
+  double shares = 0;
+  for (const MissionLoad& load : loads) {
+    joints.emplace_back(load.joint, load.omega, watcher);
+    shares += load.share;
+  }
+  std::vector<Eigen::MatrixXd> last(loads.size());
+  VectorXd depth = VectorXd::Zero(loads.front().joint.model->nodes());
+  for (const WearingJoint& joint : joints) depth = depth.cwiseMax(joint.start());
+  double first = 0;
+  for (; result.steps < options.steps && !watcher.stopped(); ++result.steps) {
+    VectorXd rate = VectorXd::Zero(depth.size());
+    for (std::size_t k = 0; k < loads.size(); ++k) {
+      const steady::State state = joints[k].worn(depth, last[k]);
+      result.status = state.status;
+      if (state.status != Status::converged) return result;
+      last[k] = state.displacement;
+      rate += loads[k].share / shares * state.wear_rate;
+    }
+    first = std::max(first, largest(rate));
+    result.at_rest = largest(rate) <= options.rate_fraction * first;
+    if (result.at_rest) break;
+    depth += cycle_jump(rate, options.increment) * rate;
+  }
+  result.depth = depth;
+  result.worn_volume = worn_volume(joints.front().model().contact(), depth);
+  return result;
+}
+
+}  // namespace dovetail::wear
