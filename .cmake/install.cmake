@@ -6,7 +6,7 @@ install(TARGETS ${targets} EXPORT dovetailTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
   FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/dovetail)
 if(TARGET dovetail_program)
-  install(TARGETS dovetail_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(TARGETS dovetail_program dovetail_mpi_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/dovetail)

@@ -11,12 +11,6 @@ namespace dovetail::optimizer {
 
 namespace {
 
-geometry::Feasibility feasibility_of(const Scene& scene) {
-  geometry::FeasibilityLimits limits = scene.limits;
-  limits.friction = scene.contact.friction;
-  return scene.kind->feasibility(scene, limits);
-}
-
 std::string first_broken(const geometry::Feasibility& feasibility, std::vector<std::string>& messages) {
   for (const geometry::Rule& rule : feasibility.rules)
     if (rule.margin < 0) messages.push_back(rule.sentence);
@@ -43,6 +37,12 @@ std::map<std::string, double> sizes_of(const Scene& scene, const CandidateModel&
 }
 
 }  // namespace
+
+geometry::Feasibility feasibility_of(const Scene& scene) {
+  geometry::FeasibilityLimits limits = scene.limits;
+  limits.friction = scene.contact.friction;
+  return scene.kind->feasibility(scene, limits);
+}
 
 SharedBudget new_budget(const SolverSettings& solver, const CandidateModel& candidate, double times) {
   return std::make_shared<Budget>(

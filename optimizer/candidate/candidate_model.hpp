@@ -44,6 +44,9 @@ struct CandidateModel {
   [[nodiscard]] bool infeasible() const { return outcome_of(status) == Outcome::infeasible; }
 };
 
+/// The geometric rules of a scene.
+[[nodiscard]] geometry::Feasibility feasibility_of(const Scene& scene);
+
 /// Lays contact nodes on the trace of a candidate whose matrices are there, in place of those it has: reduced model and
 /// preload. A stage that fails is named in its status. Cost: dense algebra of their number and a preload.
 void lay_contact(const Scene& scene, const std::vector<fem::FlankCells>& flanks, CandidateModel& candidate);

@@ -193,6 +193,16 @@ bool shares_matrices(std::string_view key) {
   return key.starts_with("contact.") && !key.ends_with("_n_per_m3");  // but the springs of rough flanks
 }
 
+bool share_matrices(const LoadCase& one, const LoadCase& other) {
+  const auto unshared = [](const LoadCase& load) {
+    std::map<std::string, std::pair<double, double>> changes;
+    for (const auto& [key, value, times] : load.changes)
+      if (!shares_matrices(key)) changes[key] = {value, times};
+    return changes;
+  };
+  return unshared(one) == unshared(other);
+}
+
 Eigen::SparseMatrix<double> DesignMatrices::stiffness() const {
   if (change.size() == 0) return shared->stiffness;
   return shared->stiffness + change;

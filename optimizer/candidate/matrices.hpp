@@ -12,6 +12,7 @@
 #include "fem/contact_cells.hpp"
 #include "fem/sector_system.hpp"
 #include "numerics/partial_cholesky.hpp"
+#include "optimizer/problem/load_case.hpp"
 #include "optimizer/problem/outcome.hpp"
 #include "optimizer/scene/scene.hpp"
 #include "reduction/massless_boundary.hpp"
@@ -94,6 +95,9 @@ struct DesignMatrices {
 
 /// Whether designs that differ by this key of a study file alone share their matrices.
 [[nodiscard]] bool shares_matrices(std::string_view key);
+
+/// Whether a design has the same in both cases, but for what its own preload changes.
+[[nodiscard]] bool share_matrices(const LoadCase& one, const LoadCase& other);
 
 /// Everything that they follow from.
 struct MatricesOf {

@@ -24,14 +24,21 @@ std::string fingerprint(const Problem& problem, const OptimizerOptions& options,
   // Each piece carries its length, so that no two different lists read alike.
   const auto word = [&](std::string_view piece) { text += std::to_string(piece.size()) + ":" + std::string(piece); };
   const auto number = [&](double value) { word(shortest(value)); };
+  // Nothing where there are no cases: runs from before there were some can be resumed.
+  const auto over = [&](const std::string& rule) {
+    if (!problem.cases.empty()) word(rule);
+  };
   for (const DesignVariable& v : problem.space.variables()) {
     word(v.key);
+    for (const std::string& key : v.also) word(key);
     for (const double value : {v.lower, v.upper, v.start}) number(value);
   }
   text += ";objective";
   for (const ObjectiveTerm& term : problem.objective) {
     word(term.response);
     for (const double value : {term.weight, term.scale, term.absolute ? 1.0 : 0.0}) number(value);
+    if (term.target != 0) number(term.target);
+    over(term.over);
   }
   text += ";constraints";
   for (const ResponseConstraint& c : problem.constraints) {
@@ -39,10 +46,22 @@ std::string fingerprint(const Problem& problem, const OptimizerOptions& options,
     word(c.lower ? shortest(*c.lower) : "none");
     word(c.upper ? shortest(*c.upper) : "none");
     for (const double value : {c.scale, c.absolute ? 1.0 : 0.0}) number(value);
+    over(c.over);
+  }
+  if (!problem.cases.empty()) number(problem.quantile);
+  for (const LoadCase& load : problem.cases) {
+    word(";case");
+    word(load.name);
+    number(load.weight);
+    for (const auto& [key, value, times] : load.changes) {
+      word(key);
+      number(value);
+      number(times);
+    }
   }
   text += ";options";
   for (const Field<OptimizerOptions>& field : option_table<OptimizerOptions>()) {
-    if (field.key == "max_evaluations" || field.key == "restarts" || field.key == "threads" ||
+    if (field.key == "max_evaluations" || field.key == "restarts" || field.key == "departures" ||
         field.key.starts_with("verify"))
       continue;
     word(field.key);

@@ -17,7 +17,7 @@ namespace dovetail::optimizer {
 
 /// Identifies what a journal's evaluations and their order depend on: the problem, the options that move candidates,
 /// and `physics`, the text that fixes what the evaluator computes (the study file without [optimizer], or any other).
-/// max_evaluations, restarts and threads are left out: a run may be continued with a larger budget.
+/// max_evaluations, restarts and what follows the search are left out: a run may be continued with a larger budget.
 [[nodiscard]] std::string fingerprint(const Problem& problem, const OptimizerOptions& options,
                                       std::string_view physics = {});
 

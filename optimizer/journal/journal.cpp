@@ -9,6 +9,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
@@ -177,6 +178,22 @@ Journal& Journal::operator=(Journal&& other) noexcept {
 
 Journal::~Journal() {
   if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+std::size_t merge_journals(std::span<const std::filesystem::path> from, const std::filesystem::path& to) {
+  std::vector<JournalContents> contents;
+  for (const std::filesystem::path& file : from) {
+    contents.push_back(read_journal(file));
+    if (contents.back().fingerprint != contents.front().fingerprint)
+      refuse(file, 1, contents.back().fingerprint,
+             "must belong to the same study as " + from.front().string() + " (" + contents.front().fingerprint + ")");
+  }
+  Journal journal = Journal::create(to, contents.front().fingerprint);
+  std::set<std::vector<double>> known;
+  for (const JournalContents& each : contents)
+    for (const JournalRecord& record : each.records)
+      if (known.insert(record.x).second) journal.append(record.x, record.evaluation);
+  return journal.size();
 }
 
 void Journal::append(std::span<const double> x, const Evaluation& evaluation) {

@@ -71,4 +71,9 @@ class Journal {
   std::size_t size_ = 0;
 };
 
+/// Writes a journal with the records of several of one study, each point once, the first to have it first. InputError
+/// when they are of different studies, or as for read_journal.
+/// @return how many records it has
+std::size_t merge_journals(std::span<const std::filesystem::path> from, const std::filesystem::path& to);
+
 }  // namespace dovetail::optimizer

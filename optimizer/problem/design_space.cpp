@@ -17,8 +17,11 @@ DesignSpace::DesignSpace(std::vector<DesignVariable> variables) : variables_(std
     const std::string at = v.key.empty() ? "variable" : v.key;
     if (v.key.empty())
       found.push_back({.file = {}, .key = "variable", .value = "", .allowed = "must name the key it varies"});
-    if (!seen.insert(v.key).second)
-      found.push_back({.file = {}, .key = at, .value = v.key, .allowed = "must be varied only once"});
+    std::vector<std::string> keys{v.key};
+    keys.insert(keys.end(), v.also.begin(), v.also.end());
+    for (const std::string& key : keys)
+      if (!seen.insert(key).second)
+        found.push_back({.file = {}, .key = at, .value = key, .allowed = "must be varied only once"});
     if (!std::isfinite(v.lower) || !std::isfinite(v.upper) || !(v.lower < v.upper) ||
         !std::isfinite(v.upper - v.lower)) {
       found.push_back({.file = {},
@@ -39,6 +42,15 @@ std::vector<std::string> DesignSpace::keys() const {
   std::vector<std::string> keys;
   for (const DesignVariable& v : variables_) keys.push_back(v.key);
   return keys;
+}
+
+std::map<std::string, double> DesignSpace::settings(std::span<const double> values) const {
+  std::map<std::string, double> settings;
+  for (std::size_t i = 0; i < variables_.size(); ++i) {
+    settings[variables_[i].key] = values[i];
+    for (const std::string& key : variables_[i].also) settings[key] = values[i];
+  }
+  return settings;
 }
 
 std::vector<double> DesignSpace::start() const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,8 +12,9 @@ namespace dovetail::optimizer {
 struct DesignVariable {
   std::string key;  ///< dotted path in the study file, e.g. "geometry.flank_mismatch_um"
   double lower = 0;
-  double upper = 1;  ///< > lower
-  double start = 0;  ///< within [lower, upper]
+  double upper = 1;                    ///< > lower
+  double start = 0;                    ///< within [lower, upper]
+  std::vector<std::string> also = {};  ///< other keys that have its value
 };
 
 /// The box the optimiser searches. Algorithms work in unit coordinates u in [0,1]^n, everything else in file units:
@@ -26,6 +28,8 @@ class DesignSpace {
   [[nodiscard]] std::size_t size() const { return variables_.size(); }
   [[nodiscard]] const std::vector<DesignVariable>& variables() const { return variables_; }
   [[nodiscard]] std::vector<std::string> keys() const;
+  /// What a point sets: every key, and those that have its value.
+  [[nodiscard]] std::map<std::string, double> settings(std::span<const double> values) const;
   /// Start values, file units.
   [[nodiscard]] std::vector<double> start() const;
 

@@ -73,10 +73,6 @@ Fields fields_of_candidates() {
        .member = &O::responses,
        .help = "What a candidate answers with: needed stops after the stage that the last response of objective and "
                "constraints takes, all goes through wear to the worn resonance."},
-      {.key = "threads",
-       .member = &O::threads,
-       .range = {.lower = 1},
-       .help = "Candidates evaluated at once where several are known; does not change the result."},
       {.key = "finer_meshes",
        .member = &O::finer_meshes,
        .range = {.lower = 0, .upper = 4},
@@ -88,6 +84,9 @@ Fields fields_of_candidates() {
        .help = "Best designs that `run` verifies after the search: by the full history at its settings, and directly "
                "at finer "
                "ones."},
+      {.key = "departures",
+       .member = &O::departures,
+       .help = "After the search best design and start are looked at with other friction, force, speed and mismatch."},
       {.key = "verify_accuracy",
        .member = &O::verify_accuracy,
        .range = {.lower = kAccuracyRange.lower, .upper = kAccuracyRange.upper, .zero = "settings of the search"},

@@ -74,10 +74,10 @@ struct OptimizerOptions {
   double constraint_margin = 1e-4;  ///< >= 0; algorithms aim at c <= -margin, so that they end on the right side
   Difference difference = Difference::forward;
   Answers responses = Answers::needed;
-  int threads = 1;  ///< >= 1; candidates evaluated at once where several are known
   int finer_meshes =
       2;           ///< >= 0; meshes, each twice as fine as the last, on which the best design must keep its limits
   int verify = 3;  ///< >= 0; best designs verified by the full wear history after the search
+  bool departures = true;      ///< after the search: how far do start and best design hold where the scene is another
   double verify_accuracy = 0;  ///< bar over value of what is handed over; 0: at the settings of the search
 };
 

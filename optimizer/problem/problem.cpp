@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <string_view>
 
@@ -14,11 +15,40 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
+using Values = std::map<std::string, double>;
+
+double value_of(const Values& values, const std::string& name) {
+  const auto found = values.find(name);
+  return found == values.end() ? kNaN : found->second;
+}
+
+/// `factor` times what `size` makes of a response, over all cases: larger ones are worse.
+template <class Size>
+Barred over_all(const Problem& problem, const std::string& response, const std::string& over, double factor,
+                const Values& responses, const Values& bars, const Size& size) {
+  const auto in = [&](std::string_view load_case) {
+    const std::string name = of_case(response, load_case);
+    return Barred{.value = factor * size(value_of(responses, name)), .bar = std::abs(factor) * value_of(bars, name)};
+  };
+  if (problem.cases.empty()) return in({});
+  std::vector<Barred> numbers;
+  for (const LoadCase& each : problem.cases) numbers.push_back(in(each.name));
+  return over_cases(over, problem.cases, numbers, problem.quantile);
+}
+
 /// One side of a ResponseConstraint: c = sign (r - limit)/scale.
 struct Limit {
   const ResponseConstraint* of;
   double limit, scale, sign;
-  [[nodiscard]] std::string name() const { return of->response + (sign > 0 ? ":upper" : ":lower"); }
+  [[nodiscard]] std::string name() const {
+    const bool by_worst = of->over == to_string(Over::worst);
+    return of_case(of->response, by_worst ? "" : of->over) + (sign > 0 ? ":upper" : ":lower");
+  }
+  [[nodiscard]] Barred value(const Problem& problem, const Values& responses, const Values& bars) const {
+    const auto [r, bar] = over_all(problem, of->response, of->over, sign, responses, bars,
+                                   [this](double value) { return of->absolute ? std::abs(value) : value; });
+    return {.value = (r - sign * limit) / scale, .bar = bar / scale};
+  }
 };
 
 std::vector<Limit> limits(const Problem& problem) {
@@ -33,14 +63,12 @@ std::vector<Limit> limits(const Problem& problem) {
   return all;
 }
 
-double scale_of(const ObjectiveTerm& term) {
-  return term.scale > 0 ? term.scale : 1.0;
-}
-
-double response(const Evaluation& evaluation, const std::string& name, bool absolute) {
-  const auto found = evaluation.responses.find(name);
-  if (found == evaluation.responses.end()) return kNaN;
-  return absolute ? std::abs(found->second) : found->second;
+/// What of an evaluation answers for a response: in every case, or in the one.
+std::vector<std::string> answers_of(const Problem& problem, const std::string& response) {
+  if (problem.cases.empty()) return {response};
+  std::vector<std::string> names;
+  for (const LoadCase& each : problem.cases) names.push_back(of_case(response, each.name));
+  return names;
 }
 
 std::vector<Violation> violations_of_terms(const Problem& problem) {
@@ -51,6 +79,7 @@ std::vector<Violation> violations_of_terms(const Problem& problem) {
   for (const ObjectiveTerm& term : problem.objective) {
     const std::string at = "objective." + term.response;
     if (term.response.empty()) wrong("objective.response", "", "must name a response");
+    if (!std::isfinite(term.target)) wrong(at + ".aim", shortest(term.target), kAnyNumber.phrase());
     if (!std::isfinite(term.weight) || term.weight == 0)
       wrong(at + ".weight", shortest(term.weight), "must be a finite number other than 0");
     if (!(std::isfinite(term.scale) && term.scale >= 0)) wrong(at + ".scale", shortest(term.scale), kPositive.phrase());
@@ -115,11 +144,10 @@ Judgement judge(const Problem& problem, const Evaluation& evaluation, double tol
   Judgement judgement;
   bool finite = evaluation.converged();
   for (const ObjectiveTerm& term : problem.objective)
-    judgement.objective += term.weight * response(evaluation, term.response, term.absolute) / scale_of(term);
+    judgement.objective += term_value(problem, term, evaluation.responses, {}).value;
   finite = finite && std::isfinite(judgement.objective);
   for (const Limit& limit : limits(problem)) {
-    const double r = response(evaluation, limit.of->response, limit.of->absolute);
-    judgement.constraints.push_back(limit.sign * (r - limit.limit) / limit.scale);
+    judgement.constraints.push_back(limit.value(problem, evaluation.responses, {}).value);
     finite = finite && std::isfinite(judgement.constraints.back());
   }
   judgement.computed = finite;
@@ -150,21 +178,28 @@ Judgement judge(const Problem& problem, const Evaluation& evaluation, double tol
   return judgement;
 }
 
-JudgementBars judgement_bars(const Problem& problem, const std::map<std::string, double>& error_estimates) {
-  const auto bar = [&](const std::string& response) {
-    const auto found = error_estimates.find(response);
-    return found == error_estimates.end() ? kNaN : found->second;
-  };
+Barred term_value(const Problem& problem, const ObjectiveTerm& term, const Values& responses, const Values& bars) {
+  const double scale = term.scale > 0 ? term.scale : 1.0;
+  const auto [value, bar] = over_all(problem, term.response, term.over, term.weight, responses, bars,
+                                     [&](double r) { return term.absolute ? std::abs(r - term.target) : r; });
+  return {.value = value / scale, .bar = bar / scale};
+}
+
+JudgementBars judgement_bars(const Problem& problem, const Values& responses, const Values& error_estimates) {
   JudgementBars bars;
   for (const ObjectiveTerm& term : problem.objective)
-    bars.objective += std::abs(term.weight) * bar(term.response) / scale_of(term);
-  for (const Limit& limit : limits(problem)) bars.constraints.push_back(bar(limit.of->response) / limit.scale);
+    bars.objective += term_value(problem, term, responses, error_estimates).bar;
+  for (const Limit& limit : limits(problem))
+    bars.constraints.push_back(limit.value(problem, responses, error_estimates).bar);
   return bars;
 }
 
 void annotate(const Problem& problem, double tolerance, Evaluation& evaluation) {
   if (evaluation.converged()) {
-    for (const std::string& name : responses_of(problem)) {
+    std::vector<std::string> names;
+    for (const std::string& name : responses_of(problem))
+      std::ranges::move(answers_of(problem, name), std::back_inserter(names));
+    for (const std::string& name : names) {
       const auto found = evaluation.responses.find(name);
       if (found != evaluation.responses.end() && std::isfinite(found->second)) continue;
       evaluation.status =
@@ -179,10 +214,13 @@ void annotate(const Problem& problem, double tolerance, Evaluation& evaluation) 
   evaluation.feasible = judgement.feasible;
   evaluation.undecided_constraints.clear();
   const std::vector<Limit> all = limits(problem);
-  const JudgementBars bars = judgement_bars(problem, evaluation.error_estimates);
+  const JudgementBars bars = judgement_bars(problem, evaluation.responses, evaluation.error_estimates);
+  const auto unbounded = [&](const std::string& name) {
+    return std::ranges::find(evaluation.unbounded, name) != evaluation.unbounded.end();
+  };
   for (std::size_t j = 0; judgement.computed && j < all.size(); ++j)
     if (std::abs(judgement.constraints[j]) < bars.constraints[j] ||
-        std::ranges::find(evaluation.unbounded, all[j].of->response) != evaluation.unbounded.end())
+        std::ranges::any_of(answers_of(problem, all[j].of->response), unbounded))
       evaluation.undecided_constraints.push_back(names[j]);
 }
 

@@ -10,16 +10,19 @@
 
 #include "optimizer/problem/design_space.hpp"
 #include "optimizer/problem/evaluation.hpp"
+#include "optimizer/problem/load_case.hpp"
 
 namespace dovetail::optimizer {
 
-/// One term of the objective: `weight * r / scale`, or `weight * |r| / scale` when `absolute`.
+/// One term of the objective: `weight * r / scale`, or `weight * |r - target| / scale` when `absolute`.
 struct ObjectiveTerm {
   std::string response;   ///< e.g. "asymptotic_wear_volume_m3"
   double weight = 1;      ///< negative: the response is maximised
   double scale = 0;       ///< > 0, in the response's SI unit; 0: not given, allowed (and then 1) for a single term only
-  bool absolute = false;  ///< of the magnitude, e.g. of resonance_drift; has a kink at r = 0
+  bool absolute = false;  ///< of the distance from the target, e.g. of resonance_drift from 0; has a kink there
   double accuracy = 0;    ///< asked of the response, relative; 0: as of the others
+  double target = 0;      ///< of an absolute one
+  std::string over{to_string(Over::worst)};  ///< see over_cases; of no interest without cases
 };
 
 /// Limits on one response. Each gives a smooth normalised c <= 0:
@@ -30,6 +33,7 @@ struct ResponseConstraint {
   double scale = 0;                    ///< > 0, needed when a limit is 0; 0: |limit|
   bool absolute = false;               ///< limits |r|
   double accuracy = 0;                 ///< asked of the response, relative; 0: as of the others
+  std::string over{to_string(Over::worst)};
   /// What the distance from one of its limits is divided by.
   [[nodiscard]] double scale_at(double limit) const { return scale > 0 ? scale : std::abs(limit); }
 };
@@ -39,6 +43,10 @@ struct Problem {
   DesignSpace space;
   std::vector<ObjectiveTerm> objective;
   std::vector<ResponseConstraint> constraints;
+  /// Empty: a design has one load, that of the study. Otherwise an evaluation has responses of every case under the
+  /// names of of_case, and under the plain ones those of the first case.
+  std::vector<LoadCase> cases;
+  double quantile = 0.95;  ///< in (0, 1): the share that stays below where a term counts the quantile
 };
 
 /// Throws InputError with everything wrong in the terms and limits there are (non-finite weights, missing limits, zero
@@ -50,7 +58,8 @@ void check(const Problem& problem);
 /// Responses that the objective and the constraints name, in this order, each once.
 [[nodiscard]] std::vector<std::string> responses_of(const Problem& problem);
 
-/// Names of the response constraints in the order algorithms see them: "peak_amplitude_m:upper", ...
+/// Names of the response constraints in the order algorithms see them: "peak_amplitude_m:upper", of one case or over
+/// all in another way than by the worst "peak_amplitude_m@idle:upper", ...
 [[nodiscard]] std::vector<std::string> constraint_names(const Problem& problem);
 
 /// Prefix of geometric rules in Evaluation::constraints; c = -margin, normalised, c <= 0 is met. Exactly 0 says that
@@ -73,13 +82,18 @@ struct Judgement {
 [[nodiscard]] Judgement judge(const Problem& problem, const Evaluation& evaluation, double tolerance,
                               std::span<const double> shifts = {});
 
+/// What a term comes to, and by how much it may be off; NaN where that is not known.
+[[nodiscard]] Barred term_value(const Problem& problem, const ObjectiveTerm& term,
+                                const std::map<std::string, double>& responses,
+                                const std::map<std::string, double>& error_estimates);
+
 /// Error bars of responses as the objective and the constraints have them, order of constraint_names; NaN where there
 /// is none.
 struct JudgementBars {
   double objective = 0;
   std::vector<double> constraints = {};
 };
-[[nodiscard]] JudgementBars judgement_bars(const Problem& problem,
+[[nodiscard]] JudgementBars judgement_bars(const Problem& problem, const std::map<std::string, double>& responses,
                                            const std::map<std::string, double>& error_estimates);
 
 /// Writes what the problem makes of it into the evaluation: its constraints by name, `feasible` as the values say,

@@ -59,6 +59,7 @@ const Response kResonanceDrift{.name = "resonance_drift",
                                .mesh_order = {2.5},
                                .grid_order = 7.0 / 3,
                                .by_zone_ends = true,
+                               .either_sign = true,
                                .off = [](const CandidateResult&, const LeftOpen& open) -> std::optional<double> {
                                  if (!open.drift && !open.frequency) return {};
                                  return open.drift.value_or(0) + 2 * open.frequency.value_or(0);

@@ -49,7 +49,8 @@ struct Response {
   bool by_zone_ends = false;
   /// Coarser meshes do not resolve it: the bars of a study that is about it ask a finer one.
   bool by_finer_mesh = false;
-  bool amount = false;  ///< of which there may be nothing: a bar larger than the value says so
+  bool either_sign = false;  ///< good is to be near 0: as an objective it counts by its size unless told otherwise
+  bool amount = false;       ///< of which there may be nothing: a bar larger than the value says so
   /// Of the worn joint: the same of the unworn one. Of a joint that does not wear it is at least as uncertain.
   const Response* unworn = nullptr;
   /// By how much it is off where these are; nothing where it does not hang on them.

@@ -114,6 +114,16 @@ const Parameter* find_parameter(std::string_view key) {
   return nullptr;
 }
 
+std::vector<std::string> flank_keys(std::string_view key) {
+  std::vector<std::string> keys;
+  if (!key.starts_with(joined(kAllFlanks, "")) || key.find('.') != key.rfind('.')) return keys;
+  for (const geometry::FlankPlace& place : geometry::kFlanks) {
+    const std::string own = joined(joined(kAllFlanks, place.name), key.substr(key.find('.') + 1));
+    if (find_parameter(own) != nullptr) keys.push_back(own);
+  }
+  return keys;
+}
+
 void set_parameter(Scene& scene, std::string_view key, double value) {
   const Parameter* known = find_parameter(key);
   if (!known) throw InputError(unknown(key));

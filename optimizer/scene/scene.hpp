@@ -157,6 +157,9 @@ struct Parameter {
 /// The entry of scene_parameters() of that key, or nullptr.
 [[nodiscard]] const Parameter* find_parameter(std::string_view key);
 
+/// "geometry.left.KEY", ... of a key "geometry.KEY" of all flanks; nothing for others.
+[[nodiscard]] std::vector<std::string> flank_keys(std::string_view key);
+
 /// Sets the number of that key, given in the unit of the study file; "geometry.KEY" of a flank key sets
 /// all flanks, "contact.friction" also the friction of the self-locking rule. The disk's material stays when the
 /// blade's is set. Ranges are

@@ -49,12 +49,18 @@ struct FinerCheck {
   }
 };
 
+/// Evaluates many points at once and tells of each by its place as it is there, on this thread. When `told` returns
+/// false no more are begun.
+using BatchEvaluator = std::function<void(const std::vector<std::vector<double>>& points,
+                                          const std::function<bool(std::size_t place, Evaluation)>& told)>;
+
 /// What a run is connected to. All optional.
 struct RunHooks {
   Journal* journal = nullptr;                          ///< answers what it holds, records what is new
   std::function<void(const Progress&)> progress = {};  ///< may throw: the run ends and the exception reaches the caller
   const std::atomic<bool>* stop = nullptr;             ///< looked at between evaluations
   FinerEvaluator finer = {};                           ///< without: limits are kept on the mesh of the search alone
+  BatchEvaluator many = {};                            ///< in place of the evaluator: several candidates at once
   Journal* finer_journal = nullptr;                    ///< of it; x is followed by the level
 };
 
@@ -90,10 +96,9 @@ struct OptimizationResult {
 /// small steps. `best` then is a design that keeps its limits on all of them, and `feasible` of a Judgement says that
 /// its values leave room for the shifts.
 ///
-/// Same problem, options and evaluator give the same candidates bit by bit, whatever `threads` is. To resume, run
-/// again with the journal: it answers the candidates it holds, the algorithm takes the same path and continues it.
-/// The evaluator must be callable from several threads when options.threads > 1. What it throws reaches the caller;
-/// everything evaluated before is in the journal.
+/// Same problem, options and evaluator give the same candidates bit by bit, however many are computed at once. To
+/// resume, run again with the journal: it answers the candidates it holds, the algorithm takes the same path and
+/// continues it. What the evaluator throws reaches the caller; everything evaluated before is in the journal.
 ///
 /// Throws InputError for a wrong problem or options. Cost: max_evaluations evaluations; the rest is negligible.
 [[nodiscard]] OptimizationResult run_optimization(const Problem& problem, const Evaluator& evaluator,

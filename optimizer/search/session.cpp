@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <condition_variable>
-#include <mutex>
-#include <thread>
+#include <utility>
 
 #include "optimizer/search/params.hpp"
 
@@ -94,7 +92,7 @@ void EvaluationSession::compute(std::vector<Pending>& pending, const std::string
     else
       ++missing;
   }
-  if (options_.threads > 1 && missing > 1) return compute_in_parallel(pending, phase);
+  if (hooks_.many && missing > 0) return compute_at_once(pending, phase);
   for (Pending& candidate : pending) {
     stop_if_asked();
     if (candidate.known == nullptr) {
@@ -105,58 +103,31 @@ void EvaluationSession::compute(std::vector<Pending>& pending, const std::string
   }
 }
 
-void EvaluationSession::compute_in_parallel(std::vector<Pending>& pending, const std::string& phase) {
-  std::mutex mutex;
-  std::condition_variable finished;
-  std::size_t next = 0;
-  std::size_t working = std::min(pending.size(), static_cast<std::size_t>(options_.threads));
-  bool ending = false;
-  const auto work = [&] {
-    std::unique_lock lock(mutex);
-    while (!ending && next < pending.size()) {
-      Pending& candidate = pending[next++];
-      if (candidate.known == nullptr) {
-        ending = ending || (hooks_.stop != nullptr && hooks_.stop->load());
-        if (ending) break;
-        lock.unlock();
-        call_evaluator(candidate);
-        lock.lock();
-        ending = ending || candidate.error;
-      }
-      candidate.done = true;
-      finished.notify_all();
-    }
-    --working;
-    finished.notify_all();
+void EvaluationSession::compute_at_once(std::vector<Pending>& pending, const std::string& phase) {
+  stop_if_asked();
+  std::vector<std::vector<double>> asked;
+  std::vector<Pending*> places;
+  for (Pending& candidate : pending) {
+    candidate.done = candidate.known != nullptr;
+    if (candidate.done) continue;
+    asked.push_back(candidate.x);
+    places.push_back(&candidate);
+  }
+  // The first in order is recorded as soon as it is there: a crash loses at most what is under way.
+  auto next = pending.begin();
+  const auto commit_those_in_order = [&] {
+    for (; next != pending.end() && next->done; ++next) commit(*next, phase);
   };
-  std::exception_ptr error;
-  std::size_t committed = 0;
-  {
-    std::vector<std::jthread> workers;
-    for (std::size_t i = working; i > 0; --i) workers.emplace_back(work);
-    // The first in order is recorded as soon as it is there: a crash loses at most what is under way.
-    try {
-      for (; committed < pending.size(); ++committed) {
-        {
-          std::unique_lock lock(mutex);
-          finished.wait(lock, [&] { return pending[committed].done || working == 0; });
-          if (!pending[committed].done || pending[committed].error) break;
-        }
-        commit(pending[committed], phase);
-      }
-    } catch (...) {
-      error = std::current_exception();
-    }
-    const std::lock_guard lock(mutex);
-    ending = ending || error || committed < pending.size();
-  }
-  if (error) std::rethrow_exception(error);
-  for (; committed < pending.size(); ++committed) {
-    Pending& candidate = pending[committed];
-    if (candidate.error && !error) error = candidate.error;
-    if (candidate.done && !candidate.error) commit(candidate, phase);
-  }
-  if (error) std::rethrow_exception(error);
+  commit_those_in_order();
+  hooks_.many(asked, [&](std::size_t place, Evaluation evaluation) {
+    places[place]->evaluation = std::move(evaluation);
+    places[place]->done = true;
+    commit_those_in_order();
+    return hooks_.stop == nullptr || !hooks_.stop->load();
+  });
+  // Of a run that was stopped, also those behind one that was not begun.
+  for (; next != pending.end(); ++next)
+    if (next->done) commit(*next, phase);
   stop_if_asked();
 }
 
@@ -172,10 +143,7 @@ void EvaluationSession::commit(Pending& candidate, const std::string& phase) {
   const bool replayed = candidate.known != nullptr;
   if (replayed) candidate.evaluation = *candidate.known;
   Evaluation evaluation = std::move(candidate.evaluation);
-  if (evaluation.parameters.empty()) {
-    const std::vector<std::string> keys = problem_.space.keys();
-    for (std::size_t i = 0; i < keys.size(); ++i) evaluation.parameters[keys[i]] = candidate.x[i];
-  }
+  if (evaluation.parameters.empty()) evaluation.parameters = problem_.space.settings(candidate.x);
   // A response no evaluation has is a mistake in the study; one that is missing later is a failure of that candidate.
   if (evaluation.converged() && !responses_known_) {
     require_responses(problem_, evaluation);

@@ -31,8 +31,8 @@ class EvaluationSession {
   std::size_t evaluate_start();
   /// Index of the candidate at `unit`. Throws StopSearch, and whatever the evaluator throws.
   std::size_t evaluate(std::span<const double> unit, const std::string& phase);
-  /// The same for several, up to `threads` at once; recorded in the order given. When the budget ends on the way, those
-  /// within it are evaluated before StopSearch.
+  /// The same for several, at once where there are hooks for that; recorded in the order given. When the budget ends on
+  /// the way, those within it are evaluated before StopSearch.
   std::vector<std::size_t> evaluate_all(const std::vector<std::vector<double>>& units, const std::string& phase);
 
   /// Evaluations from now on end at this number of candidates, the options' max_evaluations at most.
@@ -68,7 +68,7 @@ class EvaluationSession {
     bool done = false;
   };
   void compute(std::vector<Pending>& pending, const std::string& phase);
-  void compute_in_parallel(std::vector<Pending>& pending, const std::string& phase);
+  void compute_at_once(std::vector<Pending>& pending, const std::string& phase);
   void call_evaluator(Pending& candidate) const;
   void commit(Pending& candidate, const std::string& phase);
   void judge_again();

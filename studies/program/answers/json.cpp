@@ -1,13 +1,39 @@
 #include "studies/program/answers/json.hpp"
 
 #include "optimizer/journal/evaluation_json.hpp"
+#include "optimizer/problem/load_case.hpp"
 #include "studies/program/engine/json_values.hpp"
 
 namespace dovetail::studies {
 
+namespace {
+
+/// What an evaluation has of each case under its own name.
+void take_cases_out(Json& json) {
+  Json cases = Json::object();
+  for (const char* field : {"responses", "error_estimates", "error_sources", "model", "timings_s"}) {
+    Json alone = Json::object();
+    for (const auto& [key, value] : json.at(field).items()) {
+      const auto [name, load_case] = optimizer::split_case(key);
+      (load_case.empty() ? alone : cases[std::string(load_case)][field])[std::string(name)] = value;
+    }
+    json[field] = std::move(alone);
+  }
+  Json unbounded = Json::array();
+  for (const Json& name : json.at("unbounded")) {
+    const auto [response, load_case] = optimizer::split_case(name.get_ref<const std::string&>());
+    (load_case.empty() ? unbounded : cases[std::string(load_case)]["unbounded"]).push_back(std::string(response));
+  }
+  json["unbounded"] = std::move(unbounded);
+  if (!cases.empty()) json["cases"] = std::move(cases);
+}
+
+}  // namespace
+
 std::string evaluation_json(const optimizer::Evaluation& evaluation, const nlohmann::ordered_json* accuracy) {
   Json json = json_of(evaluation);
   if (evaluation.derivatives.empty()) json.erase("derivatives");
+  take_cases_out(json);
   if (accuracy) json["accuracy"] = *accuracy;
   return text(json);
 }

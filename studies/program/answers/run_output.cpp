@@ -11,6 +11,7 @@
 #include "studies/program/answers/field_export.hpp"
 #include "studies/program/answers/geometry_export.hpp"
 #include "studies/program/answers/version.hpp"
+#include "studies/program/engine/engine.hpp"
 #include "studies/program/engine/settled_study.hpp"
 #include "studies/program/study_file/best_file.hpp"
 #include "studies/program/study_file/export.hpp"
@@ -23,16 +24,11 @@ using optimizer::OptimizationResult;
 using optimizer::Scene;
 
 std::map<std::string, double> variable_values(const Study& study, const optimizer::Candidate& candidate) {
-  std::map<std::string, double> values;
-  const std::vector<std::string> keys = study.problem.space.keys();
-  for (std::size_t i = 0; i < keys.size(); ++i) values[keys[i]] = candidate.x[i];
-  return values;
+  return study.problem.space.settings(candidate.x);
 }
 
 Scene scene_of(const Study& study, const optimizer::Candidate& candidate) {
-  Scene scene = study.scene;
-  for (const auto& [key, value] : variable_values(study, candidate)) optimizer::set_parameter(scene, key, value);
-  return scene;
+  return scene_at(study, candidate.x);
 }
 
 namespace {
@@ -107,7 +103,8 @@ WrittenRun record_of(const RunSite& site, OptimizationResult result, double seco
 }  // namespace
 
 WrittenRun write_run(const RunSite& site, const OptimizationResult& result, double seconds,
-                     const std::vector<report::VerificationRecord>& verifications) {
+                     const std::vector<report::VerificationRecord>& verifications,
+                     const std::vector<report::DepartureRecord>& departures) {
   const Study& study = site.study;
   // The design first: it costs nothing and must not be lost when describing it is cut short.
   if (result.best) {
@@ -118,6 +115,7 @@ WrittenRun write_run(const RunSite& site, const OptimizationResult& result, doub
   WrittenRun written = record_of(site, result, seconds);
   report::RunRecord& record = written.record;
   record.verifications = verifications;
+  record.departures = departures;
   report::write_results(site.directory / "results.h5", record);
   report::write_report(site.directory / "report.html", record);
   if (!result.best) return written;

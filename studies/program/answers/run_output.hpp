@@ -8,6 +8,7 @@
 
 #include "optimizer/accuracy/forecast.hpp"
 #include "optimizer/search/run.hpp"
+#include "optimizer/workers/worker_pool.hpp"
 #include "studies/program/engine/run_engine.hpp"
 
 namespace dovetail::studies {
@@ -22,6 +23,7 @@ struct RunSite {
   std::map<std::string, std::string> chosen = {};          ///< those that an accuracy chose, key -> value as text
   std::optional<optimizer::AccuracyGoal> goal = {};        ///< what is asked of start and best design
   std::map<std::size_t, optimizer::BarParts> raised = {};  ///< parts of bars of evaluations, by rounds of a choice
+  optimizer::WorkerPool* pool = nullptr;                   ///< who works on pieces, if there are others
 };
 
 struct WrittenRun {
@@ -33,7 +35,8 @@ struct WrittenRun {
 /// (when there is a feasible design), results.h5 and report.html. Each file whole or not at all. The start and the best
 /// design are recorded as evaluations with bars and the wear history have them.
 WrittenRun write_run(const RunSite& site, const optimizer::OptimizationResult& result, double seconds,
-                     const std::vector<report::VerificationRecord>& verifications);
+                     const std::vector<report::VerificationRecord>& verifications,
+                     const std::vector<report::DepartureRecord>& departures);
 
 /// The study's scene with the candidate's variables.
 [[nodiscard]] optimizer::Scene scene_of(const Study& study, const optimizer::Candidate& candidate);

@@ -9,9 +9,11 @@
 #include <ostream>
 #include <system_error>
 
+#include "optimizer/cases.hpp"
 #include "studies/program/answers/run_output.hpp"
 #include "studies/program/engine/engine.hpp"
 #include "studies/program/engine/json_values.hpp"
+#include "studies/program/engine/pieces.hpp"
 #include "studies/report/record/record_tables.hpp"
 
 namespace dovetail::studies {
@@ -104,31 +106,67 @@ std::vector<VerificationRecord> verify_best(const RunSite& site, const optimizer
   const fs::path file = site.directory / "verification.jsonl";
   const std::vector<Kept> before = kept_before(file, fingerprint);
   const std::vector<std::size_t> chosen = best_designs(study.problem, result, study.optimizer.verify);
-  wear::Watcher watcher;
-  watcher.stop = [&] { return interrupt.requested(); };
-  for (const std::size_t index : chosen) {
-    const optimizer::Candidate& candidate = result.evaluations[index];
-    const auto known =
-        std::find_if(before.begin(), before.end(), [&](const Kept& kept) { return kept.x == candidate.x; });
-    VerificationRecord record;
-    if (known != before.end()) {
-      record = known->record;
-    } else {
-      if (interrupt.requested()) break;
-      site.err << fmt::format("dovetail: verifying evaluation {} by its wear history ({} of {})\n", index + 1,
-                              records.size() + 1, chosen.size())
-               << std::flush;
-      const optimizer::FinerDesign there =
-          finer != nullptr ? optimizer::FinerDesign{scene_of(*finer, candidate), reference_scene(*finer)}
-                           : optimizer::FinerDesign{};
-      record = site.engine.verify(scene_of(study, candidate), finer != nullptr ? &there : nullptr, watcher);
-      if (interrupt.requested()) break;  // not finished: computed again when resumed
-      keep(file, line_of(fingerprint, {.x = candidate.x, .record = record}));
+  const std::vector<optimizer::LoadCase> alone(1);
+  const std::vector<optimizer::LoadCase>& cases = study.problem.cases.empty() ? alone : study.problem.cases;
+  std::vector<Verified> wanted;
+  std::vector<std::size_t> open;
+  for (const std::size_t index : chosen)
+    for (std::size_t load = 0; load < cases.size(); ++load) {
+      wanted.push_back({.x = result.evaluations[index].x, .load = load});
+      VerificationRecord& record = records.emplace_back();
+      record.load_case = cases[load].name;
+      const auto known = std::ranges::find_if(before, [&](const Kept& kept) {
+        return kept.x == wanted.back().x && kept.record.load_case == record.load_case;
+      });
+      if (known != before.end())
+        record = known->record;
+      else
+        open.push_back(records.size() - 1);
+      record.evaluation = static_cast<std::int64_t>(index);
     }
-    record.evaluation = static_cast<std::int64_t>(index);
-    records.push_back(std::move(record));
+  std::vector<bool> there(records.size(), true);
+  for (const std::size_t place : open) there[place] = false;
+  const auto told = [&](std::size_t place, VerificationRecord found) {
+    const std::size_t at = open[place];
+    found.load_case = records[at].load_case;
+    found.evaluation = records[at].evaluation;
+    keep(file, line_of(fingerprint, {.x = wanted[at].x, .record = found}));
+    records[at] = std::move(found);
+    there[at] = true;
+    return !interrupt.requested();
+  };
+  const auto begins = [&](std::size_t at) {
+    const std::string& load = records[at].load_case;
+    site.err << fmt::format("dovetail: verifying evaluation {}{} by its wear history ({} of {})\n",
+                            records[at].evaluation + 1, load.empty() ? "" : " in case " + load, at + 1, records.size())
+             << std::flush;
+  };
+  if (site.pool != nullptr) {
+    std::vector<Verified> asked;
+    for (const std::size_t at : open) {
+      begins(at);
+      asked.push_back(wanted[at]);
+    }
+    site.pool->prepare(description_of(study, finer));
+    verify_at_once(asked, *site.pool, told);
+  } else {
+    wear::Watcher watcher;
+    watcher.stop = [&] { return interrupt.requested(); };
+    for (std::size_t place = 0; place < open.size() && !interrupt.requested(); ++place) {
+      const Verified& one = wanted[open[place]];
+      begins(open[place]);
+      const auto scene_of = [&](const Study& of) { return optimizer::in_case(scene_at(of, one.x), cases[one.load]); };
+      const optimizer::FinerDesign there_too = finer != nullptr
+                                                   ? optimizer::FinerDesign{scene_of(*finer), reference_scene(*finer)}
+                                                   : optimizer::FinerDesign{};
+      VerificationRecord found = site.engine.verify(scene_of(study), finer != nullptr ? &there_too : nullptr, watcher);
+      if (!interrupt.requested()) told(place, std::move(found));  // else not finished: computed again when resumed
+    }
   }
-  return records;
+  std::vector<VerificationRecord> finished;
+  for (std::size_t at = 0; at < records.size(); ++at)
+    if (there[at]) finished.push_back(std::move(records[at]));
+  return finished;
 }
 
 }  // namespace dovetail::studies

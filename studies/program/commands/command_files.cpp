@@ -1,10 +1,12 @@
 // Commands on what a run or a study left in files.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <ostream>
 
 #include "core/replace_file.hpp"
+#include "optimizer/journal/journal.hpp"
 #include "reduction/model_file.hpp"
 #include "studies/program/answers/field_export.hpp"
 #include "studies/program/answers/geometry_export.hpp"
@@ -98,6 +100,29 @@ int run_report(const ReportOptions& options, const Streams& streams) {
   const report::RunRecord record = report::read_results(run_file(options.directory, "results.h5", "results"));
   report::write_report(options.file, record);
   streams.out << options.file << ": written\n";
+  return kDone;
+}
+
+int run_merge(const MergeOptions& options, const Streams& streams) {
+  const fs::path merged(options.directory);
+  std::error_code error;
+  if (fs::exists(merged, error) && !fs::is_empty(merged, error))
+    refuse(options.directory, "exists already; choose another directory for the merged run");
+  fs::create_directories(merged, error);
+  if (error) refuse(options.directory, "cannot be created: " + error.message());
+  std::size_t evaluations = 0;
+  for (const std::string& name : {std::string("journal.jsonl"), std::string("finer.jsonl")}) {
+    std::vector<fs::path> files;
+    for (const std::string& directory : options.directories) files.push_back(run_file(directory, name, "journal"));
+    const std::size_t records = optimizer::merge_journals(files, merged / name);
+    evaluations = std::max(evaluations, records);
+  }
+  // What the first of them searched with.
+  for (const char* name : {"study.toml", "settings.json"})
+    if (const fs::path file = fs::path(options.directories.front()) / name; fs::exists(file, error))
+      fs::copy_file(file, merged / name, error);
+  streams.out << fmt::format("{}: {} different evaluations of {} runs\n", options.directory, evaluations,
+                             options.directories.size());
   return kDone;
 }
 

@@ -9,6 +9,7 @@
 #include <ostream>
 #include <sstream>
 #include <system_error>
+#include <thread>
 
 #include "core/options.hpp"
 #include "studies/program/answers/version.hpp"
@@ -65,9 +66,10 @@ void add_command(CLI::App& app, Chosen& chosen, const CommandHelp& help, Run run
   });
 }
 
-void add_commands(CLI::App& app, Chosen& chosen) {
-  add_command<RunOptions>(app, chosen, help::run(), [](const RunOptions& options, const Streams& streams) {
-    return run_study(options, streams, study_engine);
+void add_commands(CLI::App& app, Chosen& chosen, const PoolFactory& pools) {
+  add_command<RunOptions>(app, chosen, help::run(), [pools](RunOptions options, const Streams& streams) {
+    if (!options.jobs) options.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    return run_study(options, streams, study_engine, pools);
   });
   add_command<EvaluateOptions>(app, chosen, help::evaluate(), run_evaluate);
   add_command<ReduceOptions>(app, chosen, help::reduce(), run_reduce);
@@ -78,6 +80,7 @@ void add_commands(CLI::App& app, Chosen& chosen) {
   add_command<WearOptions>(app, chosen, help::wear(), run_wear);
   add_command<ImportOptions>(app, chosen, help::import_model(), run_import);
   add_command<ExportOptions>(app, chosen, help::export_files(), run_export);
+  add_command<MergeOptions>(app, chosen, help::merge(), run_merge);
   add_command<ReportOptions>(app, chosen, help::report(), run_report);
 }
 
@@ -109,13 +112,13 @@ int parse_failure(const CLI::App& app, const CLI::ParseError& error, const std::
 
 }  // namespace
 
-int run_program(int argc, const char* const* argv, const Streams& streams) {
+int run_program(int argc, const char* const* argv, const Streams& streams, const PoolFactory& pools) {
   CLI::App app(help::kDescription, "dovetail");
   Chosen chosen;
   app.set_version_flag("--version", std::string("dovetail ") + version());
   app.require_subcommand(1);
   app.footer(help::kFooter);
-  add_commands(app, chosen);
+  add_commands(app, chosen, pools);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

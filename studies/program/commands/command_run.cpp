@@ -1,15 +1,19 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <ostream>
 
 #include "core/replace_file.hpp"
 #include "optimizer/journal/fingerprint.hpp"
 #include "optimizer/journal/journal.hpp"
 #include "optimizer/search/run.hpp"
+#include "optimizer/workers/forked_pool.hpp"
+#include "studies/program/answers/run_departures.hpp"
 #include "studies/program/answers/run_output.hpp"
 #include "studies/program/answers/run_verification.hpp"
 #include "studies/program/answers/version.hpp"
@@ -17,7 +21,9 @@
 #include "studies/program/commands/progress.hpp"
 #include "studies/program/commands/settled_run.hpp"
 #include "studies/program/engine/interrupt.hpp"
+#include "studies/program/engine/pieces.hpp"
 #include "studies/program/study_file/refusal.hpp"
+#include "studies/report/words/report_words.hpp"
 
 namespace dovetail::studies {
 namespace {
@@ -63,7 +69,7 @@ std::string limits_kept(const report::RunRecord& record) {
   std::string text;
   const std::vector<std::string> names = constraint_names(record.problem);
   const report::EvaluationRecord& best = record.evaluations[*record.best];
-  const optimizer::JudgementBars bars = judgement_bars(record.problem, best.error_estimates);
+  const optimizer::JudgementBars bars = judgement_bars(record.problem, best.responses, best.error_estimates);
   for (std::size_t j = 0; j < names.size(); ++j) {
     std::string finer;
     for (const report::FinerRecord& check : record.finer)
@@ -90,7 +96,7 @@ std::string conclusion(const Study& study, const OptimizationResult& result, con
       result.message.empty() ? std::string(to_string(result.status)) : result.message);
   if (!result.best) return text;
   const auto objective = [&](const report::EvaluationRecord& of) {
-    return with_bar(of.objective, judgement_bars(record.problem, of.error_estimates).objective);
+    return with_bar(of.objective, judgement_bars(record.problem, of.responses, of.error_estimates).objective);
   };
   text += fmt::format("best objective {} (evaluation {}), start {}\n", objective(record.evaluations[*record.best]),
                       *result.best + 1, objective(record.evaluations.front()));
@@ -103,18 +109,65 @@ std::string verified(const std::vector<report::VerificationRecord>& verification
   std::string text;
   for (const report::VerificationRecord& v : verifications) {
     const auto known = [](bool is, double volume) { return is ? fmt::format("{:.6g} m^3", volume) : "not known"; };
-    text += fmt::format("evaluation {} by its wear history: {}, directly {:.6g} m^3, on {} edges {} ({})\n",
-                        v.evaluation + 1, known(v.history_known(), v.history_volume_m3), v.search_volume_m3,
-                        v.flank_elements, known(v.finer_known(), v.direct_volume_m3), v.agreement());
+    text += fmt::format("evaluation {}{} by its wear history: {}, directly {:.6g} m^3, on {} edges {} ({})\n",
+                        v.evaluation + 1, v.load_case.empty() ? "" : " in case " + v.load_case,
+                        known(v.history_known(), v.history_volume_m3), v.search_volume_m3, v.flank_elements,
+                        known(v.finer_known(), v.direct_volume_m3), v.agreement());
   }
   return text;
+}
+
+/// Where else the best design keeps its limits.
+std::string held(const report::RunRecord& record) {
+  std::string broken;
+  std::size_t all = 0, kept = 0;
+  for (const report::DepartureRecord& there : record.departures) {
+    if (!record.best || there.evaluation != static_cast<std::int64_t>(*record.best)) continue;
+    ++all;
+    const bool keeps =
+        optimizer::converged(there.status) && std::ranges::all_of(there.constraints, [](double c) { return c <= 0; });
+    kept += keeps ? 1 : 0;
+    if (!keeps) broken += (broken.empty() ? "; not with " : ", ") + there.departure;
+  }
+  return all == 0 ? "" : fmt::format("keeps its limits in {} of {} other conditions{}\n", kept, all, broken);
+}
+
+/// "; none keeps A and B", or nothing.
+std::string listed_unkept(const report::RunRecord& record) {
+  const std::vector<std::string> never = report::never_kept(record);
+  return never.empty() ? "" : fmt::format("; none keeps {}", fmt::join(never, ", nor "));
+}
+
+/// A rule that is broken at the start and at both ends of every variable by as much: a search would find nothing.
+void refuse_hopeless(const Study& study, const RunEngine& engine) {
+  if (!engine.rules) return;
+  const std::vector<double> start = study.problem.space.start();
+  std::map<std::string, geometry::Rule> broken;
+  for (const geometry::Rule& rule : engine.rules(start))
+    if (-rule.margin > study.optimizer.constraint_tolerance) broken.emplace(rule.name, rule);
+  const std::vector<optimizer::DesignVariable>& variables = study.problem.space.variables();
+  for (std::size_t i = 0; i < variables.size() && !broken.empty(); ++i)
+    for (const double end : {variables[i].lower, variables[i].upper}) {
+      std::vector<double> x = start;
+      x[i] = end;
+      const std::vector<geometry::Rule> there = engine.rules(x);
+      std::erase_if(broken, [&](const auto& entry) {
+        const auto same = std::ranges::find(there, entry.first, &geometry::Rule::name);
+        return same == there.end() || same->margin != entry.second.margin;
+      });
+    }
+  Complaints hopeless;
+  for (const auto& [name, rule] : broken)
+    hopeless.add(study.file, "no variable changes what the start breaks: " + rule.sentence);
+  hopeless.raise();
 }
 
 /// What keeps the best design from being an answer, or nothing.
 std::string shortcoming(const Study& study, const OptimizationResult& result, const WrittenRun& written) {
   const report::RunRecord& record = written.record;
   if (!result.best)
-    return fmt::format("{}: no feasible design was found in {} evaluations", study.file, result.evaluations.size());
+    return fmt::format("{}: no feasible design was found in {} evaluations{}", study.file, result.evaluations.size(),
+                       listed_unkept(record));
   const bool stands = !record.best_design || optimizer::converged(record.best_design->status);
   if (!stands || !record.evaluations[*result.best].feasible)
     return fmt::format("the best design, evaluation {}, looked at with bars and its wear history: {}", *result.best + 1,
@@ -166,6 +219,7 @@ OptimizationResult searched(const RunSite& site, bool resume, const std::string&
                             .stop = &interrupt.flag(),
                             .finer = {},
                             .finer_journal = &finer_journal};
+  hooks.many = site.engine.many;
   if (site.engine.finer)
     hooks.finer = [&](std::span<const double> x, int level) {
       progress.note(fmt::format("looking at the limits on a mesh with {} edges per flank",
@@ -177,7 +231,14 @@ OptimizationResult searched(const RunSite& site, bool resume, const std::string&
 
 }  // namespace
 
-int run_study(const RunOptions& options, const Streams& streams, const RunEngineFactory& make_engine) {
+std::unique_ptr<optimizer::WorkerPool> processes(const RunOptions& options, const optimizer::WorkerFactory& factory) {
+  const int jobs = options.jobs.value_or(1);
+  if (jobs == 1) return nullptr;
+  return std::make_unique<optimizer::ForkedPool>(static_cast<std::size_t>(jobs), factory, options.patience);
+}
+
+int run_study(const RunOptions& options, const Streams& streams, const RunEngineFactory& make_engine,
+              const PoolFactory& pools) {
   const auto begin = std::chrono::steady_clock::now();
   const Study asked = load_study(options.study);
   require_runnable(asked);
@@ -185,8 +246,12 @@ int run_study(const RunOptions& options, const Streams& streams, const RunEngine
   const fs::path directory = prepare_directory(options, asked, streams.err);
   const SettledStudy settled = settled_run(asked, directory, options.resume, make_engine, streams.err);
   const Study& study = settled.study;
-  const RunEngine engine = make_engine(study);
-  const RunSite site{.study = study, .engine = engine, .directory = directory, .err = streams.err, .settings = {}};
+  const std::unique_ptr<optimizer::WorkerPool> pool = pools(options, workers_with(make_engine));
+  const RunEngine alone = make_engine(study);
+  refuse_hopeless(study, alone);
+  if (pool) pool->prepare(description_of(study));
+  const RunEngine engine = pool ? at_work(study, alone, *pool) : alone;
+  const RunSite site{.study = study, .engine = engine, .directory = directory, .err = streams.err, .pool = pool.get()};
   const OrderlyInterrupt interrupt;
   const OptimizationResult result = searched(site, options.resume, fingerprint_of(study), interrupt);
 
@@ -198,7 +263,8 @@ int run_study(const RunOptions& options, const Streams& streams, const RunEngine
   const Study& handed = over.study;
   const std::string settings = settings_words(study, over);
   const bool as_searched = physics_text(study.scene) == physics_text(handed.scene);
-  const RunEngine closer = as_searched ? engine : make_engine(handed);
+  const RunEngine handing = as_searched ? alone : make_engine(handed);
+  const RunEngine closer = pool ? at_work(handed, handing, *pool) : handing;
   // What the rounds of a choice say of the design where it was made holds for its evaluation there.
   std::map<std::size_t, optimizer::BarParts> raised;
   if (as_searched) raised[0] = settled.raised;
@@ -210,7 +276,8 @@ int run_study(const RunOptions& options, const Streams& streams, const RunEngine
                     .settings = settings,
                     .chosen = chosen_settings(asked, settled, over),
                     .goal = goal_at_best(asked),
-                    .raised = raised};
+                    .raised = raised,
+                    .pool = pool.get()};
   std::vector<report::VerificationRecord> verifications;
   // Settings that are handed over verify those of the search where they are finer.
   const bool finer = handed.scene.mesh.flank_elements >= kFiner * study.scene.mesh.flank_elements;
@@ -218,11 +285,16 @@ int run_study(const RunOptions& options, const Streams& streams, const RunEngine
     verifications = verify_best(finer ? site : end, result, finer ? &handed : nullptr,
                                 fingerprint_of(study) + fingerprint_of(handed), interrupt);
 
+  const std::vector<report::DepartureRecord> departures = departures_of(end, result, fingerprint_of(handed), interrupt);
+
+  if (pool) pool->prepare(description_of(handed));  // who has nothing left to do gives his memory back
+
   if (interrupt.requested())
     streams.err << "dovetail: interrupted; writing what is finished (Ctrl-C again ends at once)" << std::endl;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  const WrittenRun written = write_run(end, result, seconds, verifications);
-  streams.out << conclusion(study, result, written.record, site.directory) << verified(verifications);
+  const WrittenRun written = write_run(end, result, seconds, verifications, departures);
+  streams.out << conclusion(study, result, written.record, site.directory) << verified(verifications)
+              << held(written.record);
   if (interrupt.requested()) {
     streams.err << "dovetail: everything finished is kept; go on with --resume\n";
     return kInterrupted;

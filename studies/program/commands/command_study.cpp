@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/replace_file.hpp"
+#include "optimizer/cases.hpp"
 #include "optimizer/problem/problem.hpp"
 #include "optimizer/responses/response_table.hpp"
 #include "reduction/model_file.hpp"
@@ -44,9 +45,10 @@ int run_check(const CheckOptions& options, const Streams& streams) {
   const auto counted = [](std::size_t count, const char* what) {
     return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
   };
-  streams.out << fmt::format("{}: valid; {}, {}, {}\n", options.study, counted(problem.space.size(), "variable"),
+  streams.out << fmt::format("{}: valid; {}, {}, {}{}\n", options.study, counted(problem.space.size(), "variable"),
                              counted(problem.objective.size(), "objective"),
-                             counted(problem.constraints.size(), "constraint"));
+                             counted(problem.constraints.size(), "constraint"),
+                             problem.cases.empty() ? "" : ", " + counted(problem.cases.size(), "case"));
   return kDone;
 }
 
@@ -69,6 +71,25 @@ const char* sureness(const optimizer::Evaluation& evaluation, const std::string&
   const bool none = std::ranges::any_of(evaluation.unbounded,
                                         [&](const std::string& name) { return constraint.starts_with(name + ":"); });
   return none ? "  its response has no error bar" : "  within its error bar";
+}
+
+/// The responses that objective and limits name, case by case.
+std::string case_table(const optimizer::Problem& problem, const optimizer::Evaluation& evaluation) {
+  std::string text;
+  for (const optimizer::LoadCase& load : problem.cases) {
+    text += fmt::format("\ncase {}\n", load.name);
+    for (const std::string& name : optimizer::responses_of(problem)) {
+      const std::string here = optimizer::of_case(name, load.name);
+      const auto value = evaluation.responses.find(here);
+      if (value == evaluation.responses.end()) continue;
+      text += fmt::format("  {:<30} {:>14.7g}", name, value->second);
+      const auto error = evaluation.error_estimates.find(here);
+      if (error != evaluation.error_estimates.end()) text += fmt::format(" +- {:.2g}", error->second);
+      const optimizer::Response* response = optimizer::find_response(name);
+      text += response->unit.empty() ? "\n" : fmt::format(" {}\n", response->unit);
+    }
+  }
+  return text;
 }
 
 std::string evaluation_table(const optimizer::Evaluation& evaluation) {
@@ -160,9 +181,15 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
       });
   const optimizer::Purpose purpose{
       .bars = !options.no_bars && !options.unworn, .history = !options.no_history, .until = until};
-  optimizer::Evaluation evaluation = choice && answers(*choice, *goal, purpose)
-                                         ? choice->evaluation
-                                         : scene_evaluator(study)->evaluate(study.scene, purpose).evaluation;
+  const auto computed = [&] {
+    const auto evaluator = scene_evaluator(study);
+    return optimizer::evaluated_in_cases(
+        study.problem.cases, study.scene,
+        [&](const optimizer::Scene& scene, std::size_t) { return evaluator->evaluate(scene, purpose).evaluation; });
+  };
+  const bool one_case = study.problem.cases.empty();
+  optimizer::Evaluation evaluation =
+      choice && one_case && answers(*choice, *goal, purpose) ? choice->evaluation : computed();
   if (choice) optimizer::raise_bars(choice->raised, evaluation);
   std::string inaccurate = choice ? accuracy_complaint(asked, *choice) : std::string();
   // A history may end elsewhere than where the rounds were; where bars were not asked for the rounds have some.
@@ -192,7 +219,7 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
                              {"relative_bar", whole->relative},
                              {"asked", whole->asked}};
   deliver_json(options.json, evaluation_json(evaluation, choice ? &accuracy : nullptr), streams);
-  if (options.json != "-") streams.out << evaluation_table(evaluation);
+  if (options.json != "-") streams.out << evaluation_table(evaluation) << case_table(study.problem, evaluation);
   if (evaluation.infeasible()) throw infeasible(options.study, evaluation.messages);
   for (const std::string& message : evaluation.messages) streams.err << "dovetail: " << message << "\n";
   if (evaluation.converged())

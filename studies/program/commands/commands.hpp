@@ -8,6 +8,7 @@
 
 #include "core/enum_names.hpp"
 #include "core/options.hpp"
+#include "optimizer/workers/worker_pool.hpp"
 #include "studies/program/answers/geometry_export.hpp"
 #include "studies/program/commands/option.hpp"
 #include "studies/program/engine/run_engine.hpp"
@@ -103,8 +104,17 @@ struct RunOptions {
   std::string study;
   std::string directory;  ///< empty: results/NAME
   bool resume = false;
+  std::optional<int> jobs;  ///< processes that work at once; absent: this one alone, which the program makes all cores
+  double patience = 3600;   ///< s; one that takes longer for a candidate is given up
 };
-int run_study(const RunOptions& options, const Streams& streams, const RunEngineFactory& engine);
+/// Makes others who work on the pieces of a run; null: the run does them itself.
+using PoolFactory =
+    std::function<std::unique_ptr<optimizer::WorkerPool>(const RunOptions& options, const optimizer::WorkerFactory&)>;
+/// As many processes of this machine as the options say.
+[[nodiscard]] std::unique_ptr<optimizer::WorkerPool> processes(const RunOptions& options,
+                                                               const optimizer::WorkerFactory& factory);
+int run_study(const RunOptions& options, const Streams& streams, const RunEngineFactory& engine,
+              const PoolFactory& pools = processes);
 
 /// The format of the command export that writes a reduced model, not a drawing.
 inline constexpr std::string_view kMatrixMarket = "matrix-market";
@@ -123,6 +133,12 @@ struct ExportOptions {
   DeckOptions deck;  ///< of the format inp
 };
 int run_export(const ExportOptions& options, const Streams& streams);
+
+struct MergeOptions {
+  std::vector<std::string> directories;
+  std::string directory;  ///< of the merged run
+};
+int run_merge(const MergeOptions& options, const Streams& streams);
 
 struct ReportOptions {
   std::string directory;
@@ -177,6 +193,8 @@ template <>
 std::span<const Option<ExportOptions>> command_options<ExportOptions>();
 template <>
 std::span<const Option<ReportOptions>> command_options<ReportOptions>();
+template <>
+std::span<const Option<MergeOptions>> command_options<MergeOptions>();
 template <>
 std::span<const Option<SolverChoice>> command_options<SolverChoice>();
 template <>

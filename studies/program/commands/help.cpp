@@ -139,6 +139,12 @@ CommandHelp export_files() {
           "bit."};
 }
 
+CommandHelp merge() {
+  return {.name = "merge",
+          .what = "Put the evaluations of several runs of one study together",
+          .footer = "`dovetail run STUDY.toml -o DIR --resume` then goes on with all of them."};
+}
+
 CommandHelp report() {
   return {.name = "report", .what = "Write the report of a run again, from its stored results"};
 }

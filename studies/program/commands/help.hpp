@@ -37,6 +37,7 @@ inline constexpr const char* kFooter =
 [[nodiscard]] CommandHelp wear();
 [[nodiscard]] CommandHelp import_model();
 [[nodiscard]] CommandHelp export_files();
+[[nodiscard]] CommandHelp merge();
 [[nodiscard]] CommandHelp report();
 
 }  // namespace help

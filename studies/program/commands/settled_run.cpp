@@ -42,17 +42,19 @@ struct Chosen {
   Json accuracy = {};  ///< how settings were chosen, see accuracy_json
 };
 
-/// What the bars of the start say of differences between designs. No history is asked in a search: a doubt that only
-/// one settles is no noise. Nothing where they say nothing.
+/// What the bars of the start, in the first case, say of differences between designs. No history is asked in a search:
+/// a doubt that only one settles is no noise. Nothing where they say nothing.
 std::optional<double> noise_of(const Study& study, const optimizer::Evaluation& start) {
+  optimizer::Problem alone = study.problem;
+  alone.cases.clear();
   for (const optimizer::ObjectiveTerm& term : study.problem.objective)
     if (std::ranges::find(start.unbounded, term.response) != start.unbounded.end()) return {};
   std::map<std::string, double> bars;
   for (const auto& [response, sources] : start.error_sources)
     for (const auto& [source, bar] : sources)
       if (source != "history") bars[response] += bar;
-  const double objective = judge(study.problem, start, study.optimizer.constraint_tolerance).objective;
-  const double bar = judgement_bars(study.problem, bars).objective;
+  const double objective = judge(alone, start, study.optimizer.constraint_tolerance).objective;
+  const double bar = judgement_bars(alone, start.responses, bars).objective;
   if (!std::isfinite(objective) || !std::isfinite(bar) || objective == 0) return {};
   return std::clamp(bar / std::abs(objective), optimizer::NoiseParams{}.unknown, 0.5);
 }

@@ -64,7 +64,10 @@ std::span<const Option<RunOptions>> command_options<RunOptions>() {
   static const std::vector<Option<R>> table{
       study_option<R>(),
       {"-o,--output", &R::directory, "DIR", "Directory of the results (default: results/NAME)"},
-      {"--resume", &R::resume, {}, "Continue the run stored in the directory"}};
+      {"--resume", &R::resume, {}, "Continue the run stored in the directory"},
+      {"--jobs", &R::jobs, "N", "Processes that work at once (default: one for each core)", false, {.lower = 1}},
+      {"--patience", &R::patience, "SECONDS", "A candidate for which one of several processes takes longer has failed",
+       false, kPositive}};
   return table;
 }
 
@@ -97,6 +100,15 @@ std::span<const Option<ExportOptions>> command_options<ExportOptions>() {
         output_option<E>(&E::file, "FILE", "The file to write"),
         set_option<E>()};
   }();
+  return table;
+}
+
+template <>
+std::span<const Option<MergeOptions>> command_options<MergeOptions>() {
+  using M = MergeOptions;
+  static const std::vector<Option<M>> table{
+      {"DIR", &M::directories, {}, "Directories of runs of one study", true},
+      {"-o,--output", &M::directory, "DIR", "Directory of the merged run, which is new", true}};
   return table;
 }
 

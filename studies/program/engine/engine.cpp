@@ -5,12 +5,14 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <map>
 #include <ostream>
 #include <string_view>
 #include <utility>
 
 #include "dynamics/condensed_model.hpp"
 #include "optimizer/candidate/node_lines.hpp"
+#include "optimizer/cases.hpp"
 #include "optimizer/responses/response_table.hpp"
 #include "quality/truncation.hpp"
 #include "reduction/model_file.hpp"
@@ -24,18 +26,21 @@ namespace dovetail::studies {
 using optimizer::Scene;
 using optimizer::SceneEvaluator;
 
-Scene start_scene(const Study& study) {
+Scene scene_at(const Study& study, std::span<const double> x) {
   Scene scene = study.scene;
-  for (const optimizer::DesignVariable& variable : study.problem.space.variables())
-    optimizer::set_parameter(scene, variable.key, variable.start);
+  for (const auto& [key, value] : study.problem.space.settings(x)) optimizer::set_parameter(scene, key, value);
   return scene;
 }
 
+Scene start_scene(const Study& study) {
+  return scene_at(study, study.problem.space.start());
+}
+
 Scene reference_scene(const Study& study) {
-  Scene scene = study.scene;
+  std::vector<double> middle;
   for (const optimizer::DesignVariable& variable : study.problem.space.variables())
-    optimizer::set_parameter(scene, variable.key, variable.lower + (variable.upper - variable.lower) / 2);
-  return scene;
+    middle.push_back(variable.lower + (variable.upper - variable.lower) / 2);
+  return scene_at(study, middle);
 }
 
 std::shared_ptr<const SceneEvaluator> scene_evaluator(const Study& study) {
@@ -71,6 +76,7 @@ class CloserLook {
   std::shared_ptr<const optimizer::CandidateResult> look(const Scene& scene) {
     if (kept_ && kept_->evaluation.parameters == optimizer::parameters(scene)) return kept_;
     auto result = std::make_shared<const optimizer::CandidateResult>(evaluated(*evaluator_, scene, purpose_));
+    seen_.insert_or_assign(optimizer::parameters(scene), result->evaluation);
     if (!kept_) kept_ = result;
     return result;
   }
@@ -81,10 +87,17 @@ class CloserLook {
     return result;
   }
 
+  /// Of one that need not be kept.
+  optimizer::Evaluation evaluation(const Scene& scene) {
+    const auto found = seen_.find(optimizer::parameters(scene));
+    return found != seen_.end() ? found->second : evaluated(*evaluator_, scene, purpose_).evaluation;
+  }
+
  private:
   std::shared_ptr<const SceneEvaluator> evaluator_;
   optimizer::Purpose purpose_;
   std::shared_ptr<const optimizer::CandidateResult> kept_;
+  std::map<std::map<std::string, double>, optimizer::Evaluation> seen_;
 };
 
 }  // namespace
@@ -92,31 +105,50 @@ class CloserLook {
 RunEngine study_engine(const Study& study) {
   const std::shared_ptr<const SceneEvaluator> evaluator = scene_evaluator(study);
   RunEngine engine;
-  const auto scene_at = [base = study.scene, keys = study.problem.space.keys()](std::span<const double> x) {
-    Scene scene = base;
-    for (std::size_t i = 0; i < keys.size(); ++i) optimizer::set_parameter(scene, keys[i], x[i]);
-    return scene;
+  const auto design_at = [own = std::make_shared<const Study>(study)](std::span<const double> x) {
+    return scene_at(*own, x);
   };
   optimizer::Purpose purpose = optimizer::kSearch;
   if (study.optimizer.responses == optimizer::Answers::needed)
     purpose.until = optimizer::last_stage(optimizer::responses_of(study.problem));
-  engine.evaluate = [evaluator, scene_at, purpose](std::span<const double> x) {
-    return evaluator->evaluate(scene_at(x), purpose).evaluation;
+  const std::vector<optimizer::LoadCase> cases = study.problem.cases;
+  engine.piece = [evaluator, cases, design_at, purpose](const Piece& piece) {
+    const Scene design = design_at(piece.x);
+    const Scene scene = cases.empty() ? design : optimizer::in_case(design, cases.at(piece.load));
+    if (piece.what == Piece::What::finer)
+      return optimizer::evaluated_finer(*evaluator, scene, purpose, piece.number).evaluation;
+    if (piece.what == Piece::What::departed) {
+      const optimizer::LoadCase& departure = optimizer::usual_departures()[static_cast<std::size_t>(piece.number)];
+      return evaluated(*evaluator, optimizer::in_case(scene, departure), purpose).evaluation;
+    }
+    return evaluator->evaluate(scene, purpose).evaluation;
   };
-  engine.start = [evaluator, scene = start_scene(study), purpose] {
+  engine.rules = [design_at](std::span<const double> x) { return optimizer::feasibility_of(design_at(x)).rules; };
+  const auto whole = [piece = engine.piece, cases, design_at](Piece::What what, std::span<const double> x, int number) {
+    Piece one{.what = what, .x = {x.begin(), x.end()}, .load = 0, .number = number};
+    return optimizer::evaluated_in_cases(cases, design_at(x), [&](const Scene&, std::size_t load) {
+      one.load = load;
+      return piece(one);
+    });
+  };
+  engine.evaluate = [whole](std::span<const double> x) { return whole(Piece::What::evaluate, x, 0); };
+  engine.finer = [whole](std::span<const double> x, int level) { return whole(Piece::What::finer, x, level); };
+  engine.departed = [whole](std::span<const double> x, int number) { return whole(Piece::What::departed, x, number); };
+  engine.start = [evaluator, scene = optimizer::in_first_case(start_scene(study), cases), purpose] {
     optimizer::Purpose with_bars = purpose;
     with_bars.bars = true;
     return evaluator->evaluate(scene, with_bars).evaluation;
   };
-  engine.finer = [evaluator, scene_at, purpose](std::span<const double> x, int level) {
-    return optimizer::evaluated_finer(*evaluator, scene_at(x), purpose, level).evaluation;
-  };
   // Of what wears, all of it is shown.
   const bool wears = purpose.until >= optimizer::Stage::worn_state;
   const auto closer = std::make_shared<CloserLook>(evaluator, wears ? optimizer::Stage::worn_resonance : purpose.until);
-  engine.describe = [closer](const Scene& scene) {
-    const auto result = closer->take(scene);
-    return DescribedDesign{.evaluation = result->evaluation, .record = report::make_design_record(scene, *result)};
+  engine.describe = [closer, cases](const Scene& design) {
+    const Scene first = optimizer::in_first_case(design, cases);
+    const auto result = closer->take(first);
+    return DescribedDesign{
+        .evaluation = optimizer::evaluated_in_cases(
+            cases, design, [&](const Scene& scene, std::size_t) { return closer->evaluation(scene); }),
+        .record = report::make_design_record(first, *result)};
   };
   if (!wears) return engine;
   engine.verify = [closer](const Scene& scene, const optimizer::FinerDesign* given, const wear::Watcher& watcher) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,9 @@ inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();  //
 /// The scene whose geometry fixes the mesh topology of a study: every variable in the middle of its bounds. It does not
 /// depend on the values of the variables, so that a best design evaluates in its own file as it did in the run.
 [[nodiscard]] optimizer::Scene reference_scene(const Study& study);
+
+/// The study's scene with these values of the variables, in the unit of the file.
+[[nodiscard]] optimizer::Scene scene_at(const Study& study, std::span<const double> x);
 
 /// The evaluator of a study, on the reference scene's mesh topology, or on the scene's own where the reference cannot
 /// be meshed. Throws InputError when neither can.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "optimizer/cases.hpp"
 #include "optimizer/responses/response_table.hpp"
 #include "studies/program/engine/engine.hpp"
 #include "studies/program/engine/truncation_choice.hpp"
@@ -57,8 +58,8 @@ std::optional<optimizer::SettingsChoice> settle(Study& study, const std::optiona
                                                 const optimizer::AccuracyListener& told,
                                                 const optimizer::AccuracyMemory& memory) {
   if (!goal) return {};
-  optimizer::SettingsChoice choice =
-      optimizer::choose_settings(reference_scene(study), study.scene, *goal, told, memory);
+  optimizer::SettingsChoice choice = optimizer::choose_settings(
+      reference_scene(study), optimizer::in_first_case(study.scene, study.problem.cases), *goal, told, memory);
   study.scene = optimizer::with_settings(study.scene, choice.settings);
   return choice;
 }

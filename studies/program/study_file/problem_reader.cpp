@@ -1,9 +1,13 @@
 #include "studies/program/study_file/problem_reader.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <tuple>
 
 #include "optimizer/responses/response_table.hpp"
+#include "studies/program/study_file/case_reader.hpp"
+#include "studies/program/study_file/scene_keys.hpp"
 
 namespace dovetail::studies {
 
@@ -18,26 +22,6 @@ using optimizer::ObjectiveTerm;
 using optimizer::Parameter;
 using optimizer::ResponseConstraint;
 
-/// The tables of `[[kind]]`, each with its path "kind[0]"; anything else of that name is reported.
-std::vector<std::pair<const Node*, std::string>> entries(SectionReader& root, const std::string& kind,
-                                                         Problems& problems) {
-  std::vector<std::pair<const Node*, std::string>> found;
-  const Node* list = root.take(kind);
-  if (!list) return found;
-  if (list->kind != Node::Kind::list) {
-    problems.add(*list, kind, "must be written as [[" + kind + "]], once for each");
-    return found;
-  }
-  for (const Node& item : list->items) {
-    const std::string path = kind + "[" + std::to_string(found.size()) + "]";
-    if (item.kind == Node::Kind::table)
-      found.emplace_back(&item, path);
-    else
-      problems.add(item, path, "must be a section, [[" + kind + "]]");
-  }
-  return found;
-}
-
 bool is_prefix_section(const std::string& key, const std::string& section) {
   return key.starts_with(section + ".");
 }
@@ -51,17 +35,10 @@ bool from_command_line(const Node* root, std::string_view key) {
   return node && !node->origin.empty();
 }
 
-/// "geometry.left.KEY", ... of "geometry.KEY".
-std::vector<std::string> of_flanks(const std::string& key) {
-  std::vector<std::string> keys;
-  for (const geometry::FlankPlace& place : geometry::kFlanks)
-    keys.push_back("geometry." + std::string(place.name) + key.substr(key.find('.')));
-  return keys;
-}
-
 /// Why that key cannot be a variable although it is a number; empty when it can.
 std::string conflict(const Node* root, const Parameter& parameter) {
-  if (parameter.kind != Parameter::Kind::real) return "cannot be varied: it is not a real number";
+  if (parameter.kind != Parameter::Kind::real)
+    return "cannot be varied: it is not a real number; evaluate the design with one value after the other (--set)";
   const std::string& key = parameter.key;
   for (const char* section : {"mesh", "solver"})
     if (is_prefix_section(key, section)) return "cannot be varied: it is no property of a design";
@@ -70,34 +47,15 @@ std::string conflict(const Node* root, const Parameter& parameter) {
     if (!given(root, disk)) return "cannot be varied unless " + disk + " is given: the disk would follow the blade";
   }
   if (is_prefix_section(key, "geometry") && key.find('.') == key.rfind('.'))
-    for (const std::string& one : of_flanks(key)) {
-      if (optimizer::find_parameter(one) && given(root, one))
-        return "cannot vary both flanks while " + one + " fixes one of them";
+    for (const std::string& one : optimizer::flank_keys(key)) {
+      if (given(root, one)) return "cannot vary both flanks while " + one + " fixes one of them";
     }
   return {};
 }
 
-/// Two keys that set the same number.
-bool overlap(const std::string& a, const std::string& b) {
-  if (a == b) return true;
-  const auto is_one_of = [](const std::string& one, const std::vector<std::string>& keys) {
-    return std::ranges::find(keys, one) != keys.end();
-  };
-  return is_one_of(b, of_flanks(a)) || is_one_of(a, of_flanks(b));
-}
-
 const Parameter* variable_parameter(const Node& value, const std::string& path, const Node* root, Problems& problems) {
-  const Parameter* parameter = optimizer::find_parameter(value.text);
-  if (!parameter) {
-    std::vector<std::string> keys;
-    for (const Parameter& p : optimizer::scene_parameters()) keys.push_back(p.key);
-    std::string near;
-    for (const std::string& key : keys)
-      if (key.ends_with("." + value.text)) near = near.empty() ? key : near;
-    if (near.empty()) near = nearest(value.text, keys);
-    problems.add(value, path, "is not a key of the scene" + (near.empty() ? "" : "; did you mean \"" + near + "\"?"));
-    return nullptr;
-  }
+  const Parameter* parameter = scene_key(value.text, value, path, problems);
+  if (parameter == nullptr) return nullptr;
   const std::string why = conflict(root, *parameter);
   if (why.empty()) return parameter;
   problems.add(value, path, why);
@@ -115,31 +73,66 @@ void start_from_value(DesignVariable& variable, bool overridden, const Node& nod
                          " and upper = " + shortest(variable.upper) + ", or give the variable a start");
 }
 
+/// What a variable varies: `key`, or all of `keys` alike. Each stands at a node, by which it is reported.
+std::vector<const Node*> variable_keys(SectionReader& section, Problems& problems) {
+  const Node* list = section.take("keys");
+  if (list == nullptr) {
+    const std::optional<std::string> key = section.text("key", {}, true);
+    return key ? std::vector{section.node()->find("key")} : std::vector<const Node*>();
+  }
+  std::vector<const Node*> keys;
+  const auto is_text = [](const Node& item) { return item.kind == Node::Kind::text; };
+  if (section.take("key") != nullptr)
+    problems.add(*list, section.path("keys"), "must not be given beside key");
+  else if (list->kind != Node::Kind::list || list->items.empty() || !std::ranges::all_of(list->items, is_text))
+    problems.add(*list, section.path("keys"), "must be a list of keys, which all have the value of the variable");
+  else
+    for (const Node& item : list->items) keys.push_back(&item);
+  return keys;
+}
+
 std::vector<DesignVariable> read_variables(SectionReader& root, const optimizer::Scene& scene, Problems& problems) {
   std::vector<DesignVariable> variables;
   for (const auto& [node, path] : entries(root, "variable", problems)) {
     SectionReader section(node, path, problems);
-    const std::optional<std::string> key = section.text("key", {}, true);
-    const Parameter* parameter =
-        key ? variable_parameter(*node->find("key"), section.path("key"), root.node(), problems) : nullptr;
-    const Range range = parameter ? parameter->range : kAnyNumber;
+    const std::vector<const Node*> keys = variable_keys(section, problems);
+    const std::string at = section.path(node->find("keys") ? "keys" : "key");
+    std::vector<const Parameter*> parameters;
+    for (const Node* key : keys)
+      if (const Parameter* parameter = variable_parameter(*key, at, root.node(), problems))
+        parameters.push_back(parameter);
+    const Range range = parameters.empty() ? kAnyNumber : parameters.front()->range;
     const std::optional<double> lower = section.number("lower", range, true);
     const std::optional<double> upper = section.number("upper", range, true);
     const std::optional<double> start = section.number("start", range);
     section.finish();
-    if (!parameter) continue;
-    for (const auto& [name, bound] : {std::pair{"lower", lower}, std::pair{"upper", upper}})
-      if (bound && range.is_zero_apart(*bound))
-        problems.add(
-            *node->find(name), section.path(name),
-            range.interval().phrase() + ": 0 means " + std::string(range.zero) + " and cannot be part of a range");
-    if (parameter->left_aside(scene)) problems.add(*node->find("key"), section.path("key"), left_aside_words(scene));
-    for (const DesignVariable& other : variables)
-      if (overlap(other.key, *key))
-        problems.add(*node->find("key"), section.path("key"),
-                     other.key == *key ? "is already a variable; name it once"
-                                       : "sets the same dimension as the variable " + other.key);
-    DesignVariable variable{.key = *key, .start = start.value_or(optimizer::parameter(scene, *key))};
+    if (parameters.empty() || parameters.size() < keys.size()) continue;
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      const Range& own = parameters[i]->range;
+      for (const auto& [name, bound] : {std::pair{"lower", lower}, std::pair{"upper", upper}}) {
+        if (bound && own.is_zero_apart(*bound))
+          problems.add(
+              *node->find(name), section.path(name),
+              own.interval().phrase() + ": 0 means " + std::string(own.zero) + " and cannot be part of a range");
+        if (bound && i > 0 && !own.contains(*bound))
+          problems.add(*node->find(name), section.path(name), own.phrase() + " for " + parameters[i]->key);
+      }
+      if (parameters[i]->left_aside(scene)) problems.add(*keys[i], at, left_aside_words(scene));
+      const auto taken = [&](const std::string& other) {
+        if (overlap(other, keys[i]->text))
+          problems.add(*keys[i], at,
+                       other == keys[i]->text ? "is already a variable; name it once"
+                                              : "sets the same dimension as the variable " + other);
+      };
+      for (const DesignVariable& other : variables) {
+        taken(other.key);
+        for (const std::string& also : other.also) taken(also);
+      }
+      for (std::size_t k = 0; k < i; ++k) taken(keys[k]->text);
+    }
+    const std::string& key = keys.front()->text;
+    DesignVariable variable{.key = key, .start = start.value_or(optimizer::parameter(scene, key))};
+    for (std::size_t i = 1; i < keys.size(); ++i) variable.also.push_back(keys[i]->text);
     if (lower && upper) {
       variable.lower = *lower;
       variable.upper = *upper;
@@ -148,8 +141,8 @@ std::vector<DesignVariable> read_variables(SectionReader& root, const optimizer:
         problems.add(*node->find("upper"), section.path("upper"), "must be > lower = " + shortest(*lower));
       else if (start && (*start < *lower || *start > *upper))
         problems.add(*node->find("start"), section.path("start"), between);
-      else if (!start && !problems.has(*key))
-        start_from_value(variable, from_command_line(root.node(), *key), *node, path, problems);
+      else if (!start && !problems.has(key))
+        start_from_value(variable, from_command_line(root.node(), key), *node, path, problems);
     }
     variables.push_back(std::move(variable));
   }
@@ -183,7 +176,47 @@ double read_accuracy(SectionReader& section, bool of_all, Problems& problems) {
   return accuracy.value_or(0);
 }
 
-std::vector<ObjectiveTerm> read_objective(SectionReader& root, bool accurate, Problems& problems) {
+/// Which cases count, and how.
+/// @param several  whether there are cases, or samples of the one there is
+std::string read_over(SectionReader& section, const std::vector<optimizer::LoadCase>& cases, bool several,
+                      Problems& problems) {
+  std::vector<std::string_view> allowed = names_of<optimizer::Over>();
+  for (const optimizer::LoadCase& load : cases) allowed.push_back(load.name);
+  const std::optional<std::string> over = section.text("over", allowed);
+  if (over && !several)
+    problems.add(*section.node()->find("over"), section.path("over"),
+                 "says how cases count, but there is no [[case]], nor anything [[uncertain]]");
+  return over.value_or(std::string(to_string(optimizer::Over::worst)));
+}
+
+/// What a term wants of its response, beside its weight: "min", "max", "zero" or a number to come near to.
+void read_aim(SectionReader& section, ObjectiveTerm& term, Problems& problems) {
+  const std::optional<bool> absolute = section.truth("absolute");
+  term.absolute = absolute.value_or(false);
+  const Node* aim = section.take("aim");
+  const optimizer::Response* response = optimizer::find_response(term.response);
+  // A number that may have either sign counts by its size unless told otherwise.
+  if (aim == nullptr && !absolute && response != nullptr && response->either_sign && term.weight > 0)
+    term.absolute = true;
+  if (aim == nullptr) return;
+  const bool text = aim->kind == Node::Kind::text;
+  if (text ? aim->text != "min" && aim->text != "max" && aim->text != "zero"
+           : !aim->is_number() || !std::isfinite(aim->real))
+    return problems.add(*aim, section.path("aim"),
+                        "must be \"min\", \"max\", \"zero\" or a number, in the response's SI unit, to come near to");
+  if (absolute)
+    problems.add(*section.node()->find("absolute"), section.path("absolute"),
+                 "must not be given beside aim, which says the same");
+  if (term.weight < 0)
+    problems.add(*section.node()->find("weight"), section.path("weight"),
+                 "must be > 0 beside aim: \"max\" turns the direction");
+  term.absolute = !text || aim->text == "zero";
+  term.target = text ? 0 : aim->real;
+  if (text && aim->text == "max") term.weight = -term.weight;
+}
+
+std::vector<ObjectiveTerm> read_objective(SectionReader& root, const std::vector<optimizer::LoadCase>& cases,
+                                          bool several, bool accurate, Problems& problems) {
   std::vector<ObjectiveTerm> terms;
   const auto tables = entries(root, "objective", problems);
   for (const auto& [node, path] : tables) {
@@ -193,7 +226,8 @@ std::vector<ObjectiveTerm> read_objective(SectionReader& root, bool accurate, Pr
     term.weight = section.number("weight", kAnyNumber).value_or(1);
     const std::optional<double> scale = section.number("scale", kPositive);
     term.scale = scale.value_or(0);
-    term.absolute = section.truth("absolute").value_or(false);
+    read_aim(section, term, problems);
+    term.over = read_over(section, cases, several, problems);
     term.accuracy = read_accuracy(section, accurate, problems);
     section.finish();
     if (term.weight == 0)
@@ -206,9 +240,10 @@ std::vector<ObjectiveTerm> read_objective(SectionReader& root, bool accurate, Pr
   return terms;
 }
 
-std::vector<ResponseConstraint> read_constraints(SectionReader& root, bool accurate, Problems& problems) {
+std::vector<ResponseConstraint> read_constraints(SectionReader& root, const std::vector<optimizer::LoadCase>& cases,
+                                                 bool several, bool accurate, Problems& problems) {
   std::vector<ResponseConstraint> limits;
-  std::map<std::pair<std::string, bool>, std::pair<double, double>> band;
+  std::map<std::tuple<std::string, bool, std::string>, std::pair<double, double>> band;
   for (const auto& [node, path] : entries(root, "constraint", problems)) {
     SectionReader section(node, path, problems);
     ResponseConstraint limit;
@@ -217,6 +252,7 @@ std::vector<ResponseConstraint> read_constraints(SectionReader& root, bool accur
     limit.upper = section.number("upper", kAnyNumber);
     limit.scale = section.number("scale", kPositive).value_or(0);
     limit.absolute = section.truth("absolute").value_or(false);
+    limit.over = read_over(section, cases, several, problems);
     limit.accuracy = read_accuracy(section, accurate, problems);
     section.finish();
     const Node* lower = node->find("lower");
@@ -228,7 +264,7 @@ std::vector<ResponseConstraint> read_constraints(SectionReader& root, bool accur
       problems.add(*upper, section.path("upper"), "must be >= 0: a magnitude is limited");
     if (limit.response.empty()) continue;
     const auto fresh = std::pair(-kInfinity, kInfinity);
-    auto& [floor, ceiling] = band.try_emplace({limit.response, limit.absolute}, fresh).first->second;
+    auto& [floor, ceiling] = band.try_emplace({limit.response, limit.absolute, limit.over}, fresh).first->second;
     floor = std::max(floor, limit.lower.value_or(-kInfinity));
     ceiling = std::min(ceiling, limit.upper.value_or(kInfinity));
     if (floor > ceiling)
@@ -247,8 +283,11 @@ optimizer::Problem read_problem(SectionReader& root, const optimizer::Scene& sce
   optimizer::Problem problem;
   std::vector<DesignVariable> variables = read_variables(root, scene, problems);
   const bool accurate = scene.solver.accuracy > 0 || options.verify_accuracy > 0;
-  problem.objective = read_objective(root, accurate, problems);
-  problem.constraints = read_constraints(root, accurate, problems);
+  problem.cases = read_cases(root, scene, variables, problems);
+  const std::vector<optimizer::LoadCase> named = problem.cases;
+  problem.cases = read_samples(root, scene, variables, problem.cases, problem.quantile, problems);
+  problem.objective = read_objective(root, named, !problem.cases.empty(), accurate, problems);
+  problem.constraints = read_constraints(root, named, !problem.cases.empty(), accurate, problems);
   const bool varies = root.node() && root.node()->find("variable");
   if (problem.objective.empty() && (varies || (root.node() && root.node()->find("objective"))))
     problems.missing(nullptr, "objective",

@@ -12,9 +12,9 @@ namespace dovetail::studies {
 /// What is said of a number of a wear law that the scene does not use.
 [[nodiscard]] std::string left_aside_words(const optimizer::Scene& scene);
 
-/// Reads [[variable]], [[objective]] and [[constraint]]. `scene` gives the start of a variable that names none; an
-/// accuracy of one response takes one of all, in `scene` or `options`. What is
-/// wrong goes to `problems`; the result is meaningful only when nothing was.
+/// Reads [[variable]], [[case]], [[objective]] and [[constraint]]. `scene` gives the start of a variable that names
+/// none; an accuracy of one response takes one of all, in `scene` or `options`. What is wrong goes to `problems`; the
+/// result is meaningful only when nothing was.
 [[nodiscard]] optimizer::Problem read_problem(SectionReader& root, const optimizer::Scene& scene,
                                               const optimizer::OptimizerOptions& options, Problems& problems);
 

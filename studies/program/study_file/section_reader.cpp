@@ -20,6 +20,11 @@ std::string choice_phrase(const std::vector<std::string_view>& choices) {
   return choices.empty() ? "must be a text in quotes" : one_of(choices);
 }
 
+/// What is said of a key that there was before.
+std::string retired(const std::string& key) {
+  return key == "optimizer.threads" ? "is gone: `dovetail run --jobs N` has N processes work at once" : "";
+}
+
 /// The full key of the same name in another section, or empty.
 std::string elsewhere(const std::string& leaf) {
   for (const optimizer::Parameter& p : optimizer::scene_parameters())
@@ -133,6 +138,10 @@ void SectionReader::finish() {
   if (!table_) return;
   for (const Member& member : table_->members) {
     if (std::find(valid_.begin(), valid_.end(), member.key) != valid_.end()) continue;
+    if (const std::string gone = retired(path(member.key)); !gone.empty()) {
+      problems_.add(member.value, path(member.key), gone);
+      continue;
+    }
     const std::string what = member.value.kind == Node::Kind::table ? "unknown section" : "unknown key";
     std::string near = elsewhere(member.key);
     if (near.empty()) {
@@ -141,6 +150,25 @@ void SectionReader::finish() {
     }
     problems_.add(member.value, path(member.key), what + (near.empty() ? "" : "; did you mean " + near + "?"));
   }
+}
+
+std::vector<std::pair<const Node*, std::string>> entries(SectionReader& root, const std::string& kind,
+                                                         Problems& problems) {
+  std::vector<std::pair<const Node*, std::string>> found;
+  const Node* list = root.take(kind);
+  if (!list) return found;
+  if (list->kind != Node::Kind::list) {
+    problems.add(*list, kind, "must be written as [[" + kind + "]], once for each");
+    return found;
+  }
+  for (const Node& item : list->items) {
+    const std::string path = kind + "[" + std::to_string(found.size()) + "]";
+    if (item.kind == Node::Kind::table)
+      found.emplace_back(&item, path);
+    else
+      problems.add(item, path, "must be a section, [[" + kind + "]]");
+  }
+  return found;
 }
 
 }  // namespace dovetail::studies

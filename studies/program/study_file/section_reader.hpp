@@ -3,6 +3,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/options.hpp"
@@ -61,6 +62,10 @@ class SectionReader {
   Problems& problems_;
   std::vector<std::string> valid_;
 };
+
+/// The tables of `[[kind]]`, each with its path "kind[0]"; anything else of that name is reported.
+[[nodiscard]] std::vector<std::pair<const Node*, std::string>> entries(SectionReader& root, const std::string& kind,
+                                                                       Problems& problems);
 
 template <class S>
 void SectionReader::fields(S& object, std::span<const Field<S>> table, bool needed) {

@@ -154,10 +154,17 @@ Study read_study(const Document& document) {
   root.finish();
   problems.raise();
   optimizer::check_terms(study.problem);
-  // Where every design has the same mesh, matrices are computed once.
+  // Where every design has the same mesh, or cases differ in force or friction alone, matrices are computed once.
   const auto& variables = study.problem.space.variables();
-  const auto shares = [](const optimizer::DesignVariable& v) { return optimizer::shares_matrices(v.key); };
-  if (!study.given.contains("solver.prestress") && !variables.empty() && std::ranges::all_of(variables, shares))
+  const auto shares = [](const optimizer::DesignVariable& v) {
+    return optimizer::shares_matrices(v.key) && std::ranges::all_of(v.also, optimizer::shares_matrices);
+  };
+  const bool one_mesh = !variables.empty() && std::ranges::all_of(variables, shares);
+  bool alike = false;
+  for (const optimizer::LoadCase& one : study.problem.cases)
+    for (const optimizer::LoadCase& other : study.problem.cases)
+      alike = alike || (&one != &other && optimizer::share_matrices(one, other));
+  if (!study.given.contains("solver.prestress") && (one_mesh || alike))
     study.scene.solver.prestress = optimizer::Prestress::shared;
   return study;
 }

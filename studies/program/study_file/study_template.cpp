@@ -123,7 +123,19 @@ key = "geometry.neck_width_mm"
 lower = 8
 upper = 9.5
 
-# What is minimised: the sum of weight * response / scale over all [[objective]]; a negative weight maximises.
+# Several loads: what is different in each, by the dotted keys in quotes, and its share of the blade's life. Without
+# cases there is the one load above.
+# [[case]]
+# name = "cruise"
+# weight = 4
+# [[case]]
+# name = "climb"
+# "scene.speed_rpm" = 10500
+# "loading.tip_force_n" = 3
+
+# What is wanted: the least sum of weight * response / scale over all [[objective]]; `aim` may be "min" (if not given),
+# "max", "zero" or a number to come near to. Objectives and limits count the worst case unless they say
+# over = "mean", "sum" or the name of one.
 # The responses, SI units:
 )" + response_list() +
          R"([[objective]]

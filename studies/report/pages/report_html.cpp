@@ -50,7 +50,7 @@ void add_opening(const RunRecord& record, Blanks& blanks) {
   blanks["free"] = when(held.empty() && record.best);
   blanks["without_bar"] = listed(without_bar(record));
   blanks["ending"] = ending(record);
-  blanks["key_figures"] = key_figures(record);
+  blanks["key_figures"] = key_figures(record) + case_table(record);
 }
 
 void add_designs(const Comparison& designs, Blanks& blanks) {
@@ -89,8 +89,9 @@ void add_verification(const RunRecord& record, Blanks& blanks) {
 }
 
 void add_search(const RunRecord& record, Blanks& blanks) {
-  blanks["problem"] = problem_list(record);
+  blanks["problem"] = problem_list(record) + case_list(record);
   blanks["limits"] = limit_table(record);
+  blanks["departures"] = departure_table(record);
   std::vector<Figure> plots = limit_plots(record);
   plots.insert(plots.begin(), objective_plot(record));
   blanks["search"] = record.evaluations.empty() ? "" : figures_html(plots);

@@ -12,6 +12,11 @@ namespace dovetail::report {
 /// neither was computed.
 [[nodiscard]] std::string key_figures(const RunRecord& record);
 
+/// The responses that objective and limits name, case by case; empty without cases.
+[[nodiscard]] std::string case_table(const RunRecord& record);
+/// What the cases are; empty without.
+[[nodiscard]] std::string case_list(const RunRecord& record);
+
 /// Design variables with bounds, start, best and whether at a bound.
 [[nodiscard]] std::string variable_table(const RunRecord& record);
 
@@ -19,6 +24,9 @@ namespace dovetail::report {
 [[nodiscard]] std::string problem_list(const RunRecord& record);
 /// How far the best design stays from each limit, on the search's mesh and on finer ones; empty without the latter.
 [[nodiscard]] std::string limit_table(const RunRecord& record);
+
+/// How far start and best design hold where something is other than the study says; empty where nobody asked.
+[[nodiscard]] std::string departure_table(const RunRecord& record);
 
 /// Every candidate, collapsed.
 [[nodiscard]] std::string evaluation_table(const RunRecord& record);

@@ -29,7 +29,8 @@ std::string verification_table(const RunRecord& record) {
   for (const VerificationRecord& v : record.verifications) {
     const auto where_compared = [&](const std::string& value) { return v.history_known() ? value : "not known"; };
     table.rows.push_back(
-        {{std::to_string(v.evaluation + 1), v.agreement(), with_error(v.search_volume_m3, v.search_bar_m3, bare),
+        {{std::to_string(v.evaluation + 1) + (v.load_case.empty() ? "" : ", " + v.load_case), v.agreement(),
+          with_error(v.search_volume_m3, v.search_bar_m3, bare),
           v.finer_known() ? significant(v.direct_volume_m3 / volume.si, 4) : "not known",
           where_compared(with_error(v.history_volume_m3, v.history_bar_m3, bare)),
           where_compared(per_cent(v.history_volume_m3, v.search_volume_m3)),

@@ -23,8 +23,9 @@ struct TableField {
 
 /// Lists of these are kept column by column, in one data set for each field; of others each has a group 0, 1, ...
 template <class R>
-inline constexpr bool kInColumns = OneOf<R, optimizer::DesignVariable, optimizer::ObjectiveTerm,
-                                         optimizer::ResponseConstraint, EvaluationRecord, geometry::Edge, fem::Region>;
+inline constexpr bool kInColumns =
+    OneOf<R, optimizer::DesignVariable, optimizer::ObjectiveTerm, optimizer::ResponseConstraint, optimizer::KeyChange,
+          EvaluationRecord, geometry::Edge, fem::Region>;
 
 }  // namespace dovetail::report
 
@@ -33,13 +34,17 @@ namespace dovetail::optimizer {
 template <>
 inline constexpr auto kFields<DesignVariable> =
     std::tuple{RecordField{"key", &DesignVariable::key}, RecordField{"lower", &DesignVariable::lower},
-               RecordField{"upper", &DesignVariable::upper}, RecordField{"start", &DesignVariable::start}};
+               RecordField{"upper", &DesignVariable::upper}, RecordField{"start", &DesignVariable::start},
+               RecordField{"also", &DesignVariable::also, true}};
 
 template <>
-inline constexpr auto kFields<ObjectiveTerm> =
-    std::tuple{RecordField{"response", &ObjectiveTerm::response}, RecordField{"weight", &ObjectiveTerm::weight},
-               RecordField{"scale", &ObjectiveTerm::scale}, RecordField{"absolute", &ObjectiveTerm::absolute},
-               RecordField{"accuracy", &ObjectiveTerm::accuracy, true}};
+inline constexpr auto kFields<ObjectiveTerm> = std::tuple{RecordField{"response", &ObjectiveTerm::response},
+                                                          RecordField{"weight", &ObjectiveTerm::weight},
+                                                          RecordField{"scale", &ObjectiveTerm::scale},
+                                                          RecordField{"absolute", &ObjectiveTerm::absolute},
+                                                          RecordField{"accuracy", &ObjectiveTerm::accuracy, true},
+                                                          RecordField{"target", &ObjectiveTerm::target, true},
+                                                          RecordField{"over", &ObjectiveTerm::over, true}};
 
 template <>
 inline constexpr auto kFields<ResponseConstraint> =
@@ -48,7 +53,18 @@ inline constexpr auto kFields<ResponseConstraint> =
                RecordField{"upper", &ResponseConstraint::upper},
                RecordField{"scale", &ResponseConstraint::scale},
                RecordField{"absolute", &ResponseConstraint::absolute},
-               RecordField{"accuracy", &ResponseConstraint::accuracy, true}};
+               RecordField{"accuracy", &ResponseConstraint::accuracy, true},
+               RecordField{"over", &ResponseConstraint::over, true}};
+
+template <>
+inline constexpr auto kFields<KeyChange> =
+    std::tuple{RecordField{"key", &KeyChange::key}, RecordField{"value", &KeyChange::value},
+               RecordField{"times", &KeyChange::times}};
+
+template <>
+inline constexpr auto kFields<LoadCase> =
+    std::tuple{RecordField{"name", &LoadCase::name}, RecordField{"weight", &LoadCase::weight},
+               RecordField{"sample_of", &LoadCase::sample_of}, RecordField{"changes", &LoadCase::changes}};
 
 template <>
 inline constexpr auto kFields<geometry::Edge> =
@@ -67,7 +83,8 @@ inline constexpr auto kFields<fem::Region> = std::tuple{
 
 using report::ContactRecord, report::ResponseCurve, report::NodalDiameterRecord, report::FilletRecord,
     report::HistoryRecord, report::FieldRecord, report::DesignRecord, report::EvaluationRecord,
-    report::VerificationRecord, report::FinerRecord, report::Provenance, report::RunRecord, report::TableField;
+    report::VerificationRecord, report::FinerRecord, report::DepartureRecord, report::Provenance, report::RunRecord,
+    report::TableField;
 
 template <>
 inline constexpr auto kFields<ContactRecord> =
@@ -169,6 +186,7 @@ inline constexpr auto kFields<VerificationRecord> =
     std::tuple{RecordField{"evaluation", &VerificationRecord::evaluation},
                RecordField{"status", &VerificationRecord::status},
                RecordField{"follow", &VerificationRecord::follow},
+               RecordField{"load_case", &VerificationRecord::load_case, true},
                RecordField{"flank_elements", &VerificationRecord::flank_elements},
                RecordField{"harmonics", &VerificationRecord::harmonics},
                RecordField{"samples", &VerificationRecord::samples},
@@ -193,6 +211,12 @@ inline constexpr auto kFields<VerificationRecord> =
                RecordField{"search_profile_m", &VerificationRecord::search_profile_m},
                RecordField{"direct_profile_m", &VerificationRecord::direct_profile_m},
                RecordField{"history_profile_m", &VerificationRecord::history_profile_m}};
+
+template <>
+inline constexpr auto kFields<DepartureRecord> = std::tuple{
+    RecordField{"evaluation", &DepartureRecord::evaluation}, RecordField{"departure", &DepartureRecord::departure},
+    RecordField{"status", &DepartureRecord::status}, RecordField{"objective", &DepartureRecord::objective},
+    RecordField{"constraints", &DepartureRecord::constraints}};
 
 template <>
 inline constexpr auto kFields<FinerRecord> = std::tuple{
@@ -223,6 +247,7 @@ inline constexpr auto kFields<RunRecord> = std::tuple{RecordField{"name", &RunRe
                                                       RecordField{"best", &RunRecord::best_design},
                                                       RecordField{"baseline", &RunRecord::baseline_design},
                                                       RecordField{"verifications", &RunRecord::verifications, true},
-                                                      RecordField{"finer", &RunRecord::finer, true}};
+                                                      RecordField{"finer", &RunRecord::finer, true},
+                                                      RecordField{"departures", &RunRecord::departures, true}};
 
 }  // namespace dovetail::optimizer

@@ -107,6 +107,8 @@ void Archive::exchange(const std::string& group, const std::string& name, optimi
   exchange(own, "variables", variables);
   exchange(own, "objective", problem.objective);
   exchange(own, "constraints", problem.constraints);
+  if (out_ || file_.exists(in(own, "cases"))) exchange(own, "cases", problem.cases);
+  if (out_ || has_attribute(own, "quantile")) exchange(own, "quantile", problem.quantile);
   if (out_)
     out_->write(in(own, "constraint_names"), constraint_names(problem));
   else

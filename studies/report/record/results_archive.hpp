@@ -95,6 +95,7 @@ class Archive {
   template <class R, class T>
   void exchange_column(const std::string& group, const optimizer::RecordField<R, T>& field, std::vector<R>& list,
                        bool first) {
+    if (!out_ && field.later && !file_.exists(in(group, field.name))) return;
     std::vector<T> values;
     for (const R& record : list) values.push_back(record.*field.member);
     column(group, field.name, values);

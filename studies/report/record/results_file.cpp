@@ -76,6 +76,8 @@ void Archive::require_consistent(const std::string& /*group*/, const RunRecord& 
     if (index) require_index(name, static_cast<std::int64_t>(*index), "must be the index of an evaluation, or -1");
   for (const VerificationRecord& v : record.verifications)
     require_index("/verifications, evaluation", v.evaluation, "must be the index of an evaluation");
+  for (const DepartureRecord& departure : record.departures)
+    require_index("/departures, evaluation", departure.evaluation, "must be the index of an evaluation");
   for (const FinerRecord& check : record.finer)
     require_index("/finer, evaluation", check.evaluation, "must be the index of an evaluation");
 }

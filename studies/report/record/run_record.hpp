@@ -108,6 +108,7 @@ struct EvaluationRecord {
 struct VerificationRecord {
   std::int64_t evaluation = 0;  ///< index of the candidate
   std::string status, follow;
+  std::string load_case;  ///< empty where the study has none
   std::int64_t flank_elements = 0, harmonics = 0, samples = 0, direct_solves = 0, history_solves = 0;
   double frequency_hz = 0, search_volume_m3 = 0, search_bar_m3 = 0, search_depth_m = 0;
   double direct_volume_m3 = 0, direct_depth_m = 0, history_volume_m3 = 0, history_depth_m = 0;
@@ -149,6 +150,15 @@ struct FinerRecord {
   Numbers constraints;  ///< c in the order of constraint_names, NaN unless computed
 };
 
+/// What becomes of a design where something is other than its study says; see optimizer::usual_departures.
+struct DepartureRecord {
+  std::int64_t evaluation = 0;  ///< index of the candidate
+  std::string departure;        ///< its name
+  std::string status;           ///< of the evaluation there
+  double objective = 0;         ///< NaN unless computed
+  Numbers constraints;          ///< c in the order of constraint_names, NaN unless computed
+};
+
 /// A finished or interrupted run with everything its report shows.
 struct RunRecord {
   std::string name, title;
@@ -163,6 +173,7 @@ struct RunRecord {
   std::optional<DesignRecord> best_design, baseline_design;
   std::vector<VerificationRecord> verifications;  ///< of the best designs, best first
   std::vector<FinerRecord> finer;                 ///< in the order asked for; the best design is among the last
+  std::vector<DepartureRecord> departures;        ///< of the start and the best design
   Provenance provenance;
   std::string wear_law;  ///< its name; empty in older records: the law that is used by default
 };

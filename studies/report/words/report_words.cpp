@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "contact/wear_law.hpp"
 #include "optimizer/responses/response_table.hpp"
@@ -37,47 +38,65 @@ std::string verb(double from, double to) {
   return to < from ? "fell" : to > from ? "rose" : "stayed";
 }
 
+/// What a term of the objective is about, over the cases that it counts and in the response's unit.
+optimizer::Barred shown_term(const optimizer::Problem& problem, const optimizer::ObjectiveTerm& term,
+                             const EvaluationRecord& evaluation) {
+  const auto [value, bar] = term_value(problem, term, evaluation.responses, evaluation.error_estimates);
+  const double by = (term.scale > 0 ? term.scale : 1) / term.weight;
+  return {.value = by * value, .bar = std::abs(by) * bar};
+}
+
+/// "from 0.31 to 0.02 mm^3 (-94 %)"
+std::string from_to(const std::string& response, double from, double to) {
+  const Unit unit = response_unit(response, std::max(std::abs(from), std::abs(to)));
+  const std::string symbol = unit.symbol.empty() ? "" : "\u00a0" + unit.symbol;
+  std::string text =
+      fmt::format("from {} to {}{}", significant(from / unit.si, 3), significant(to / unit.si, 3), symbol);
+  if (from > 0 && to > 0) text += " (" + per_cent(to, from, 1, 2) + ")";
+  return text;
+}
+
 std::string single_term(const RunRecord& record, const EvaluationRecord& base, const EvaluationRecord& best) {
   const optimizer::ObjectiveTerm& term = record.problem.objective.front();
-  const double from = response(base, term.response), to = response(best, term.response);
-  const Unit unit = response_unit(term.response, std::max(std::abs(from), std::abs(to)));
-  const std::string symbol = unit.symbol.empty() ? "" : "\u00a0" + unit.symbol;
-  std::string text = fmt::format("The {} {} from {} to {}{}", words(term.response), verb(from, to),
-                                 significant(from / unit.si, 3), significant(to / unit.si, 3), symbol);
-  if (from > 0 && to > 0) text += " (" + per_cent(to, from, 1, 2) + ")";
-  const std::string errors = against_errors(from, to, error_bar(base, term.response) + error_bar(best, term.response));
-  return text + "." + (errors.empty() ? "" : " " + errors);
+  const optimizer::Barred from = shown_term(record.problem, term, base), to = shown_term(record.problem, term, best);
+  const std::string errors = against_errors(from.value, to.value, from.bar + to.bar);
+  return fmt::format("The {} {} {}.{}", term_words(record.problem, term), verb(from.value, to.value),
+                     from_to(term.response, from.value, to.value), errors.empty() ? "" : " " + errors);
 }
 
 std::string several_terms(const RunRecord& record, const EvaluationRecord& base, const EvaluationRecord& best) {
   double error = 0;
-  for (const optimizer::ObjectiveTerm& term : record.problem.objective)
-    error += std::abs(term.weight) / (term.scale > 0 ? term.scale : 1) *
-             (error_bar(base, term.response) + error_bar(best, term.response));
+  std::vector<std::string> parts;
+  for (const optimizer::ObjectiveTerm& term : record.problem.objective) {
+    const optimizer::Barred from = shown_term(record.problem, term, base), to = shown_term(record.problem, term, best);
+    error += std::abs(term.weight) / (term.scale > 0 ? term.scale : 1) * (from.bar + to.bar);
+    parts.push_back(fmt::format("the {} {} {}", term_words(record.problem, term), verb(from.value, to.value),
+                                from_to(term.response, from.value, to.value)));
+  }
   const std::string errors = against_errors(base.objective, best.objective, error);
-  return fmt::format("The objective, a {}, {} from {} to {}.{}", objective_words(record.problem),
+  return fmt::format("The objective, a {}, {} from {} to {}: {}.{}", objective_words(record.problem),
                      verb(base.objective, best.objective), significant(base.objective, 3),
-                     significant(best.objective, 3), errors.empty() ? "" : " " + errors);
+                     significant(best.objective, 3), listed(parts), errors.empty() ? "" : " " + errors);
 }
 
 std::string objective_value(const RunRecord& record, const EvaluationRecord& best) {
   if (record.problem.objective.size() != 1) return fmt::format("an objective of {}", significant(best.objective, 3));
-  const std::string& name = record.problem.objective.front().response;
-  const double value = response(best, name);
-  const std::string said = words(name);
+  const optimizer::ObjectiveTerm& term = record.problem.objective.front();
+  const auto [value, bar] = shown_term(record.problem, term, best);
+  const std::string said = term_words(record.problem, term);
   const char* article = std::string_view("aeiou").find(said.front()) == std::string_view::npos ? "a" : "an";
-  return fmt::format("{} {} of {}", article, said,
-                     with_error(value, error_bar(best, name), response_unit(name, value)));
+  return fmt::format("{} {} of {}", article, said, with_error(value, bar, response_unit(term.response, value)));
 }
 
 /// "peak_amplitude_m:upper" -> "upper limit of the peak amplitude (8.0 mm)".
 std::string limit_words(const std::string& name, const optimizer::Problem& problem) {
   const std::size_t colon = name.rfind(':');
-  const std::string limited = name.substr(0, colon);
-  const std::string side = colon == std::string::npos ? "" : name.substr(colon + 1);
-  std::string text = fmt::format("the {} limit of the {}", side, words(limited));
+  const auto [response, over] = optimizer::split_case(std::string_view(name).substr(0, colon));
+  const std::string limited(response), side = colon == std::string::npos ? "" : name.substr(colon + 1);
+  std::string text = fmt::format("the {} limit of the {}{}", side, words(limited),
+                                 over_words(problem, over.empty() ? to_string(optimizer::Over::worst) : over));
   for (const optimizer::ResponseConstraint& constraint : problem.constraints) {
-    if (constraint.response != limited) continue;
+    if (constraint.response != limited || (!over.empty() && constraint.over != over)) continue;
     const std::optional<double> limit = side == "upper" ? constraint.upper : constraint.lower;
     if (limit) text += " (" + plain(*limit, response_unit(limited, *limit)) + ")";
     break;
@@ -121,9 +140,36 @@ std::string wear_words(const RunRecord& record) {
   return law ? std::string(law->title) : "wear by the law " + record.wear_law;
 }
 
+std::string over_words(const optimizer::Problem& problem, std::string_view over) {
+  if (problem.cases.empty()) return "";
+  const std::optional<optimizer::Over> rule = named<optimizer::Over>(over);
+  if (!rule) return " in case " + std::string(over);
+  switch (*rule) {
+    case optimizer::Over::worst:
+      return " in its worst case";
+    case optimizer::Over::mean:
+      return ", mean of the cases,";
+    case optimizer::Over::sum:
+      return ", sum of the cases,";
+    case optimizer::Over::deviation:
+      return ", deviation over the cases,";
+    case optimizer::Over::quantile:
+      return fmt::format(", {:g}\u00a0% quantile of the cases,", 100 * problem.quantile);
+  }
+  return "";
+}
+
+std::string term_words(const optimizer::Problem& problem, const optimizer::ObjectiveTerm& term) {
+  std::string text = words(term.response);
+  if (term.absolute && term.target == 0) text = "size of the " + text;
+  if (term.absolute && term.target != 0)
+    text = "distance of the " + text + " from " + plain(term.target, response_unit(term.response, term.target));
+  return text + over_words(problem, term.over);
+}
+
 std::string objective_words(const optimizer::Problem& problem) {
   std::vector<std::string> parts;
-  for (const optimizer::ObjectiveTerm& term : problem.objective) parts.push_back(words(term.response));
+  for (const optimizer::ObjectiveTerm& term : problem.objective) parts.push_back(term_words(problem, term));
   if (parts.empty()) return "objective";
   return parts.size() == 1 ? parts.front() : "weighted sum of " + listed(parts);
 }
@@ -136,7 +182,7 @@ ObjectiveScale objective_scale(const RunRecord& record) {
   for (const EvaluationRecord& e : record.evaluations)
     if (std::isfinite(e.objective)) largest = std::max(largest, std::abs(e.objective * si));
   const Unit unit = response_unit(term.response, largest);
-  return {.factor = si / unit.si, .unit = unit.symbol, .label = words(term.response)};
+  return {.factor = si / unit.si, .unit = unit.symbol, .label = term_words(record.problem, term)};
 }
 
 namespace {
@@ -168,6 +214,8 @@ std::string headline(const RunRecord& record) {
   if (record.evaluations.empty()) return "No candidate was evaluated.";
   if (!best) {
     std::string text = "No feasible design was found: none of the candidates keeps every limit.";
+    if (const std::vector<std::string> never = never_kept(record); !never.empty())
+      text += " No candidate keeps " + listed(never) + ".";
     if (record.least_broken && *record.least_broken < record.evaluations.size())
       text += fmt::format(" The nearest is candidate {}.", *record.least_broken + 1);
     return text;
@@ -186,6 +234,35 @@ std::string headline(const RunRecord& record) {
       record.problem.objective.size() == 1 ? single_term(record, *base, *best) : several_terms(record, *base, *best);
   if (!base->feasible && best->feasible) text += " The start itself breaks a limit, the best design keeps them all.";
   return text;
+}
+
+std::vector<std::string> never_kept(const RunRecord& record) {
+  // The least a limit or a rule is broken by, and where.
+  struct Least {
+    double c = std::numeric_limits<double>::infinity();
+    std::size_t candidate = 0;
+    void add(double value, std::size_t of) {
+      if (value < c) *this = {.c = value, .candidate = of};
+    }
+  };
+  const std::vector<std::string> names = constraint_names(record.problem);
+  std::vector<Least> limits(names.size());
+  std::map<std::string, Least> rules;
+  for (std::size_t i = 0; i < record.evaluations.size(); ++i) {
+    const EvaluationRecord& evaluation = record.evaluations[i];
+    for (std::size_t j = 0; j < std::min(names.size(), evaluation.constraints.size()); ++j)
+      if (std::isfinite(evaluation.constraints[j])) limits[j].add(evaluation.constraints[j], i);
+    for (const auto& [name, c] : evaluation.rules) rules[name].add(c, i);
+  }
+  std::vector<std::string> found;
+  const auto tell = [&](const std::string& what, const Least& least) {
+    if (std::isfinite(least.c) && least.c > 0)
+      found.push_back(fmt::format("{} (candidate {} comes nearest and misses it by {}\u00a0%)", what,
+                                  least.candidate + 1, significant(100 * least.c, 2)));
+  };
+  for (std::size_t j = 0; j < names.size(); ++j) tell(limit_words(names[j], record.problem), limits[j]);
+  for (const auto& [name, least] : rules) tell("the geometric rule \u201c" + words(name) + "\u201d", least);
+  return found;
 }
 
 std::vector<std::string> holding(const RunRecord& record) {

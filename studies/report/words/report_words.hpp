@@ -17,6 +17,12 @@ namespace dovetail::report {
 [[nodiscard]] double error_bar(const EvaluationRecord& evaluation, const std::string& name);
 [[nodiscard]] Unit response_unit(const std::string& name, double largest);
 
+/// " in its worst case", " in case idle"; nothing where a study has no cases.
+[[nodiscard]] std::string over_words(const optimizer::Problem& problem, std::string_view over);
+
+/// What a term of the objective is about: "size of the resonance drift in its worst case".
+[[nodiscard]] std::string term_words(const optimizer::Problem& problem, const optimizer::ObjectiveTerm& term);
+
 /// The objective in words: "asymptotic wear volume" or "weighted sum of ...".
 [[nodiscard]] std::string objective_words(const optimizer::Problem& problem);
 
@@ -31,6 +37,9 @@ struct ObjectiveScale {
 /// What was optimised, from what to what, and whether that is beyond the error bars. Plain text sentences; says so when
 /// no feasible design was found.
 [[nodiscard]] std::string headline(const RunRecord& record);
+
+/// The limits and rules that no candidate keeps, each with how near the nearest one comes.
+[[nodiscard]] std::vector<std::string> never_kept(const RunRecord& record);
 
 /// What holds the best design: active limits, geometric rules and bounds by name. A limit or rule counts as active
 /// within 0.5 % of its scale, a bound within 0.5 % of the variable's range.

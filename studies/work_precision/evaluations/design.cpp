@@ -77,9 +77,7 @@ std::vector<std::map<std::string, double>> random_designs(const studies::Study& 
   for (const std::vector<double>& unit :
        optimizer::latin_hypercube(kDrawn, space.size(), static_cast<std::uint64_t>(seed))) {
     if (static_cast<int>(designs.size()) == count) break;
-    const std::vector<double> values = space.from_unit(unit);
-    std::map<std::string, double> design;
-    for (std::size_t i = 0; i < values.size(); ++i) design[space.variables()[i].key] = values[i];
+    std::map<std::string, double> design = space.settings(space.from_unit(unit));
     const WholeRun run = MeasuredDesign(study, design)(setting);
     if (run.converged() && run.responses.at(std::string(optimizer::kWornVolume.name)) > 0)
       designs.push_back(std::move(design));

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "optimizer/search/run.hpp"
@@ -39,6 +42,18 @@ inline Evaluation failed() {
   Evaluation e;
   e.status = failed_at("steady_state", Status::iteration_limit);
   return e;
+}
+
+/// So many at once, told of last first, as others who work may be.
+inline BatchEvaluator in_batches(const Evaluator& evaluator, std::size_t size) {
+  return [=](const std::vector<std::vector<double>>& points, const std::function<bool(std::size_t, Evaluation)>& told) {
+    bool goes_on = true;
+    for (std::size_t first = 0; goes_on && first < points.size(); first += size) {
+      std::vector<Evaluation> found;
+      for (std::size_t i = first; i < std::min(first + size, points.size()); ++i) found.push_back(evaluator(points[i]));
+      for (std::size_t i = found.size(); i-- > 0;) goes_on = told(first + i, std::move(found[i])) && goes_on;
+    }
+  };
 }
 
 inline std::vector<Algorithm> all_algorithms() {

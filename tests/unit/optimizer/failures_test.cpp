@@ -81,17 +81,17 @@ TEST_P(Failures, EndsWhenNothingCanBeComputed) {
 }
 
 TEST_P(Failures, PassesOnWhatTheEvaluatorThrows) {
-  for (const int threads : {1, 2}) {
+  for (const bool at_once : {false, true}) {
     for (const int after : {0, 3, 15}) {
       std::atomic<int> calls = 0;
       const Evaluator evaluator = [&](std::span<const double> x) {
         if (calls++ == after) throw std::out_of_range("disk is gone");
         return bowl(x);
       };
-      OptimizerOptions options = bowl_options(GetParam());
-      options.threads = threads;
+      RunHooks hooks;
+      if (at_once) hooks.many = in_batches(evaluator, 2);
       try {
-        static_cast<void>(run_optimization(bowl_problem(), evaluator, options));
+        static_cast<void>(run_optimization(bowl_problem(), evaluator, bowl_options(GetParam()), hooks));
         ADD_FAILURE() << "nothing thrown";
       } catch (const std::out_of_range& error) {
         EXPECT_STREQ(error.what(), "disk is gone");

@@ -171,5 +171,23 @@ TEST_F(JournalFile, HasOneWriterAtATime) {
   }
 }
 
+TEST_F(JournalFile, MergesThoseOfOneStudy) {
+  write_three();
+  const std::filesystem::path other = file.string() + ".other", merged = file.string() + ".merged";
+  {
+    Journal journal = Journal::create(other, "study-1");
+    for (double i = 2; i < 5; ++i) journal.append(std::vector{i, 0.1 * i}, Evaluation{});
+  }
+  EXPECT_EQ(merge_journals(std::vector{file, other}, merged), 5U);
+  const JournalContents contents = read_journal(merged);
+  ASSERT_EQ(contents.records.size(), 5U);
+  EXPECT_EQ(contents.records[2].evaluation.status, rich().status);  // the first to have it
+  std::filesystem::remove(other);
+  std::filesystem::remove(merged);
+  { Journal journal = Journal::create(other, "study-2"); }
+  EXPECT_THROW(merge_journals(std::vector{file, other}, merged), InputError);
+  std::filesystem::remove(other);
+}
+
 }  // namespace
 }  // namespace dovetail::optimizer

@@ -147,5 +147,74 @@ TEST(Problem, NamesEachResponseOnce) {
   EXPECT_EQ(responses_of(problem), (std::vector<std::string>{"a", "b", "c"}));
 }
 
+/// Two cases, the second four times as long; wear of 1 and 3, an amplitude of 5 and 2.
+Problem with_cases() {
+  Problem problem = bowl_problem();
+  problem.objective = {{.response = "wear"}};
+  problem.constraints = {{.response = "amplitude", .lower = 1, .upper = 4}};
+  problem.cases = {{.name = "cruise", .weight = 1, .changes = {}}, {.name = "climb", .weight = 4, .changes = {}}};
+  return problem;
+}
+
+Evaluation in_both() {
+  Evaluation e;
+  e.responses = {{"wear", 1},       {"amplitude", 5},      {"wear@cruise", 1}, {"amplitude@cruise", 5},
+                 {"wear@climb", 3}, {"amplitude@climb", 2}};
+  e.error_estimates = {{"wear@cruise", 2.5}, {"wear@climb", 0.25}, {"amplitude@cruise", 0.5}, {"amplitude@climb", 2}};
+  return e;
+}
+
+double objective_over(const char* over) {
+  Problem problem = with_cases();
+  problem.objective[0].over = over;
+  return judge(problem, in_both(), 0).objective;
+}
+
+TEST(ProblemWithCases, CountsThemAsTheTermSays) {
+  EXPECT_DOUBLE_EQ(objective_over("worst"), 3);
+  EXPECT_DOUBLE_EQ(objective_over("mean"), (1 + 4 * 3) / 5.0);
+  EXPECT_DOUBLE_EQ(objective_over("sum"), 13);
+  EXPECT_DOUBLE_EQ(objective_over("cruise"), 1);
+  // What is to be large is worst where it is smallest, what has an aim where it is farthest from it.
+  Problem problem = with_cases();
+  problem.objective[0].weight = -1;
+  EXPECT_DOUBLE_EQ(judge(problem, in_both(), 0).objective, -1);
+  problem.objective = {{.response = "wear", .weight = 2, .scale = 4, .absolute = true, .target = 2.5}};
+  EXPECT_DOUBLE_EQ(judge(problem, in_both(), 0).objective, 2 * 1.5 / 4);
+}
+
+TEST(ProblemWithCases, KeepsLimitsInEachOfThem) {
+  Problem problem = with_cases();
+  Judgement judgement = judge(problem, in_both(), 0);
+  EXPECT_DOUBLE_EQ(judgement.constraints[0], (5 - 4) / 4.0);  // upper, in the one case
+  EXPECT_DOUBLE_EQ(judgement.constraints[1], 1 - 2);          // lower, in the other
+  EXPECT_FALSE(judgement.feasible);
+  problem.constraints[0].over = "climb";
+  EXPECT_TRUE(judge(problem, in_both(), 0).feasible);
+  EXPECT_THAT(constraint_names(problem), testing::ElementsAre("amplitude@climb:upper", "amplitude@climb:lower"));
+  problem.constraints[0] = {.response = "amplitude", .lower = {}, .upper = 10, .over = "sum"};
+  EXPECT_DOUBLE_EQ(judge(problem, in_both(), 0).constraints[0], (5 + 4 * 2 - 10) / 10.0);
+}
+
+// The worst case may be another one within the bars.
+TEST(ProblemWithCases, BarsOfTheWorstHoldWhicheverItIs) {
+  Problem problem = with_cases();
+  const Evaluation e = in_both();
+  EXPECT_DOUBLE_EQ(judgement_bars(problem, e.responses, e.error_estimates).objective, 0.5);  // 1 + 2.5 against 3
+  EXPECT_DOUBLE_EQ(judgement_bars(problem, e.responses, e.error_estimates).constraints[0], 0.5 / 4);
+  problem.objective[0].over = "mean";
+  EXPECT_DOUBLE_EQ(judgement_bars(problem, e.responses, e.error_estimates).objective, (2.5 + 4 * 0.25) / 5);
+  problem.objective[0].over = "climb";
+  EXPECT_DOUBLE_EQ(judgement_bars(problem, e.responses, e.error_estimates).objective, 0.25);
+}
+
+TEST(ProblemWithCases, AResponseMissingInOneIsAFailure) {
+  Evaluation e = in_both();
+  e.responses.erase("wear@climb");
+  EXPECT_FALSE(judge(with_cases(), e, 0).computed);
+  annotate(with_cases(), 0, e);
+  EXPECT_EQ(e.status, "response: wear@climb is missing");
+}
+
 }  // namespace
 }  // namespace dovetail::optimizer

@@ -137,7 +137,7 @@ TEST(Fingerprint, ChangesWithEverythingThatMovesCandidates) {
   changed.seed = 2;
   EXPECT_NE(fingerprint(problem, changed, "physics"), key);
   changed = {};
-  changed.threads = 2;
+  changed.departures = false;
   changed.max_evaluations = 7;
   EXPECT_EQ(fingerprint(problem, changed, "physics"), key);
 }

@@ -86,37 +86,33 @@ TEST_F(Run, StartsTheAlgorithmFromTheBestOfTheScan) {
   EXPECT_NEAR(result.evaluations[7].x[1], result.evaluations[best].x[1], 1e-9);
 }
 
-TEST_F(Run, GivesTheSameJournalForAnyNumberOfThreads) {
+TEST_F(Run, GivesTheSameJournalHoweverManyAreComputedAtOnce) {
   OptimizerOptions options = bowl_options(Algorithm::slsqp);
   options.scan_evaluations = 25;
   std::string one;
-  for (const int threads : {1, 2, 5}) {
+  for (const std::size_t at_once : {1, 2, 5}) {
     std::filesystem::remove(file);
-    options.threads = threads;
     Journal journal = Journal::create(file, "k");
-    const Evaluator uneven = [](std::span<const double> x) {
-      std::this_thread::sleep_for(std::chrono::microseconds(static_cast<int>(300 * x[1])));
-      return bowl(x);
-    };
-    static_cast<void>(run_optimization(bowl_problem(), uneven, options, {.journal = &journal}));
-    if (threads == 1) one = contents();
-    EXPECT_EQ(contents(), one) << threads;
+    RunHooks hooks{.journal = &journal};
+    if (at_once > 1) hooks.many = in_batches(bowl, at_once);
+    static_cast<void>(run_optimization(bowl_problem(), bowl, options, hooks));
+    if (at_once == 1) one = contents();
+    EXPECT_EQ(contents(), one) << at_once;
   }
 }
 
-TEST_F(Run, KeepsFinishedCandidatesWhenStoppedWithThreads) {
+TEST_F(Run, KeepsFinishedCandidatesWhenStoppedWithSomeUnderWay) {
   OptimizerOptions options = bowl_options(Algorithm::scan);
   options.scan_evaluations = 40;
-  options.threads = 2;
   std::atomic<bool> stop = false;
-  std::atomic<int> calls = 0;
+  int calls = 0;
   Journal journal = Journal::create(file, "k");
   const Evaluator evaluator = [&](std::span<const double> x) {
     if (++calls == 10) stop = true;
     return bowl(x);
   };
-  const OptimizationResult result =
-      run_optimization(bowl_problem(), evaluator, options, {.journal = &journal, .progress = {}, .stop = &stop});
+  const OptimizationResult result = run_optimization(
+      bowl_problem(), evaluator, options, {.journal = &journal, .stop = &stop, .many = in_batches(evaluator, 3)});
   EXPECT_EQ(result.status, Status::interrupted);
   EXPECT_EQ(result.evaluations.size(), static_cast<std::size_t>(calls));
   EXPECT_EQ(journal.size(), result.evaluations.size());
@@ -160,7 +156,7 @@ TEST_F(Run, ReportsEveryWrongInputAtOnce) {
   Problem problem = bowl_problem();
   problem.objective.clear();
   OptimizerOptions options;
-  options.threads = 0;
+  options.max_evaluations = 0;
   try {
     static_cast<void>(run_optimization(problem, bowl, options));
     FAIL();

@@ -54,19 +54,24 @@ requires(std::equality_comparable<T> && !std::floating_point<T> && !std::ranges:
   return a == b;
 }
 bool same(const optimizer::DesignVariable& a, const optimizer::DesignVariable& b) {
-  const auto& [a1, a2, a3, a4] = a;
-  const auto& [b1, b2, b3, b4] = b;
-  return a1 == b1 && same(a2, b2) && same(a3, b3) && same(a4, b4);
-}
-bool same(const optimizer::ObjectiveTerm& a, const optimizer::ObjectiveTerm& b) {
   const auto& [a1, a2, a3, a4, a5] = a;
   const auto& [b1, b2, b3, b4, b5] = b;
-  return a1 == b1 && same(a2, b2) && same(a3, b3) && a4 == b4 && same(a5, b5);
+  return a1 == b1 && same(a2, b2) && same(a3, b3) && same(a4, b4) && a5 == b5;
+}
+bool same(const optimizer::ObjectiveTerm& a, const optimizer::ObjectiveTerm& b) {
+  const auto& [a1, a2, a3, a4, a5, a6, a7] = a;
+  const auto& [b1, b2, b3, b4, b5, b6, b7] = b;
+  return a1 == b1 && same(a2, b2) && same(a3, b3) && a4 == b4 && same(a5, b5) && same(a6, b6) && a7 == b7;
 }
 bool same(const optimizer::ResponseConstraint& a, const optimizer::ResponseConstraint& b) {
-  const auto& [a1, a2, a3, a4, a5, a6] = a;
-  const auto& [b1, b2, b3, b4, b5, b6] = b;
-  return a1 == b1 && a2 == b2 && a3 == b3 && same(a4, b4) && a5 == b5 && same(a6, b6);
+  const auto& [a1, a2, a3, a4, a5, a6, a7] = a;
+  const auto& [b1, b2, b3, b4, b5, b6, b7] = b;
+  return a1 == b1 && a2 == b2 && a3 == b3 && same(a4, b4) && a5 == b5 && same(a6, b6) && a7 == b7;
+}
+bool same(const optimizer::KeyChange& a, const optimizer::KeyChange& b) {
+  const auto& [a1, a2, a3] = a;
+  const auto& [b1, b2, b3] = b;
+  return a1 == b1 && same(a2, b2) && same(a3, b3);
 }
 bool same(const geometry::Edge& a, const geometry::Edge& b) {
   const auto& [a1, a2, a3, a4, a5, a6] = a;
@@ -174,25 +179,32 @@ void expect_same(const Provenance& a, const Provenance& b) {
 }
 void expect_same(const VerificationRecord& a, const VerificationRecord& b) {
   const auto& [a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15, a16, a17, a18, a19, a20, a21, a22, a23,
-               a24, a25, a26, a27] = a;
+               a24, a25, a26, a27, a28] = a;
   const auto& [b1, b2, b3, b4, b5, b6, b7, b8, b9, b10, b11, b12, b13, b14, b15, b16, b17, b18, b19, b20, b21, b22, b23,
-               b24, b25, b26, b27] = b;
-  EXPECT_TRUE(a1 == b1 && a2 == b2 && a3 == b3 && a4 == b4 && a5 == b5 && a6 == b6 && a7 == b7 && a8 == b8);
-  EXPECT_TRUE(same(a9, b9) && same(a10, b10) && same(a11, b11) && same(a12, b12) && same(a13, b13) && same(a14, b14));
-  EXPECT_TRUE(same(a15, b15) && same(a16, b16) && same(a17, b17) && same(a18, b18) && same(a19, b19) && same(a20, b20));
-  EXPECT_EQ(a21, b21);
+               b24, b25, b26, b27, b28] = b;
+  EXPECT_TRUE(a1 == b1 && a2 == b2 && a3 == b3 && a4 == b4 && a5 == b5 && a6 == b6 && a7 == b7 && a8 == b8 && a9 == b9);
+  EXPECT_TRUE(same(a10, b10) && same(a11, b11) && same(a12, b12) && same(a13, b13) && same(a14, b14) && same(a15, b15));
+  EXPECT_TRUE(same(a16, b16) && same(a17, b17) && same(a18, b18) && same(a19, b19) && same(a20, b20) && same(a21, b21));
   EXPECT_EQ(a22, b22);
-  EXPECT_TRUE(all_same(a23, b23) && all_same(a24, b24) && all_same(a25, b25) && all_same(a26, b26));
-  EXPECT_TRUE(all_same(a27, b27));
+  EXPECT_EQ(a23, b23);
+  EXPECT_TRUE(all_same(a24, b24) && all_same(a25, b25) && all_same(a26, b26) && all_same(a27, b27));
+  EXPECT_TRUE(all_same(a28, b28));
 }
 void expect_same(const RunRecord& a, const RunRecord& b) {
-  const auto& [a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15, a16] = a;
-  const auto& [b1, b2, b3, b4, b5, b6, b7, b8, b9, b10, b11, b12, b13, b14, b15, b16] = b;
+  const auto& [a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15, a16, a17] = a;
+  const auto& [b1, b2, b3, b4, b5, b6, b7, b8, b9, b10, b11, b12, b13, b14, b15, b16, b17] = b;
   EXPECT_TRUE(a1 == b1 && a2 == b2 && a3 == b3 && a4 == b4);
   EXPECT_TRUE(same(a5, b5));
   EXPECT_TRUE(all_same(a6.space.variables(), b6.space.variables()));
   EXPECT_TRUE(all_same(a6.objective, b6.objective));
   EXPECT_TRUE(all_same(a6.constraints, b6.constraints));
+  ASSERT_EQ(a6.cases.size(), b6.cases.size());
+  for (std::size_t i = 0; i < a6.cases.size(); ++i) {
+    EXPECT_TRUE(a6.cases[i].name == b6.cases[i].name && same(a6.cases[i].weight, b6.cases[i].weight));
+    EXPECT_EQ(a6.cases[i].sample_of, b6.cases[i].sample_of);
+    EXPECT_TRUE(all_same(a6.cases[i].changes, b6.cases[i].changes));
+  }
+  EXPECT_TRUE(same(a6.quantile, b6.quantile));
   EXPECT_TRUE(all_same(a7, b7));
   EXPECT_EQ(a8, b8);
   EXPECT_EQ(a9, b9);
@@ -210,12 +222,32 @@ void expect_same(const RunRecord& a, const RunRecord& b) {
     EXPECT_EQ(a14[i].status, b14[i].status);
     EXPECT_TRUE(all_same(a14[i].constraints, b14[i].constraints));
   }
-  expect_same(a15, b15);
-  EXPECT_EQ(a16, b16);
+  ASSERT_EQ(a15.size(), b15.size());
+  for (std::size_t i = 0; i < a15.size(); ++i) {
+    EXPECT_EQ(a15[i].evaluation, b15[i].evaluation);
+    EXPECT_EQ(a15[i].departure, b15[i].departure);
+    EXPECT_EQ(a15[i].status, b15[i].status);
+    EXPECT_TRUE(same(a15[i].objective, b15[i].objective) && all_same(a15[i].constraints, b15[i].constraints));
+  }
+  expect_same(a16, b16);
+  EXPECT_EQ(a17, b17);
 }
 
 TEST_F(ResultsFile, ReadsBackEveryBit) {
   const RunRecord record = sample_record();
+  write_results(path(), record);
+  expect_same(record, read_results(path()));
+}
+
+TEST_F(ResultsFile, KeepsCases) {
+  RunRecord record = sample_record();
+  record.problem.cases = {{.name = "cruise", .weight = 4, .changes = {}},
+                          {.name = "climb/1",
+                           .changes = {{"loading.tip_force_n", 3, 0}, {"contact.friction", 0, 0.6}},
+                           .sample_of = "climb"}};
+  record.problem.objective[0].over = "mean";
+  record.problem.objective[0].target = 0.1;
+  record.problem.quantile = 0.9;
   write_results(path(), record);
   expect_same(record, read_results(path()));
 }

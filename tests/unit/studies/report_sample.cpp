@@ -143,6 +143,7 @@ RunRecord sample_record() {
   record.verifications = {{.evaluation = 1,
                            .status = "converged",
                            .follow = "fixed",
+                           .load_case = "cruise",
                            .flank_elements = 32,
                            .harmonics = 11,
                            .samples = 256,
@@ -167,6 +168,16 @@ RunRecord sample_record() {
                            .search_profile_m = {1.2e-6, 0, 1.2e-6, 0},
                            .direct_profile_m = {1.3e-6, 0, 1.3e-6, 0},
                            .history_profile_m = {1.31e-6, 0, 1.31e-6, 0}}};
+  record.departures = {{.evaluation = 3,
+                        .departure = "friction -40 %",
+                        .status = "converged",
+                        .objective = 1.3e-10,
+                        .constraints = {0.02}},
+                       {.evaluation = 0,
+                        .departure = "friction -40 %",
+                        .status = "unworn_resonance: no_bracket",
+                        .objective = kNaN,
+                        .constraints = {kNaN}}};
   record.finer = {{.evaluation = 3, .flank_elements = 32, .status = "converged", .constraints = {-0.01}},
                   {.evaluation = 3, .flank_elements = 64, .status = "infeasible", .constraints = {kNaN}}};
   record.provenance = {.program_version = "0.1.0",

@@ -42,8 +42,8 @@ class Run : public testing::Test {
   [[nodiscard]] std::string study() const { return (directory_ / "study.toml").string(); }
   [[nodiscard]] fs::path results() const { return directory_ / "out"; }
 
-  int run(bool resume, const RunEngineFactory& factory) {
-    const RunOptions options{.study = study(), .directory = results().string(), .resume = resume};
+  int run(bool resume, const RunEngineFactory& factory, int jobs = 1) {
+    const RunOptions options{.study = study(), .directory = results().string(), .resume = resume, .jobs = jobs};
     out_.str("");
     err_.str("");
     return run_study(options, {.out = out_, .err = err_}, factory);
@@ -94,6 +94,52 @@ TEST_F(Run, WritesAStudyThatEvaluatesToTheBestDesign) {
   EXPECT_TRUE(fs::exists(results() / "best.dxf"));
   EXPECT_THAT(err_.str(), HasSubstr("evaluation 1/40: "));
   EXPECT_THAT(err_.str(), HasSubstr(" to go"));
+}
+
+std::string text_of(const fs::path& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// The bowl; it kills its process where the first variable is in a band.
+RunEngine deadly() {
+  return {.evaluate =
+              [](std::span<const double> x) {
+                if (x[0] > 18) std::raise(SIGKILL);
+                return bowl(x);
+              },
+          .describe = {}};
+}
+
+TEST_F(Run, GivesTheSameBitsWithAnyNumberOfProcesses) {
+  replace_file(study(), replaced(text_of(study()), "scan_evaluations = 0", "scan_evaluations = 12"));
+  int calls = 0;
+  ASSERT_EQ(run(false, counted(calls)), kDone) << err_.str();
+  const std::string alone = text_of(results() / "journal.jsonl"), said = out_.str();
+  for (const int jobs : {2, 5}) {
+    fs::remove_all(results());
+    ASSERT_EQ(run(false, counted(calls), jobs), kDone) << err_.str();
+    EXPECT_EQ(text_of(results() / "journal.jsonl"), alone) << jobs;
+    EXPECT_EQ(out_.str(), said) << jobs;
+  }
+}
+
+// A crash is one candidate that failed, with the command that does the same again.
+TEST_F(Run, SurvivesProcessesThatDie) {
+  replace_file(study(), replaced(text_of(study()), "scan_evaluations = 0", "scan_evaluations = 12"));
+  ASSERT_EQ(run(
+                false, [](const Study&) { return deadly(); }, 2),
+            kDone)
+      << err_.str();
+  int failed = 0;
+  for (const auto& record : optimizer::read_journal(results() / "journal.jsonl").records) {
+    EXPECT_EQ(record.evaluation.converged(), record.x[0] <= 18);
+    if (record.evaluation.converged()) continue;
+    ++failed;
+    EXPECT_THAT(record.evaluation.status, HasSubstr("worker: ended by signal 9"));
+    EXPECT_THAT(record.evaluation.messages.back(), HasSubstr("--set geometry.flank_mismatch_um="));
+  }
+  EXPECT_GT(failed, 0);
 }
 
 /// What a run finds out at its start is kept beside its results.

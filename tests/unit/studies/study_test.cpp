@@ -373,5 +373,108 @@ TEST(Study, ExportFormatsAreKnown) {
               HasSubstr("export.formats = \"stl\": is a surface in space: scene.type must be \"sector\""));
 }
 
+/// The sample with more text behind it.
+Study with(const std::string& more) {
+  return read(sample() + more);
+}
+
+std::string complaint(const std::string& more) {
+  try {
+    static_cast<void>(with(more));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(StudyCases, AreReadWithKeysInQuotesOrNot) {
+  const Study study = with(R"(
+[[case]]
+name = "cruise"
+weight = 3
+"loading.tip_force_n" = 1.5
+[[case]]
+name = "climb"
+scene.speed_rpm = 11000
+"material.blade.youngs_modulus_gpa" = 100
+[[constraint]]
+response = "mass_kg"
+upper = 9
+over = "climb"
+)");
+  ASSERT_EQ(study.problem.cases.size(), 2U);
+  EXPECT_EQ(study.problem.cases[0].weight, 3);
+  EXPECT_EQ(study.problem.cases[0].changes.at(0).value, 1.5);
+  EXPECT_EQ(study.problem.cases[1].changes.at(0).key, "scene.speed_rpm");
+  // The disk is of the blade's material, in every case.
+  EXPECT_EQ(study.problem.cases[1].changes.at(2).key, "material.disk.youngs_modulus_gpa");
+  EXPECT_EQ(study.problem.constraints.back().over, "climb");
+  EXPECT_EQ(study.problem.objective.front().over, "worst");
+}
+
+TEST(StudyCases, WrongOnesAreRefused) {
+  const std::string named = "[[case]]\nname = \"a\"\n";
+  EXPECT_THAT(complaint("[[case]]\nweight = 1\n"), HasSubstr("case[0].name: is missing"));
+  EXPECT_THAT(complaint(named + "weight = 0\n"), HasSubstr("case[0].weight = 0: must be"));
+  EXPECT_THAT(complaint(named + named), HasSubstr("is the name of another case"));
+  EXPECT_THAT(complaint("[[case]]\nname = \"mean\"\n"), HasSubstr("says how cases count"));
+  EXPECT_THAT(complaint("[[case]]\nname = \"a@b\"\n"), HasSubstr("must be letters"));
+  EXPECT_THAT(complaint(named + "\"loading.tip_force\" = 1\n"), HasSubstr("did you mean \"loading.tip_force_n\"?"));
+  EXPECT_THAT(complaint(named + "\"loading.tip_force_n\" = -1\n"), HasSubstr("must be"));
+  EXPECT_THAT(complaint(named + "\"loading.tip_force_n\" = \"much\"\n"), HasSubstr("must be a number"));
+  EXPECT_THAT(complaint(named + "\"scene.mode\" = 1.5\n"), HasSubstr("must be a whole number"));
+  EXPECT_THAT(complaint(named + "\"mesh.flank_elements\" = 9\n"), HasSubstr("is the same for all cases"));
+  EXPECT_THAT(complaint(named + "\"geometry.left.flank_mismatch_um\" = 9\n"), HasSubstr("is a design variable"));
+  EXPECT_THAT(complaint(named + "\"loading.tip_force_n\" = 1\nloading.tip_force_n = 2\n"),
+              HasSubstr("sets the same number"));
+  EXPECT_THAT(complaint("[[constraint]]\nresponse = \"mass_kg\"\nupper = 9\nover = \"mean\"\n"),
+              HasSubstr("there is no [[case]]"));
+  EXPECT_THAT(complaint(named + "[[constraint]]\nresponse = \"mass_kg\"\nupper = 9\nover = \"b\"\n"),
+              HasSubstr("deviation, quantile, a"));
+}
+
+/// The sample with another objective.
+optimizer::ObjectiveTerm term(const std::string& lines) {
+  std::string text = sample();
+  const std::size_t begin = text.find("\n[[objective]]\n");
+  text.replace(begin, text.find("\n[[constraint]]\n") - begin, "\n[[objective]]\n" + lines + "\n");
+  return read(text).problem.objective.at(0);
+}
+
+TEST(StudyAims, SayWhichWayAResponseShallGo) {
+  const std::string drift = "response = \"resonance_drift\"\n", mass = "response = \"mass_kg\"\n";
+  EXPECT_EQ(term(mass + "aim = \"max\"").weight, -1);
+  EXPECT_FALSE(term(mass + "aim = \"min\"").absolute);
+  EXPECT_TRUE(term(mass + "aim = 3.5").absolute);
+  EXPECT_EQ(term(mass + "aim = 3.5").target, 3.5);
+  // A drift to either side is one.
+  EXPECT_TRUE(term(drift).absolute);
+  EXPECT_TRUE(term(drift + "aim = \"zero\"").absolute);
+  EXPECT_FALSE(term(drift + "aim = \"min\"").absolute);
+  EXPECT_FALSE(term(drift + "absolute = false").absolute);
+  EXPECT_THROW(term(mass + "aim = \"low\""), InputError);
+  EXPECT_THROW(term(mass + "aim = \"min\"\nabsolute = true"), InputError);
+  EXPECT_THROW(term(mass + "aim = \"max\"\nweight = -1"), InputError);
+}
+
+TEST(StudyVariables, MayHoldSeveralKeysAtOneValue) {
+  const std::string both =
+      "[[variable]]\nkeys = [\"geometry.shank_width_mm\", \"geometry.aerofoil_root_thickness_mm\"]\n";
+  Study study = with(both + "lower = 4\nupper = 12\nstart = 5\n");
+  ASSERT_EQ(study.problem.space.size(), 4U);
+  const std::vector<double> x = study.problem.space.start();
+  EXPECT_EQ(study.problem.space.settings(x).at("geometry.shank_width_mm"), 5);
+  EXPECT_EQ(study.problem.space.settings(x).at("geometry.aerofoil_root_thickness_mm"), 5);
+  EXPECT_THAT(complaint(both + "key = \"geometry.bore_radius_mm\"\nlower = 4\nupper = 12\n"),
+              HasSubstr("must not be given beside key"));
+  EXPECT_THAT(complaint("[[variable]]\nkeys = []\nlower = 4\nupper = 12\n"), HasSubstr("must be a list of keys"));
+  EXPECT_THAT(complaint("[[variable]]\nkeys = [\"geometry.shank_width_mm\", \"geometry.shank_width_mm\"]\nlower = "
+                        "4\nupper = 12\nstart = 5\n"),
+              HasSubstr("is already a variable"));
+  EXPECT_THAT(complaint("[[variable]]\nkeys = [\"geometry.shank_width_mm\", \"geometry.neck_width_mm\"]\nlower = "
+                        "4\nupper = 12\nstart = 5\n"),
+              HasSubstr("is already a variable"));
+}
+
 }  // namespace
 }  // namespace dovetail::studies

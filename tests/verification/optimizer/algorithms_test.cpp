@@ -4,6 +4,7 @@
 #include <string>
 
 #include "known_problems.hpp"
+#include "tests/unit/optimizer/bowl.hpp"
 
 namespace dovetail::optimizer {
 namespace {
@@ -65,8 +66,8 @@ TEST_P(EveryAlgorithm, GivesTheSameBitsForTheSameSeed) {
   few.max_evaluations = std::min(few.max_evaluations, 200);
   few.scan_evaluations = 5;
   const OptimizationResult one = run_optimization(known.problem, known.evaluator, few);
-  few.threads = 2;
-  const OptimizationResult two = run_optimization(known.problem, known.evaluator, few);
+  const OptimizationResult two =
+      run_optimization(known.problem, known.evaluator, few, {.many = in_batches(known.evaluator, 2)});
   ASSERT_EQ(one.evaluations.size(), two.evaluations.size());
   for (std::size_t i = 0; i < one.evaluations.size(); ++i) EXPECT_EQ(one.evaluations[i].x, two.evaluations[i].x);
   EXPECT_EQ(one.best, two.best);

@@ -1,0 +1,212 @@
+#include "studies/program/study_file/case_reader.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "core/errors.hpp"
+#include "optimizer/problem/uncertainty.hpp"
+#include "studies/program/study_file/scene_keys.hpp"
+
+namespace dovetail::studies {
+
+namespace {
+
+using optimizer::DesignVariable;
+using optimizer::LoadCase;
+using optimizer::Parameter;
+
+/// What belongs to a case itself.
+constexpr std::array<std::string_view, 2> kOwn{"name", "weight"};
+
+struct Given {
+  std::string key;
+  const Node* value;
+};
+
+/// All values below a table by their dotted paths.
+void collect(const Node& table, const std::string& before, std::vector<Given>& found) {
+  for (const Member& member : table.members) {
+    const std::string key = before + member.key;
+    if (member.value.kind == Node::Kind::table)
+      collect(member.value, key + ".", found);
+    else if (std::ranges::find(kOwn, key) == kOwn.end())
+      found.push_back({.key = key, .value = &member.value});
+  }
+}
+
+/// Why that key may not differ between cases; empty where it may.
+std::string fixed(const Parameter& parameter, const optimizer::Scene& scene,
+                  const std::vector<DesignVariable>& variables) {
+  const std::string& key = parameter.key;
+  for (const char* section : {"mesh.", "solver.", "limits."})
+    if (key.starts_with(section)) return "is the same for all cases: give it once, outside of them";
+  if (parameter.kind != Parameter::Kind::real && parameter.kind != Parameter::Kind::whole)
+    return "cannot differ between cases: it is no number";
+  for (const DesignVariable& variable : variables)
+    if (overlap(variable.key, key) ||
+        std::ranges::any_of(variable.also, [&](const std::string& also) { return overlap(also, key); }))
+      return "is a design variable and cannot differ between cases";
+  return parameter.left_aside(scene) ? "belongs to another wear law than the one in use" : "";
+}
+
+void read_change(const Given& given, const std::string& path, const optimizer::Scene& scene,
+                 const std::vector<DesignVariable>& variables, Problems& problems, LoadCase& load) {
+  const Node& value = *given.value;
+  const Parameter* parameter = scene_key(given.key, value, path, problems);
+  if (parameter == nullptr) return;
+  if (const std::string why = fixed(*parameter, scene, variables); !why.empty()) return problems.add(value, path, why);
+  const bool whole = parameter->kind == Parameter::Kind::whole;
+  if (!value.is_number() || (whole && value.kind != Node::Kind::whole))
+    return problems.add(value, path, whole ? "must be a whole number" : "must be a number");
+  if (!parameter->range.contains(value.real)) return problems.add(value, path, parameter->range.phrase());
+  for (const optimizer::KeyChange& before : load.changes)
+    if (overlap(before.key, given.key)) return problems.add(value, path, "sets the same number as " + before.key);
+  load.changes.push_back({.key = given.key, .value = value.real});
+}
+
+/// Where a study says nothing of the disk's material it is the blade's, in every case.
+void let_the_disk_follow(const Node* root, LoadCase& load) {
+  constexpr std::string_view kBlade = "material.blade.", kDisk = "material.disk.";
+  const std::vector<optimizer::KeyChange> changes = load.changes;
+  for (const auto& [key, value, times] : changes) {
+    if (!key.starts_with(kBlade)) continue;
+    const std::string disk = std::string(kDisk) + key.substr(kBlade.size());
+    const bool own = std::ranges::find(changes, disk, &optimizer::KeyChange::key) != changes.end();
+    if (!own && !(root && root->at(disk))) load.changes.push_back({.key = disk, .value = value, .times = times});
+  }
+}
+
+/// A name is part of names of responses, and of options that list cases.
+bool is_case_name(const std::string& name) {
+  const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_' || c == '.'; };
+  return !name.empty() && std::ranges::all_of(name, plain);
+}
+
+}  // namespace
+
+std::vector<LoadCase> read_cases(SectionReader& root, const optimizer::Scene& scene,
+                                 const std::vector<DesignVariable>& variables, Problems& problems) {
+  std::vector<LoadCase> cases;
+  for (const auto& [node, path] : entries(root, "case", problems)) {
+    SectionReader section(node, path, problems);
+    LoadCase load;
+    load.name = section.text("name", {}, true).value_or("");
+    load.weight = section.number("weight", kPositive).value_or(1);
+    if (const Node* name = node->find("name"); name && name->kind == Node::Kind::text) {
+      if (!is_case_name(load.name))
+        problems.add(*name, section.path("name"), "must be letters, digits, '-', '_' and '.'");
+      else if (named<optimizer::Over>(load.name))
+        problems.add(*name, section.path("name"), "says how cases count; choose another name");
+      else if (std::ranges::find(cases, load.name, &LoadCase::name) != cases.end())
+        problems.add(*name, section.path("name"), "is the name of another case");
+    }
+    std::vector<Given> given;
+    collect(*node, "", given);
+    for (const Given& change : given) read_change(change, section.path(change.key), scene, variables, problems, load);
+    let_the_disk_follow(root.node(), load);
+    cases.push_back(std::move(load));
+  }
+  return cases;
+}
+
+namespace {
+
+using optimizer::Uncertain;
+
+/// A range, or mean and deviation, of an uncertain number: itself, what is added to it, or what it is multiplied by.
+bool read_distribution(SectionReader& section, const Parameter& parameter, bool varied, Problems& problems,
+                       Uncertain& number) {
+  const Node& node = *section.node();
+  const auto distribution = section.text("distribution", names_of<optimizer::Distribution>());
+  const bool normal = distribution == to_string(optimizer::Distribution::normal);
+  number.distribution = normal ? optimizer::Distribution::normal : optimizer::Distribution::uniform;
+  const std::optional<double> lower = section.number("lower", parameter.range);
+  const std::optional<double> upper = section.number("upper", parameter.range);
+  const std::optional<double> plus_minus = section.number("plus_minus", kPositive);
+  const std::optional<double> relative = section.number("relative", {.lower = 0, .upper = 1, .lower_open = true});
+  const std::optional<double> mean = section.number("mean", parameter.range);
+  const bool range = lower || upper;
+  if (static_cast<int>(range) + static_cast<int>(plus_minus.has_value()) + static_cast<int>(relative.has_value()) !=
+      1) {
+    problems.missing(&node, section.path("key"),
+                     "needs one of: lower and upper, plus_minus (in the unit of the key), relative (a share of it)");
+    return false;
+  }
+  if (range && normal) {
+    problems.add(node, section.path("distribution"), "of a normal one give plus_minus or relative, its deviation");
+    return false;
+  }
+  if (range && varied) {
+    problems.missing(&node, section.path("lower"), "is of a design variable: give plus_minus or relative");
+    return false;
+  }
+  if (range) {
+    if (!lower || !upper || !(*lower < *upper)) {
+      problems.missing(&node, section.path("upper"), "needs lower < upper");
+      return false;
+    }
+    number.first = *lower;
+    number.second = *upper;
+    return true;
+  }
+  if (mean && (varied || relative)) {
+    problems.add(*node.find("mean"), section.path("mean"),
+                 "only has a meaning with plus_minus, of what is no variable");
+    return false;
+  }
+  const double half = plus_minus.value_or(relative.value_or(0));
+  const double middle = relative ? 1 : mean.value_or(0);
+  number.of = relative ? Uncertain::Of::factor : mean ? Uncertain::Of::itself : Uncertain::Of::offset;
+  number.first = normal ? middle : middle - half;
+  number.second = normal ? half : middle + half;
+  return true;
+}
+
+}  // namespace
+
+std::vector<LoadCase> read_samples(SectionReader& root, const optimizer::Scene& scene,
+                                   const std::vector<DesignVariable>& variables, std::vector<LoadCase> cases,
+                                   double& quantile, Problems& problems) {
+  std::vector<Uncertain> uncertain;
+  for (const auto& [node, path] : entries(root, "uncertain", problems)) {
+    SectionReader section(node, path, problems);
+    const std::optional<std::string> key = section.text("key", {}, true);
+    const Node* at = node->find("key");
+    const Parameter* parameter = key ? scene_key(*key, *at, section.path("key"), problems) : nullptr;
+    if (parameter == nullptr) continue;
+    const std::string why = fixed(*parameter, scene, {});
+    const auto is_varied = [&](const DesignVariable& variable) {
+      return overlap(variable.key, *key) ||
+             std::ranges::any_of(variable.also, [&](const std::string& also) { return overlap(also, *key); });
+    };
+    Uncertain number{.key = *key};
+    const bool known =
+        read_distribution(section, *parameter, std::ranges::any_of(variables, is_varied), problems, number);
+    section.finish();
+    if (!why.empty())
+      problems.add(*at, section.path("key"), why);
+    else if (parameter->kind != Parameter::Kind::real)
+      problems.add(*at, section.path("key"), "is a whole number: give it a case for each value");
+    else if (std::ranges::any_of(uncertain, [&](const Uncertain& other) { return overlap(other.key, *key); }))
+      problems.add(*at, section.path("key"), "is uncertain already");
+    else if (known)
+      uncertain.push_back(std::move(number));
+  }
+  optimizer::RobustOptions options;
+  SectionReader robust(root.take("robust"), "robust", problems);
+  robust.fields(options, option_table<optimizer::RobustOptions>());
+  robust.finish();
+  quantile = options.quantile;
+  if (options.rule == optimizer::Rule::gauss && options.points > 20)
+    problems.add(*robust.node()->find("points"), "robust.points", "must be <= 20 of a Gauss rule");
+  if (!problems.empty()) return cases;
+  try {
+    return optimizer::sampled(cases, uncertain, options);
+  } catch (const InputError& error) {
+    problems.missing(robust.node(), "robust.rule", error.violations().front().allowed);
+  }
+  return cases;
+}
+
+}  // namespace dovetail::studies

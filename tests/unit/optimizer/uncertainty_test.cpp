@@ -1,0 +1,95 @@
+#include "optimizer/problem/uncertainty.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "core/errors.hpp"
+
+namespace dovetail::optimizer {
+namespace {
+
+const Uncertain kFriction{.key = "contact.friction", .first = 0.3, .second = 0.5};
+const Uncertain kMismatch{.key = "geometry.flank_mismatch_um",
+                          .distribution = Distribution::normal,
+                          .first = 0,
+                          .second = 2,
+                          .of = Uncertain::Of::offset};
+
+/// Mean of a function of the changed numbers.
+template <class F>
+double mean(const std::vector<LoadCase>& samples, const F& of) {
+  double sum = 0, weights = 0;
+  for (const LoadCase& sample : samples) {
+    sum += sample.weight * of(sample.changes);
+    weights += sample.weight;
+  }
+  return sum / weights;
+}
+
+// Three points are exact up to the fifth power.
+TEST(Sampled, GaussRulesIntegratePolynomials) {
+  const std::vector<LoadCase> samples = sampled({}, {kFriction, kMismatch}, {.rule = Rule::gauss, .points = 3});
+  ASSERT_EQ(samples.size(), 9U);
+  EXPECT_NEAR(mean(samples, [](const auto& c) { return std::pow((c[0].value - 0.4) / 0.1, 4); }), 1.0 / 5, 1e-12);
+  EXPECT_NEAR(mean(samples, [](const auto& c) { return std::pow(c[1].value / 2, 4); }), 3, 1e-12);
+  EXPECT_NEAR(mean(samples, [](const auto& c) { return std::pow(c[1].value / 2, 3) * (c[0].value - 0.4); }), 0, 1e-12);
+  for (const LoadCase& sample : samples) {
+    EXPECT_EQ(sample.changes[0].times, 0);
+    EXPECT_EQ(sample.changes[1].times, 1);
+    EXPECT_EQ(sample.sample_of, "sample");
+  }
+}
+
+TEST(Sampled, CornersAreTheEndsAndTheMiddle) {
+  const std::vector<LoadCase> cases{{.name = "a", .weight = 3, .changes = {{"contact.friction", 0.6}}},
+                                    {.name = "b", .changes = {{"loading.tip_force_n", 4}}}};
+  const std::vector<LoadCase> samples = sampled(cases, {kFriction, kMismatch}, {});
+  ASSERT_EQ(samples.size(), 10U);
+  std::set<double> friction, mismatch;
+  double weight = 0;
+  for (const LoadCase& sample : samples) {
+    if (sample.sample_of != "a") continue;
+    weight += sample.weight;
+    ASSERT_EQ(sample.changes.size(), 2U) << "what is uncertain takes the place of the case's own number";
+    friction.insert(sample.changes[0].value);
+    mismatch.insert(sample.changes[1].value);
+  }
+  EXPECT_NEAR(weight, 3, 1e-12);
+  EXPECT_THAT(friction, testing::ElementsAre(0.3, testing::DoubleEq(0.4), 0.5));
+  EXPECT_NEAR(*mismatch.begin(), -2 * std::sqrt(3.0), 1e-12);
+  EXPECT_EQ(samples.back().changes.size(), 3U);
+}
+
+TEST(Sampled, SobolPointsFillTheRange) {
+  const std::vector<LoadCase> samples = sampled({}, {kFriction, kMismatch}, {.rule = Rule::sobol, .points = 256});
+  ASSERT_EQ(samples.size(), 256U);
+  EXPECT_NEAR(mean(samples, [](const auto& c) { return c[0].value; }), 0.4, 1e-3);
+  EXPECT_NEAR(mean(samples, [](const auto& c) { return c[1].value * c[1].value; }), 4, 0.15);
+  for (const LoadCase& sample : samples) {
+    EXPECT_GE(sample.changes[0].value, 0.3);
+    EXPECT_LE(sample.changes[0].value, 0.5);
+  }
+}
+
+TEST(Sampled, TooManyAreRefused) {
+  const std::vector<Uncertain> many(13, kFriction);
+  EXPECT_THROW(static_cast<void>(sampled({}, many, {})), InputError);
+}
+
+TEST(OverCases, DeviationAndQuantile) {
+  std::vector<LoadCase> cases(5);
+  std::vector<Barred> numbers;
+  for (int i = 0; i < 5; ++i) numbers.push_back({.value = static_cast<double>(5 - i), .bar = 0.1});
+  EXPECT_NEAR(over_cases("deviation", cases, numbers, 0.5).value, std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(over_cases("quantile", cases, numbers, 0.5).value, 3, 1e-12);
+  EXPECT_NEAR(over_cases("quantile", cases, numbers, 0.7).value, 4, 1e-12);
+  EXPECT_NEAR(over_cases("quantile", cases, numbers, 0.01).value, 1, 1e-12);
+  EXPECT_NEAR(over_cases("quantile", cases, numbers, 0.999).value, 5, 1e-12);
+  EXPECT_EQ(over_cases("quantile", cases, numbers, 0.5).bar, 0.1);
+}
+
+}  // namespace
+}  // namespace dovetail::optimizer
