@@ -34,8 +34,10 @@ void add_option(CLI::App& command, S& options, const Option<S>& row) {
           using T = std::decay_t<decltype(options.*member)>;
           CLI::Option* added =
               command.add_option(row.name, options.*member, row.help)->type_name(std::string(row.type));
+          // A named one is repeated; words without a name follow each other.
           if constexpr (std::is_same_v<T, std::vector<std::string>>)
-            added->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->allow_extra_args(false);
+            if (row.name.starts_with("-"))
+              added->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->allow_extra_args(false);
           if constexpr (std::is_same_v<T, std::vector<int>>) added->delimiter(',');
           return added;
         }

@@ -128,6 +128,11 @@ done
 expect 0 check o/best.toml
 expect 0 run s.toml -o o --resume
 grep -q '3 of them stored before' out || fail "the resumed run computed again"
+expect 2 merge o -o o
+expect 0 merge o o -o merged
+expect 0 run s.toml -o merged --resume --jobs 2
+grep -q '3 of them stored before' out || fail "the merged run has not what was computed"
+grep -q 'in [0-9] of 8 other conditions' out || fail "the run does not say how far its design holds"
 cp o/best.toml best.toml
 expect 0 evaluate best.toml --json best.json
 if command -v python3 > /dev/null; then
@@ -146,6 +151,18 @@ expect 0 export o --format dxf -o f.dxf
 expect 0 export o --format matrix-market -o best_model.toml
 expect 0 backbone s.toml --over force --from 1 --to 2 --points 2 --json -; is_json
 expect 0 evaluate s.toml --harmonics auto --samples auto --accuracy 0.01 --json -; is_json
+
+# A case of load is what the study would be with its keys.
+{ cat s.toml; printf '\n[[case]]\nname = "a"\n[[case]]\nname = "b"\n"loading.tip_force_n" = 1.5\n'; } > cases.toml
+expect 0 evaluate cases.toml --no-bars --no-history --json cases.json
+expect 0 evaluate s.toml --no-bars --no-history --set loading.tip_force_n=1.5 --set 'solver.prestress="shared"' --json b.json
+if command -v python3 > /dev/null; then
+  python3 - <<'PYTHON' || fail "a case is not what the study would be with its keys"
+import json
+case, alone = json.load(open("cases.json"))["cases"]["b"], json.load(open("b.json"))
+assert case["responses"] == alone["responses"], (case["responses"], alone["responses"])
+PYTHON
+fi
 
 # An accuracy is asked of the responses that the study names, as far as they are known at all, and what it comes to is
 # told with what settings do not buy.
