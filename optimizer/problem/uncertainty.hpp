@@ -19,8 +19,8 @@ constexpr EnumNames<Distribution, 2> enum_names(Distribution) {
   return name_of(distribution);
 }
 
-/// A number of the study that is not known: of a uniform one the range, of a normal one mean and deviation. `times` as
-/// for KeyChange: 0 the number itself, 1 what is added to it; with `of_it` what it is multiplied by.
+/// A number of the study that is not known: of a uniform one the range, of a normal one mean and deviation - of the
+/// number itself, of what is added to it, or of what it is multiplied by.
 struct Uncertain {
   std::string key;
   Distribution distribution = Distribution::uniform;
