@@ -292,11 +292,11 @@ std::string limits_there(const RunRecord& record, const DepartureRecord& there) 
 std::string departure_table(const RunRecord& record) {
   if (record.departures.empty() || !record.best) return {};
   const ObjectiveScale objective = objective_scale(record);
-  const std::string title = PlotAxis{.label = objective.label, .unit = objective.unit}.title();
   const bool both = record.best != record.baseline;
   Table table{.columns = {{"", true}}, .rows = {}};
   for (const char* whose : both ? std::vector{"start", "best"} : std::vector{"best"})
-    table.columns.insert(table.columns.end(), {{title + ", " + whose}, {std::string("limits, ") + whose, true}});
+    table.columns.insert(table.columns.end(),
+                         {{PlotAxis{.label = whose, .unit = objective.unit}.title()}, {"its limits", true}});
   std::size_t holds = 0, better = 0, all = 0;
   for (const DepartureRecord& best : record.departures) {
     if (best.evaluation != static_cast<std::int64_t>(*record.best)) continue;
@@ -321,7 +321,8 @@ std::string departure_table(const RunRecord& record) {
   }
   std::string text = fmt::format("The best design keeps its limits in {} of {} of these", holds, all);
   if (both) text += fmt::format(" and is better than the start in {}", better);
-  return "<p>" + text + ". Each is computed by itself, without error bars.</p>\n" + table_html(table);
+  return "<p>" + text + ". The " + escape(objective.label) +
+         " of each is computed by itself, without error bars.</p>\n" + table_html(table);
 }
 
 std::string evaluation_table(const RunRecord& record) {
