@@ -24,8 +24,6 @@ NodeSummary summarise_node(const Point& point, Eigen::Index i) {
   node.max_normal_force = march.force.col(0).maxCoeff();
   node.min_pressure = node.min_normal_force / contact.area(i);
   node.max_pressure = node.max_normal_force / contact.area(i);
-  node.max_normal_displacement =
-      dynamics::extremes(point.displacement.row(i * point.problem->model().directions()).transpose()).maximum;
   node.slip_distance = march.slip_distance;
   node.slip_load = march.slip_load;
   node.wear_rate = point.problem->model().wear_rate(i, {.load = march.slip_load, .energy = march.dissipation}).depth;

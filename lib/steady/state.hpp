@@ -17,7 +17,6 @@ struct NodeSummary {
   bool stuck = false;                                 ///< in contact and without slip at all samples
   double min_normal_force = 0, max_normal_force = 0;  ///< lambda_N, N
   double min_pressure = 0, max_pressure = 0;          ///< lambda_N / area, Pa
-  double max_normal_displacement = 0;                 ///< max_t u_N of the Fourier series, m
   double slip_distance = 0;                           ///< path of X_T under load per cycle, m
   double slip_load = 0;                               ///< int lambda_N |dX_T| per cycle, N m
   double wear_rate = 0;                               ///< depth per cycle, m

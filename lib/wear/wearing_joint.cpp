@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "dynamics/extremes.hpp"
 #include "paths/steady_state.hpp"
 
 namespace dovetail::wear {
@@ -72,9 +73,10 @@ steady::State WearingJoint::worn(const VectorXd& depth, const MatrixXd& guess) {
 VectorXd WearingJoint::depth(const std::vector<bool>& released, const steady::State& state) const {
   VectorXd depth = start();
   for (Index i = 0; i < depth.size(); ++i)
-    if (released[static_cast<std::size_t>(i)])
-      depth[i] = std::max(depth[i],
-                          state.nodes[static_cast<std::size_t>(i)].max_normal_displacement - model().contact().gap[i]);
+    if (released[static_cast<std::size_t>(i)]) {
+      const VectorXd normal = state.displacement.row(i * model().directions());
+      depth[i] = std::max(depth[i], dynamics::extremes(normal).maximum - model().contact().gap[i]);
+    }
   return depth;
 }
 

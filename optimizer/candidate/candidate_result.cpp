@@ -20,10 +20,10 @@ namespace {
 
 void add_fillet_stresses(const Scene& scene, CandidateResult& result) {
   const fem::SectorMesh& sector = result.model.mesh.sector;
-  const steady::State& state = result.unworn->state;
-  result.blade_fillet = fillet_stress(scene, result.model, state, sector.blade_fillet_nodes, sector.blade_fillet_share,
+  const Eigen::MatrixXd field = displacement_field(result.model, result.unworn->state);
+  result.blade_fillet = fillet_stress(scene, result.model, field, sector.blade_fillet_nodes, sector.blade_fillet_share,
                                       scene.blade.poisson_ratio);
-  result.disk_fillet = fillet_stress(scene, result.model, state, sector.disk_fillet_nodes, sector.disk_fillet_share,
+  result.disk_fillet = fillet_stress(scene, result.model, field, sector.disk_fillet_nodes, sector.disk_fillet_share,
                                      scene.disk.poisson_ratio);
 }
 

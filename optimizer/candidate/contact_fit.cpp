@@ -6,6 +6,7 @@
 #include "optimizer/candidate/candidate_result.hpp"
 #include "optimizer/candidate/carried_over.hpp"
 #include "optimizer/candidate/edge_search.hpp"
+#include "optimizer/candidate/params.hpp"
 #include "paths/resonance.hpp"
 #include "paths/steady_state.hpp"
 #include "wear/asymptote/followed_asymptote.hpp"
@@ -14,6 +15,8 @@
 namespace dovetail::optimizer {
 
 namespace {
+
+constexpr ContactFitParams kFit;
 
 /// Where a search of a grid begins: a state of the joint and the grid it was laid on, and a grid to lay first.
 struct FitStart {
@@ -70,7 +73,13 @@ class GridSearch {
       joint_.options.budget = new_budget(scene_.solver, candidate_, options_.share_of_budget);
     release_.arbitration = rests_in_slip_ ? wear::Arbitration::unsettled : wear::Arbitration::never;
     // At the resonance of the first grid on all of them: it hardly moves, and edges move less.
-    if (!find_first_resonance()) return fit_;
+    if (!begun && found_roughly()) {
+      ++fit_.grids;
+      if (!lay_next()) return unsettled();
+      if (!find_resonance(peak_.omega, unworn_.displacement)) return unsettled();
+    } else if (!find_first_resonance()) {
+      return fit_;
+    }
     for (bool at_resonance = false;; ++fit_.grids) {
       if (!find_edges()) return unsettled();
       // A zone that the finer cells beside its edge make vanish is none.
@@ -86,7 +95,7 @@ class GridSearch {
         --fit_.grids;
       } else if (fit_.grids == options_.grids) {
         return best_grid(best_.grid < fit_.grids);
-      } else if (!lay_next()) {
+      } else if (!lay_next() || !find_state()) {
         return unsettled();
       }
     }
@@ -119,6 +128,18 @@ class GridSearch {
     return begun;
   }
 
+  /// Edges on the first grid with fewer harmonics.
+  [[nodiscard]] bool found_roughly() {
+    const int all = scene_.solver.harmonics;
+    if (all < kFit.many_harmonics || start_.displacement.size() > 0 || rests_in_slip_ || follows_) return false;
+    joint_.options.harmonics = (all / 2) | 1;  // even ones hardly move of flanks under pressure
+    const bool found = find_first_resonance() && find_edges() && fit_.edges > 0;
+    joint_.options.harmonics = all;
+    best_ = {};
+    if (!found) fit_ = {};
+    return found;
+  }
+
   [[nodiscard]] bool find_first_resonance() {
     if (start_.displacement.size() == 0) return find_resonance(candidate_.glued_frequencies(scene_.loading.mode - 1));
     return find_resonance(start_.omega, carried(start_.displacement, start_.strips)) ||
@@ -128,6 +149,7 @@ class GridSearch {
   [[nodiscard]] bool find_resonance(double start, const Eigen::MatrixXd& guess = {}) {
     paths::ResonanceOptions peak = resonance_options(scene_);
     peak.begins_near = guess.size() > 0;
+    peak.frequency_tolerance = std::max(peak.frequency_tolerance, kFit.frequency_tolerance);
     peak_ = paths::resonance(joint_, start, peak, guess);
     unworn_ = peak_.state;
     return peak_.status == Status::converged;
@@ -202,7 +224,7 @@ class GridSearch {
     return fit_;
   }
 
-  /// The next grid and the unworn state on it; false where there is none.
+  /// The next grid, and the state before as it is on it; false where there is none.
   [[nodiscard]] bool lay_next() {
     laid_ = search_.next(found_, laid_);
     std::vector<fem::FlankCells> flanks = candidate_.cells.flanks;
@@ -211,7 +233,12 @@ class GridSearch {
     lay(flanks);
     fit_.displacement.resize(0, 0);
     if (!candidate_.converged()) return false;
-    unworn_ = paths::steady_state(joint_, peak_.omega, carried(unworn_.displacement, before));
+    unworn_.displacement = carried(unworn_.displacement, before);
+    return true;
+  }
+
+  [[nodiscard]] bool find_state() {
+    unworn_ = paths::steady_state(joint_, peak_.omega, Eigen::MatrixXd(unworn_.displacement));
     return unworn_.status == Status::converged;
   }
 

@@ -59,12 +59,15 @@ Eigen::MatrixXd reduced_coordinates(const steady::State& state) {
 
 }  // namespace
 
-FilletStress fillet_stress(const Scene& scene, const CandidateModel& candidate, const steady::State& state,
+Eigen::MatrixXd displacement_field(const CandidateModel& candidate, const steady::State& state) {
+  return candidate.matrices.shared->system.constraints.transformation *
+         candidate.reduction.recovery.apply(reduced_coordinates(state), state.force);
+}
+
+FilletStress fillet_stress(const Scene& scene, const CandidateModel& candidate, const Eigen::MatrixXd& field,
                            std::span<const int> nodes, const Eigen::VectorXd& share, double poisson_ratio) {
   const fem::Mesh& mesh = candidate.mesh.sector.mesh;
   const std::vector<fem::Material> bodies = materials(scene);
-  const Eigen::MatrixXd field = candidate.matrices.shared->system.constraints.transformation *
-                                candidate.reduction.recovery.apply(reduced_coordinates(state), state.force);
   Eigen::MatrixXd coefficients = fem::nodal_stress_operator(mesh, bodies, nodes) * field;
   const Eigen::Index components = fem::stress_components(mesh.kind);
   const Eigen::VectorXd weights = fem::boundary_weights(mesh, nodes).cwiseProduct(share);

@@ -16,11 +16,15 @@ struct FilletStress {
   Eigen::VectorXd nodal;                          ///< [nodes] largest von Mises stress over one period, Pa
 };
 
-/// Von Mises stress (plane strain) at `nodes`, largest over one period of `state`: spin-up and vibration together.
-/// Nodal means of the elements' stresses, corrected by what is known on a free surface (fem::on_free_surface). `share`
-/// [nodes] is that of fem::SectorMesh. Cost: the field of each Fourier coefficient, a back-solve of the full model.
+/// Fourier coefficients of the displacement of all nodes in a converged steady state with its tangent, [n, 2H+1]. Cost:
+/// a back-solve of the full model for each.
+[[nodiscard]] Eigen::MatrixXd displacement_field(const CandidateModel& candidate, const steady::State& state);
+
+/// Von Mises stress (plane strain) at `nodes`, largest over one period of a displacement `field`: spin-up and vibration
+/// together. Nodal means of the elements' stresses, corrected by what is known on a free surface
+/// (fem::on_free_surface). `share` [nodes] is that of fem::SectorMesh.
 [[nodiscard]] FilletStress fillet_stress(const Scene& scene, const CandidateModel& candidate,
-                                         const steady::State& state, std::span<const int> nodes,
+                                         const Eigen::MatrixXd& field, std::span<const int> nodes,
                                          const Eigen::VectorXd& share, double poisson_ratio);
 
 }  // namespace dovetail::optimizer

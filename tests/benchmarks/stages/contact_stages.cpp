@@ -31,10 +31,10 @@ void find_unworn(Chain& chain) {
 
 void find_stress(const Chain& chain) {
   const fem::SectorMesh& sector = chain.fitted.mesh.sector;
-  const steady::State& state = chain.unworn->state;
-  (void)optimizer::fillet_stress(chain.scene, chain.fitted, state, sector.blade_fillet_nodes, sector.blade_fillet_share,
+  const Eigen::MatrixXd field = optimizer::displacement_field(chain.fitted, chain.unworn->state);
+  (void)optimizer::fillet_stress(chain.scene, chain.fitted, field, sector.blade_fillet_nodes, sector.blade_fillet_share,
                                  chain.scene.blade.poisson_ratio);
-  (void)optimizer::fillet_stress(chain.scene, chain.fitted, state, sector.disk_fillet_nodes, sector.disk_fillet_share,
+  (void)optimizer::fillet_stress(chain.scene, chain.fitted, field, sector.disk_fillet_nodes, sector.disk_fillet_share,
                                  chain.scene.disk.poisson_ratio);
 }
 
