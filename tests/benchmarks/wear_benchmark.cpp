@@ -1,9 +1,11 @@
 // The direct worn state against histories, and what each costs on one core:
 //   build/tests/benchmarks/wear_benchmark [SCENE]...
 // Scenes: section, crowned, mismatch (plane dovetails of the quickstart), block, punch, lift_off, space, and times (of
-// models of 60 and 100 nodes). Errors are those of the largest depth and of the volume against an explicit history of
+// models of 60 and 100 nodes), and, when asked for, many (what an asymptote costs with 100 to 1000 nodes in space).
+// Errors are those of the largest depth and of the volume against an explicit history of
 // increments of 0.25 % and 0.125 % of the depth, not finished by release, extrapolated to zero step. Processor times,
 // medians of three runs; of histories, one.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -159,6 +161,26 @@ void times() {
   }
 }
 
+void many() {
+  for (const Eigen::Index nodes : {100, 200, 300, 500, 1000}) {
+    const auto model =
+        std::make_shared<const dynamics::CondensedModel>(work_precision::contact_patch({.nodes = nodes}));
+    wear::AsymptoteOptions options = direct_options();
+    options.arbitration = wear::Arbitration::never;
+    wear::Asymptote worn;
+    const double seconds = median_seconds(
+        [&] {
+          worn = wear::asymptote({model, {}, kSettings}, work_precision::kPatchFrequency, options);
+        },
+        0.0, 1);
+    const auto slips = std::ranges::count_if(worn.unworn.nodes, [](const steady::NodeSummary& n) { return !n.stuck; });
+    std::printf("%4ld nodes, %4ld of them not stuck: asymptote %.2f s, %s, %d Jacobians, %d solves\n",
+                static_cast<long>(nodes), static_cast<long>(slips), seconds,
+                std::string(wear::to_string(worn.verdict)).c_str(), worn.jacobians, worn.solves);
+    std::fflush(stdout);
+  }
+}
+
 }  // namespace
 }  // namespace dovetail
 
@@ -173,6 +195,8 @@ int main(int count, char** arguments) {
   for (const std::string& name : names) {
     if (name == "times")
       dovetail::times();
+    else if (name == "many")
+      dovetail::many();
     else
       dovetail::compare(name);
   }

@@ -22,8 +22,8 @@ FilletStress blade_fillet(Scene scene, int flank_elements) {
                                                    model.reduction.glued_frequencies(scene.loading.mode - 1));
   EXPECT_EQ(unworn.status, Status::converged);
   const fem::SectorMesh& sector = model.mesh.sector;
-  return fillet_stress(scene, model, displacement_field(model, unworn.state), sector.blade_fillet_nodes, sector.blade_fillet_share,
-                       scene.blade.poisson_ratio);
+  return fillet_stress(scene, model, displacement_field(model, unworn.state), sector.blade_fillet_nodes,
+                       sector.blade_fillet_share, scene.blade.poisson_ratio);
 }
 
 TEST(FilletStress, IsThatOfTheFilletHoweverTheFlankEnds) {
