@@ -98,9 +98,10 @@ std::string dynamics(const Scene& scene, const Computation& how, CandidateResult
   Stopwatch watch;
 
   paths::ResonanceOptions near_fit = resonance_options(scene);
-  near_fit.begins_near = fit.displacement.size() > 0;
-  const double start = near_fit.begins_near ? fit.omega : model.glued_frequencies(scene.loading.mode - 1);
-  result.unworn = paths::resonance(joint, start, near_fit, fit.displacement);
+  const NearResonance near = fit.unworn.empty() ? NearResonance() : fit.unworn.front();
+  near_fit.begins_near = near.displacement.size() > 0;
+  const double start = near_fit.begins_near ? near.omega : model.glued_frequencies(scene.loading.mode - 1);
+  result.unworn = paths::resonance(joint, start, near_fit, near.displacement);
   evaluation.timings_s["unworn_resonance"] = watch.lap();
   if (result.unworn->status != Status::converged) return failed_at("unworn_resonance", result.unworn->status);
   add_fillet_stresses(scene, result);

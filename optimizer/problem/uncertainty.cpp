@@ -129,7 +129,7 @@ KeyChange change_at(const Uncertain& number, double standard) {
 std::vector<LoadCase> sampled(const std::vector<LoadCase>& cases, const std::vector<Uncertain>& uncertain,
                               const RobustOptions& options, int most) {
   if (uncertain.empty()) return cases;
-  const std::vector<LoadCase> alone{{.name = "sample", .changes = {}}};
+  const std::vector<LoadCase> alone{{.name = kSampleOfStudy, .changes = {}}};
   const std::vector<LoadCase>& of = cases.empty() ? alone : cases;
   double count = static_cast<double>(of.size());
   const double each = options.rule == Rule::gauss ? (options.points > 0 ? options.points : 3) : 2;

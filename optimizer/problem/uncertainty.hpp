@@ -48,6 +48,9 @@ struct RobustOptions {
   double quantile = 0.95;  ///< in (0, 1)
 };
 
+/// What samples are of where a study has no cases.
+inline constexpr const char* kSampleOfStudy = "sample";
+
 /// Samples of each case (of the one there is without cases, named "sample"), with weights that add up to the case's.
 /// Throws InputError where there would be more than `most`.
 [[nodiscard]] std::vector<LoadCase> sampled(const std::vector<LoadCase>& cases, const std::vector<Uncertain>& uncertain,
