@@ -13,6 +13,7 @@
 #include "optimizer/candidate/worn_state.hpp"
 #include "optimizer/problem/problem.hpp"
 #include "wear/asymptote/drift.hpp"
+#include "wear/release/friction_reserve.hpp"
 
 namespace dovetail::optimizer {
 
@@ -62,6 +63,15 @@ void note_soft_asperities(const Scene& scene, CandidateResult& result) {
         fmt::format("The asperities of the flanks let the blade move by {:.2g} mm under its pull, where flanks are "
                     "{:.2g} mm long: nodes stay matched all the same, which holds for small ways only.",
                     1e3 * way, 1e3 * flank));
+}
+
+/// Of the loaded node that has least of its friction left.
+double slip_margin(const CandidateModel& model, const steady::State& state) {
+  double least = 1;
+  for (Eigen::Index i = 0; i < model.condensed->nodes(); ++i)
+    if (state.nodes[static_cast<std::size_t>(i)].carries_load)
+      least = std::min(least, wear::friction_margin(state, i, model.condensed->contact_law(i)));
+  return least;
 }
 
 std::string ended(const char* stage, const CandidateModel& model) {
@@ -123,6 +133,7 @@ std::string dynamics(const Scene& scene, const Computation& how, CandidateResult
   evaluation.model["wear_bearing_share"] = asymptote.bearing.share;
   evaluation.model["wear_depth_over_compression"] = asymptote.bearing.closing;
   note_doubt(asymptote, state.unfinished, evaluation);
+  if (asymptote.largest_depth == 0) evaluation.model[kSlipMargin] = slip_margin(model, result.unworn->state);
   if (const double limit = wear::AsymptoteOptions{}.certificate_limit; asymptote.certificate > limit)
     evaluation.messages.push_back(
         "wear_certificate is above " + shortest(limit) +

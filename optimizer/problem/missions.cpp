@@ -32,9 +32,9 @@ std::vector<MissionCases> missions_of(std::span<const LoadCase> cases, bool name
   std::vector<MissionCases> missions;
   bool several = false;
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    const auto& [name, weight, changes, sample_of] = cases[i];
-    several = several || sample_of != kSampleOfStudy;
-    const std::string sample = sample_of.empty() ? "" : name.substr(sample_of.size());
+    const std::string& of = cases[i].sample_of;
+    several = several || of != kSampleOfStudy;
+    const std::string sample = of.empty() ? "" : cases[i].name.substr(of.size());
     const auto [at, first] = of_sample.try_emplace(sample, missions.size());
     if (first) missions.push_back({.cases = {}, .named = named});
     missions[at->second].cases.push_back(i);
