@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "optimizer/candidate/matrices.hpp"
+#include "optimizer/responses/response_table.hpp"
 
 namespace dovetail::optimizer {
 
@@ -45,6 +46,52 @@ void sum_up(std::span<const LoadCase> cases, Evaluation& result) {
   gather(result.model, "wear_history_may_differ", [](double a, double b) { return std::max(a, b); });
 }
 
+/// Where nothing wears the mission is at least as uncertain as the case by itself.
+void match_unworn(const std::string& load_case, bool plain, Evaluation& result) {
+  for (const Response& response : mission_responses()) {
+    const std::string name = of_case(response.name, load_case), alone = of_case(response.alone->name, load_case);
+    const auto bar = result.error_estimates.find(alone);
+    if (bar == result.error_estimates.end() || result.responses.at(of_case(kMissionVolume.name, load_case)) != 0)
+      continue;
+    double& own = result.error_estimates[name];
+    if (own >= bar->second) continue;
+    own = bar->second;
+    result.error_sources[name] = result.error_sources[alone];
+    if (!plain || load_case.empty()) continue;
+    result.error_estimates[std::string(response.name)] = own;
+    result.error_sources[std::string(response.name)] = result.error_sources[name];
+  }
+}
+
+/// What a mission came to, for each of its cases and, of the first case, under the plain names.
+void add_mission(std::span<const LoadCase> cases, const MissionCases& mission, const Evaluation& there,
+                 Evaluation& result) {
+  const auto name_of = [&](std::size_t i) { return cases.empty() ? std::string() : cases[i].name; };
+  const auto add = [&](const auto& from, auto& to) {
+    for (const auto& [key, value] : from) {
+      const auto [name, own] = split_case(key);
+      for (const std::size_t i : mission.cases) {
+        if (!own.empty() && own != name_of(i)) continue;
+        to[of_case(name, name_of(i))] = value;
+        if (i == 0) to[std::string(name)] = value;
+      }
+    }
+  };
+  result.timings_s["mission"] += there.timings_s.contains("total") ? there.timings_s.at("total") : 0;
+  add(there.model, result.model);
+  for (const std::string& message : there.messages) result.messages.push_back(message);
+  if (there.converged()) {
+    add(there.responses, result.responses);
+    add(there.error_sources, result.error_sources);
+    add(there.error_estimates, result.error_estimates);
+    for (const std::size_t i : mission.cases) match_unworn(name_of(i), i == 0, result);
+  } else if (result.converged() && mission.named) {
+    result.status = failed_at("mission", there.status);
+  } else if (result.converged()) {
+    result.messages.push_back("What all cases wear off together is not known: " + there.status + ".");
+  }
+}
+
 }  // namespace
 
 Scene in_case(Scene scene, const LoadCase& load) {
@@ -65,35 +112,59 @@ Scene in_first_case(const Scene& scene, std::span<const LoadCase> cases) {
   return cases.empty() ? scene : in_case(scene, cases.front());
 }
 
-Evaluation together(std::span<const LoadCase> cases, const Scene& scene, std::span<const Evaluation> in_cases) {
-  if (cases.empty()) return in_cases.front();
-  Evaluation result = in_cases.front();
-  result.parameters = parameters(scene);
-  result.status = status_of(Outcome::converged);
-  result.messages.clear();
-  result.constraints.clear();
-  for (std::size_t i = 0; i < in_cases.size(); ++i) {
-    add_case(cases[i].name, in_cases[i], result);
-    if (in_cases[i].infeasible()) break;
+MissionLoads mission_loads(const Scene& scene, std::span<const LoadCase> cases, const MissionCases& mission) {
+  if (cases.empty()) return {.all = {{.name = {}, .share = 1, .scene = scene}}};
+  MissionLoads loads;
+  for (const std::size_t i : mission.cases)
+    loads.all.push_back({.name = cases[i].name, .share = cases[i].weight, .scene = in_case(scene, cases[i])});
+  return loads;
+}
+
+Evaluation together(std::span<const LoadCase> cases, const Scene& scene, std::span<const Evaluation> answers,
+                    std::span<const MissionCases> missions) {
+  const std::size_t loads = std::max<std::size_t>(cases.size(), 1);
+  Evaluation result = answers.front();
+  if (!cases.empty()) {
+    result.parameters = parameters(scene);
+    result.status = status_of(Outcome::converged);
+    result.messages.clear();
+    result.constraints.clear();
+    for (std::size_t i = 0; i < std::min(loads, answers.size()); ++i) {
+      add_case(cases[i].name, answers[i], result);
+      if (answers[i].infeasible()) break;
+    }
+    sum_up(cases, result);
   }
-  sum_up(cases, result);
+  // Where a case has failed none is counted, whether it was computed or not.
+  const bool all = answers.size() >= loads && std::ranges::all_of(answers.first(loads), &Evaluation::converged);
+  for (std::size_t i = 0; all && i < missions.size() && loads + i < answers.size(); ++i)
+    add_mission(cases, missions[i], answers[loads + i], result);
   return result;
 }
 
-Evaluation evaluated_in_cases(std::span<const LoadCase> cases, const Scene& scene, const CaseEvaluator& evaluate) {
-  if (cases.empty()) return evaluate(scene, 0);
-  std::vector<Evaluation> in_cases(cases.size());
-  std::vector<bool> done(cases.size());
-  const auto compute = [&](std::size_t load) {
-    if (!done[load]) in_cases[load] = evaluated_or_refused([&] { return evaluate(in_case(scene, cases[load]), load); });
-    done[load] = true;
-  };
-  compute(0);
-  if (in_cases[0].infeasible()) return together(cases, scene, std::span(in_cases).first(1));
-  for (std::size_t first = 0; first < cases.size(); ++first)
-    for (std::size_t load = first; load < cases.size(); ++load)
-      if (share_matrices(cases[load], cases[first])) compute(load);
-  return together(cases, scene, in_cases);
+Evaluation evaluated_in_cases(std::span<const LoadCase> cases, const Scene& scene, const CaseEvaluator& evaluate,
+                              std::span<const MissionCases> missions, const MissionEvaluator& evaluate_mission) {
+  const std::size_t loads = std::max<std::size_t>(cases.size(), 1);
+  std::vector<Evaluation> answers(loads);
+  if (cases.empty()) {
+    answers[0] = evaluate(scene, 0);
+  } else {
+    std::vector<bool> done(loads);
+    const auto compute = [&](std::size_t load) {
+      if (!done[load])
+        answers[load] = evaluated_or_refused([&] { return evaluate(in_case(scene, cases[load]), load); });
+      done[load] = true;
+    };
+    compute(0);
+    if (answers[0].infeasible()) return together(cases, scene, std::span(answers).first(1));
+    for (std::size_t first = 0; first < loads; ++first)
+      for (std::size_t load = first; load < loads; ++load)
+        if (share_matrices(cases[load], cases[first])) compute(load);
+  }
+  if (std::ranges::all_of(answers, &Evaluation::converged))
+    for (std::size_t i = 0; i < missions.size(); ++i)
+      answers.push_back(evaluated_or_refused([&] { return evaluate_mission(missions[i], loads + i); }));
+  return together(cases, scene, answers, missions);
 }
 
 }  // namespace dovetail::optimizer

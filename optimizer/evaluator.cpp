@@ -4,6 +4,7 @@
 
 #include "optimizer/bars/error_bars.hpp"
 #include "optimizer/candidate/stopwatch.hpp"
+#include "optimizer/mission/mission_bars.hpp"
 #include "optimizer/responses/computed.hpp"
 #include "optimizer/responses/response_table.hpp"
 
@@ -28,6 +29,17 @@ CandidateResult SceneEvaluator::evaluate(const Scene& scene, const Purpose& purp
   }
   result.evaluation.timings_s["total"] = total.lap();
   return result;
+}
+
+Evaluation SceneEvaluator::evaluate_mission(const MissionLoads& loads, const Purpose& purpose) const {
+  Stopwatch total;
+  Computation how;
+  how.history = purpose.history;
+  MissionResult result = mission_of(loads, models_of(loads, builder_), how);
+  if (purpose.history) confirm_by_history(loads, result);
+  if (purpose.bars && result.evaluation.converged()) add_mission_bars(loads, builder_, others(), result);
+  result.evaluation.timings_s["total"] = total.lap();
+  return result.evaluation;
 }
 
 }  // namespace dovetail::optimizer

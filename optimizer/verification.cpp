@@ -111,6 +111,11 @@ CandidateResult evaluated_finer(const SceneEvaluator& evaluator, const Scene& sc
                   until(purpose.until, purpose.history));
 }
 
+Evaluation mission_finer(const SceneEvaluator& evaluator, MissionLoads loads, int level) {
+  for (MissionLoads::Load& load : loads.all) load.scene = finer(std::move(load.scene), level);
+  return SceneEvaluator(finer(evaluator.reference(), level)).evaluate_mission(loads, kSearch);
+}
+
 FinerDesign twice_as_fine(const SceneEvaluator& evaluator, const Scene& scene) {
   return {.scene = finer(scene, 1), .reference = finer(evaluator.reference(), 1)};
 }

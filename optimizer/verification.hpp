@@ -59,6 +59,9 @@ struct Verification {
 [[nodiscard]] CandidateResult evaluated_finer(const SceneEvaluator& evaluator, const Scene& scene,
                                               const Purpose& purpose, int level);
 
+/// All loads of it there.
+[[nodiscard]] Evaluation mission_finer(const SceneEvaluator& evaluator, MissionLoads loads, int level);
+
 /// A design at finer settings, and the scene that fixes the topology of its mesh.
 struct FinerDesign {
   Scene scene, reference;

@@ -13,6 +13,7 @@
 #include "optimizer/candidate/worn_state.hpp"
 #include "optimizer/problem/problem.hpp"
 #include "wear/asymptote/drift.hpp"
+#include "wear/release/friction_reserve.hpp"
 
 namespace dovetail::optimizer {
 
@@ -64,6 +65,15 @@ void note_soft_asperities(const Scene& scene, CandidateResult& result) {
                     1e3 * way, 1e3 * flank));
 }
 
+/// Of the loaded node that has least of its friction left.
+double slip_margin(const CandidateModel& model, const steady::State& state) {
+  double least = 1;
+  for (Eigen::Index i = 0; i < model.condensed->nodes(); ++i)
+    if (state.nodes[static_cast<std::size_t>(i)].carries_load)
+      least = std::min(least, wear::friction_margin(state, i, model.condensed->contact_law(i)));
+  return least;
+}
+
 std::string ended(const char* stage, const CandidateModel& model) {
   return spent(model.budget) ? failed_at(stage, Status::budget_spent) : status_of(Outcome::converged);
 }
@@ -98,9 +108,10 @@ std::string dynamics(const Scene& scene, const Computation& how, CandidateResult
   Stopwatch watch;
 
   paths::ResonanceOptions near_fit = resonance_options(scene);
-  near_fit.begins_near = fit.displacement.size() > 0;
-  const double start = near_fit.begins_near ? fit.omega : model.glued_frequencies(scene.loading.mode - 1);
-  result.unworn = paths::resonance(joint, start, near_fit, fit.displacement);
+  const NearResonance near = fit.unworn.empty() ? NearResonance() : fit.unworn.front();
+  near_fit.begins_near = near.displacement.size() > 0;
+  const double start = near_fit.begins_near ? near.omega : model.glued_frequencies(scene.loading.mode - 1);
+  result.unworn = paths::resonance(joint, start, near_fit, near.displacement);
   evaluation.timings_s["unworn_resonance"] = watch.lap();
   if (result.unworn->status != Status::converged) return failed_at("unworn_resonance", result.unworn->status);
   add_fillet_stresses(scene, result);
@@ -122,6 +133,7 @@ std::string dynamics(const Scene& scene, const Computation& how, CandidateResult
   evaluation.model["wear_bearing_share"] = asymptote.bearing.share;
   evaluation.model["wear_depth_over_compression"] = asymptote.bearing.closing;
   note_doubt(asymptote, state.unfinished, evaluation);
+  if (asymptote.largest_depth == 0) evaluation.model[kSlipMargin] = slip_margin(model, result.unworn->state);
   if (const double limit = wear::AsymptoteOptions{}.certificate_limit; asymptote.certificate > limit)
     evaluation.messages.push_back(
         "wear_certificate is above " + shortest(limit) +

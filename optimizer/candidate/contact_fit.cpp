@@ -2,15 +2,16 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "optimizer/candidate/candidate_result.hpp"
-#include "optimizer/candidate/carried_over.hpp"
 #include "optimizer/candidate/edge_search.hpp"
+#include "optimizer/candidate/load_on_grid.hpp"
 #include "optimizer/candidate/params.hpp"
-#include "paths/resonance.hpp"
 #include "paths/steady_state.hpp"
 #include "wear/asymptote/followed_asymptote.hpp"
 #include "wear/measures.hpp"
+#include "wear/mission/mission.hpp"
 
 namespace dovetail::optimizer {
 
@@ -18,66 +19,56 @@ namespace {
 
 constexpr ContactFitParams kFit;
 
-/// Where a search of a grid begins: a state of the joint and the grid it was laid on, and a grid to lay first.
-struct FitStart {
-  double omega = 0;  ///< rad/s
-  Eigen::MatrixXd displacement = {};
-  std::vector<fem::CellStrip> strips = {};
-  const LaidGrid* grid = nullptr;
-};
-
 FitStart start_of(const Scene& scene, const Computation& how, const CandidateModel& candidate) {
   if (how.from == nullptr || !how.from->unworn) return {};
   const CandidateResult& from = *how.from;
-  return {.omega = omega_as(from, from.unworn->omega, scene, candidate),
-          .displacement = from.unworn->state.displacement,
+  return {.unworn = {.omega = omega_as(from, from.unworn->omega, scene, candidate),
+                     .displacement = from.unworn->state.displacement},
           .strips = from.model.cells.strips(),
           .grid = how.grid_from ? &from.fit.grid : nullptr};
 }
 
-/// Lays grid after grid on a candidate until the edges of worn zones stay where cells end.
+/// Lays grid after grid on a design until the edges of worn zones stay where cells end.
 class GridSearch {
  public:
-  GridSearch(const Scene& scene, const Computation& how, const FitStart& start, CandidateModel& candidate)
-      : scene_(scene),
-        options_(how.contact),
-        start_(start),
-        candidate_(candidate),
-        cells_(cell_lengths(scene, options_.lengths)),
-        joint_(joint_of(scene, candidate, how.penalty_scale)) {
+  GridSearch(std::span<const FlankLoad> loads, const Computation& how)
+      : scene_(*loads.front().scene), options_(how.contact), cells_(cell_lengths(scene_, options_.lengths)) {
+    for (const FlankLoad& load : loads)
+      loads_.push_back({.load = &load, .joint = joint_of(*load.scene, *load.model, how.penalty_scale)});
     release_.certify = release_.certify_finer = false;
   }
 
   ContactFit run() {
     ContactFit fit = laid();
-    if (has_own_budget()) candidate_.budget->spend(joint_.options.budget->used());
-    if (!candidate_.converged()) return fit;
+    if (has_own_budget()) first().model().budget->spend(first().joint.options.budget->used());
+    if (!converged()) return fit;
     if (fit.known) fit.grid = {.edges = laid_, .counts = counts_, .search = search_, .moved = fit.moved};
     return fit;
   }
 
  private:
   ContactFit laid() {
-    for (const fem::CellStrip& strip : candidate_.cells.strips())
-      lengths_.emplace_back(fem::trace_lines(candidate_.mesh.sector.flanks[strip.flank]));
+    for (const fem::CellStrip& strip : cells().strips())
+      lengths_.emplace_back(fem::trace_lines(sector().flanks[strip.flank]));
     laid_.resize(lengths_.size());
     counts_.resize(lengths_.size());
     const bool begun = lay_first();
-    if (!candidate_.converged()) return fit_;
+    if (!converged()) return fit_;
     // Where the law lets nodes rest in slip the history says which ones wear.
-    rests_in_slip_ = wear::rests_in_slip(*candidate_.condensed);
+    rests_in_slip_ = wear::rests_in_slip(*first().model().condensed);
     follows_ = scene_.loading.follow == wear::Follow::resonance && !rests_in_slip_;
     // A history on each grid, or a resonance that is followed there, is dear: what is asked of the design itself is
     // left the rest.
     if (rests_in_slip_ || follows_)
-      joint_.options.budget = new_budget(scene_.solver, candidate_, options_.share_of_budget);
+      first().joint.options.budget = new_budget(scene_.solver, first().model(), options_.share_of_budget);
     release_.arbitration = rests_in_slip_ ? wear::Arbitration::unsettled : wear::Arbitration::never;
     // At the resonance of the first grid on all of them: it hardly moves, and edges move less.
     if (!begun && found_roughly()) {
       ++fit_.grids;
       if (!lay_next()) return unsettled();
-      if (!find_resonance(peak_.omega, unworn_.displacement)) return unsettled();
-    } else if (!find_first_resonance()) {
+      for (LoadOnGrid& load : loads_)
+        if (!load.find_resonance(load.peak.omega, load.unworn.displacement)) return unsettled();
+    } else if (!find_first_resonances()) {
       return fit_;
     }
     for (bool at_resonance = false;; ++fit_.grids) {
@@ -90,12 +81,13 @@ class GridSearch {
       if (vanished || (laid_for && fit_.moved <= aim(begun))) {
         // Where nodes beyond an edge hardly stick, do they at the resonance of this grid?
         if (!search_.holds() || at_resonance || vanished) return fit_;
-        if (!find_resonance(peak_.omega, unworn_.displacement)) return unsettled();
+        for (LoadOnGrid& load : loads_)
+          if (!load.find_resonance(load.peak.omega, load.unworn.displacement)) return unsettled();
         at_resonance = true;
         --fit_.grids;
       } else if (fit_.grids == options_.grids) {
         return best_grid(best_.grid < fit_.grids);
-      } else if (!lay_next() || !find_state()) {
+      } else if (!lay_next() || !find_unworn()) {
         return unsettled();
       }
     }
@@ -104,24 +96,34 @@ class GridSearch {
   /// How far edges may be left. A grid that another fit has left further than it aims at stays where it is left no
   /// further now: else what another grid changes would count as what the settings do.
   [[nodiscard]] double aim(bool begun) const {
-    return begun && fit_.grids == 0 ? std::max(options_.aim, start_.grid->moved) : options_.aim;
+    return begun && fit_.grids == 0 ? std::max(options_.aim, first().load->start.grid->moved) : options_.aim;
   }
 
-  [[nodiscard]] bool has_own_budget() const { return joint_.options.budget != candidate_.budget; }
+  [[nodiscard]] LoadOnGrid& first() { return loads_.front(); }
+  [[nodiscard]] const LoadOnGrid& first() const { return loads_.front(); }
+  [[nodiscard]] const fem::ContactCells& cells() const { return first().model().cells; }
+  [[nodiscard]] const fem::SectorMesh& sector() const { return first().model().mesh.sector; }
+  [[nodiscard]] bool converged() const {
+    return std::ranges::all_of(loads_, [](const LoadOnGrid& load) { return load.model().converged(); });
+  }
+  [[nodiscard]] bool has_own_budget() const { return first().joint.options.budget != first().model().budget; }
 
   void lay(const std::vector<fem::FlankCells>& flanks) {
-    if (flanks != candidate_.cells.flanks) lay_contact(scene_, flanks, candidate_);
-    joint_.model = candidate_.condensed;
+    for (LoadOnGrid& load : loads_) {
+      if (flanks != load.model().cells.flanks) lay_contact(load.scene(), flanks, load.model());
+      load.joint.model = load.model().condensed;
+    }
   }
 
   /// Whether that is the grid another fit ended with, and not one without edges.
   bool lay_first() {
-    std::vector<fem::FlankCells> flanks = cell_grid(scene_, candidate_.mesh.sector, cells_);
-    const bool begun = start_.grid != nullptr && start_.grid->edges.size() == lengths_.size();
+    std::vector<fem::FlankCells> flanks = cell_grid(scene_, sector(), cells_);
+    const LaidGrid* grid = first().load->start.grid;
+    const bool begun = grid != nullptr && grid->edges.size() == lengths_.size();
     if (begun) {
-      laid_ = start_.grid->edges;
-      counts_ = start_.grid->counts;
-      search_ = start_.grid->search;
+      laid_ = grid->edges;
+      counts_ = grid->counts;
+      search_ = grid->search;
       end_cells_at_edges(flanks);
     }
     lay(flanks);
@@ -131,33 +133,30 @@ class GridSearch {
   /// Edges on the first grid with fewer harmonics.
   [[nodiscard]] bool found_roughly() {
     const int all = scene_.solver.harmonics;
-    if (all < kFit.many_harmonics || start_.displacement.size() > 0 || rests_in_slip_ || follows_) return false;
-    joint_.options.harmonics = (all / 2) | 1;  // even ones hardly move of flanks under pressure
-    const bool found = find_first_resonance() && find_edges() && fit_.edges > 0;
-    joint_.options.harmonics = all;
+    const bool knows_better = first().load->start.unworn.displacement.size() > 0;
+    if (all < kFit.many_harmonics || knows_better || rests_in_slip_ || follows_) return false;
+    const auto with_harmonics = [this](int harmonics) {
+      for (LoadOnGrid& load : loads_) load.joint.options.harmonics = harmonics;
+    };
+    with_harmonics((all / 2) | 1);  // even ones hardly move of flanks under pressure
+    const bool found = find_first_resonances() && find_edges() && fit_.edges > 0;
+    with_harmonics(all);
     best_ = {};
     if (!found) fit_ = {};
     return found;
   }
 
-  [[nodiscard]] bool find_first_resonance() {
-    if (start_.displacement.size() == 0) return find_resonance(candidate_.glued_frequencies(scene_.loading.mode - 1));
-    return find_resonance(start_.omega, carried(start_.displacement, start_.strips)) ||
-           find_resonance(candidate_.glued_frequencies(scene_.loading.mode - 1));
+  [[nodiscard]] bool find_first_resonances() {
+    return std::ranges::all_of(loads_, [](LoadOnGrid& load) { return load.find_first_resonance(); });
   }
 
-  [[nodiscard]] bool find_resonance(double start, const Eigen::MatrixXd& guess = {}) {
-    paths::ResonanceOptions peak = resonance_options(scene_);
-    peak.begins_near = guess.size() > 0;
-    peak.frequency_tolerance = std::max(peak.frequency_tolerance, kFit.frequency_tolerance);
-    peak_ = paths::resonance(joint_, start, peak, guess);
-    unworn_ = peak_.state;
-    return peak_.status == Status::converged;
+  [[nodiscard]] bool find_unworn() {
+    return std::ranges::all_of(loads_, [](LoadOnGrid& load) { return load.find_unworn(); });
   }
 
   /// What the last grid says of the edges is not known: they may be anywhere near.
   [[nodiscard]] ContactFit unsettled() {
-    fit_.spent = has_own_budget() && spent(joint_.options.budget);
+    fit_.spent = has_own_budget() && spent(first().joint.options.budget);
     if (fit_.spent && !best_.flanks.empty()) return best_grid(true);
     fit_.settled = fit_.known = false;
     fit_.moved = fit_.share = 1;
@@ -167,13 +166,13 @@ class GridSearch {
   /// Where worn zones end on this grid, and how far that is from where it was laid for; false where no worn state is
   /// found.
   [[nodiscard]] bool find_edges() {
-    fit_.omega = peak_.omega;
-    fit_.displacement = unworn_.displacement;
-    const wear::Asymptote worn = worn_on_grid();
-    if (worn.verdict != wear::Verdict::asymptote) return false;
-    const std::vector<std::vector<Edge>> edges = rests_in_slip_
-                                                     ? resting_edges(candidate_.cells, *candidate_.condensed, worn)
-                                                     : edge_places(candidate_.cells, worn.trail);
+    fit_.unworn.clear();
+    for (const LoadOnGrid& load : loads_)
+      fit_.unworn.push_back({.omega = load.peak.omega, .displacement = load.unworn.displacement});
+    fit_.wear_rate = cells().area.dot(first().unworn.wear_rate);
+    const std::optional<std::vector<std::vector<Edge>>> found = loads_.size() == 1 ? edges_of_one() : edges_of_all();
+    if (!found) return false;
+    const std::vector<std::vector<Edge>>& edges = *found;
     const EdgeSearch before = search_;
     found_ = search_.hold(edges, lengths_);
     Misfit misfit;
@@ -189,21 +188,40 @@ class GridSearch {
     if (!best_.misfit.less_than(misfit))
       best_ = {.misfit = misfit,
                .grid = fit_.grids,
-               .flanks = candidate_.cells.flanks,
+               .flanks = cells().flanks,
                .laid = laid_,
                .counts = counts_,
                .search = before,
-               .displacement = unworn_.displacement};
+               .unworn = fit_.unworn};
     return true;
+  }
+
+  [[nodiscard]] std::optional<std::vector<std::vector<Edge>>> edges_of_one() {
+    const wear::Asymptote worn = worn_on_grid();
+    if (worn.verdict != wear::Verdict::asymptote) return {};
+    if (rests_in_slip_) return resting_edges(cells(), *first().model().condensed, worn);
+    return edge_places(cells(), {&worn.trail, 1});
+  }
+
+  /// Of what all loads wear off together.
+  [[nodiscard]] std::optional<std::vector<std::vector<Edge>>> edges_of_all() {
+    std::vector<wear::MissionLoad> loads;
+    for (const LoadOnGrid& load : loads_)
+      loads.push_back({.joint = load.joint, .omega = load.peak.omega, .unworn = &load.unworn});
+    wear::MissionOptions options{.asymptote = release_, .turns = false};
+    const wear::Mission worn = wear::mission(loads, options);
+    if (worn.verdict != wear::Verdict::asymptote) return {};
+    return edge_places(cells(), worn.trails);
   }
 
   /// Where the resonance is followed zones grow on the way: they are to end where nodes end at its end. Where it is
   /// lost on the way, or the budget is spent on the first grid, where they end before.
   [[nodiscard]] wear::Asymptote worn_on_grid() {
-    if (!follows_) return wear::asymptote(joint_, peak_.omega, release_, &unworn_);
-    wear::FollowedAsymptote followed = wear::followed_asymptote(joint_, peak_.omega, release_, {}, &unworn_);
+    auto& [load, joint, peak, unworn] = first();
+    if (!follows_) return wear::asymptote(joint, peak.omega, release_, &unworn);
+    wear::FollowedAsymptote followed = wear::followed_asymptote(joint, peak.omega, release_, {}, &unworn);
     const bool lost = followed.asymptote.verdict != wear::Verdict::asymptote;
-    const bool better_known = spent(joint_.options.budget) && !best_.flanks.empty();
+    const bool better_known = spent(first().joint.options.budget) && !best_.flanks.empty();
     if (lost && !better_known && followed.held) return std::move(*followed.held);
     return std::move(followed.asymptote);
   }
@@ -217,36 +235,24 @@ class GridSearch {
       counts_ = best_.counts;
     }
     search_ = best_.search;
-    fit_.displacement = best_.displacement;
+    fit_.unworn = best_.unworn;
     fit_.moved = best_.misfit.moved;
     fit_.share = best_.misfit.share;
     fit_.settled = fit_.moved <= options_.tolerance;
     return fit_;
   }
 
-  /// The next grid, and the state before as it is on it; false where there is none.
+  /// The next grid, and the states before as they are on it; false where there is none.
   [[nodiscard]] bool lay_next() {
     laid_ = search_.next(found_, laid_);
-    std::vector<fem::FlankCells> flanks = candidate_.cells.flanks;
+    std::vector<fem::FlankCells> flanks = cells().flanks;
     end_cells_at_edges(flanks);
-    const std::vector<fem::CellStrip> before = candidate_.cells.strips();
+    const std::vector<fem::CellStrip> before = cells().strips();
     lay(flanks);
-    fit_.displacement.resize(0, 0);
-    if (!candidate_.converged()) return false;
-    unworn_.displacement = carried(unworn_.displacement, before);
+    fit_.unworn.clear();
+    if (!converged()) return false;
+    for (LoadOnGrid& load : loads_) load.carry(before);
     return true;
-  }
-
-  [[nodiscard]] bool find_state() {
-    unworn_ = paths::steady_state(joint_, peak_.omega, Eigen::MatrixXd(unworn_.displacement));
-    return unworn_.status == Status::converged;
-  }
-
-  [[nodiscard]] Eigen::MatrixXd carried(const Eigen::MatrixXd& displacement,
-                                        const std::vector<fem::CellStrip>& before) const {
-    return paths::padded(
-        carried_over(displacement, before, candidate_.cells.strips(), candidate_.condensed->directions()),
-        scene_.solver.harmonics);
   }
 
   void end_cells_at_edges(std::vector<fem::FlankCells>& flanks) {
@@ -268,15 +274,13 @@ class GridSearch {
     EdgeSearch::Places laid;
     std::vector<std::vector<int>> counts;
     EdgeSearch search;
-    Eigen::MatrixXd displacement;
+    std::vector<NearResonance> unworn;
   };
 
-  const Scene& scene_;
+  const Scene& scene_;  // of the first load: what grids follow from is the same in all
   const ContactFitOptions& options_;
-  const FitStart& start_;
-  CandidateModel& candidate_;
   CellLengths cells_;
-  steady::Joint joint_;
+  std::vector<LoadOnGrid> loads_;
   wear::AsymptoteOptions release_;
   bool rests_in_slip_ = false, follows_ = false;
   std::vector<EdgeLengths> lengths_;      // of every strip
@@ -284,17 +288,45 @@ class GridSearch {
   std::vector<std::vector<int>> counts_;  // of cells between edges
   EdgeSearch search_;
   Best best_;
-  paths::Resonance peak_;
-  steady::State unworn_;
   ContactFit fit_;
 };
+
+/// The grid of the load that wears its flanks fastest, for all of them.
+ContactFit fit_to_fastest(std::span<const FlankLoad> loads, const Computation& how) {
+  ContactFit fastest;
+  std::size_t of = 0;
+  for (std::size_t k = 0; k < loads.size(); ++k) {
+    ContactFit fit = GridSearch(loads.subspan(k, 1), how).run();
+    if (!loads[k].model->converged()) return fit;
+    if (k == 0 || fit.wear_rate > fastest.wear_rate) {
+      fastest = std::move(fit);
+      of = k;
+    }
+  }
+  NearResonance known = fastest.unworn.empty() ? NearResonance() : std::move(fastest.unworn.front());
+  fastest.unworn.assign(loads.size(), {});
+  fastest.unworn[of] = std::move(known);
+  for (const FlankLoad& load : loads)
+    if (load.model->cells.flanks != loads[of].model->cells.flanks)
+      lay_contact(*load.scene, loads[of].model->cells.flanks, *load.model);
+  return fastest;
+}
+
+ContactFit not_fitted() {
+  return {.moved = 0, .share = 0, .settled = true, .known = true};
+}
 
 }  // namespace
 
 ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateModel& candidate) {
-  if (!how.contact.to_worn_zones) return {.moved = 0, .share = 0, .settled = true, .known = true};
-  const FitStart start = start_of(scene, how, candidate);
-  return GridSearch(scene, how, start, candidate).run();
+  if (!how.contact.to_worn_zones) return not_fitted();
+  const FlankLoad one{.scene = &scene, .model = &candidate, .start = start_of(scene, how, candidate)};
+  return GridSearch({&one, 1}, how).run();
+}
+
+ContactFit fit_contact(std::span<const FlankLoad> loads, const Computation& how) {
+  if (loads.size() > 1 && wear::rests_in_slip(*loads.front().model->condensed)) return fit_to_fastest(loads, how);
+  return GridSearch(loads, how).run();
 }
 
 }  // namespace dovetail::optimizer

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "optimizer/candidate/candidate_model.hpp"
 #include "optimizer/candidate/cell_grid.hpp"
 #include "optimizer/candidate/edge_search.hpp"
@@ -28,6 +31,19 @@ struct LaidGrid {
   double moved = 0;                      ///< by how much they were left, see ContactFit
 };
 
+/// An unworn steady state near its resonance, for the search of the resonance to start from.
+struct NearResonance {
+  double omega = 0;                   ///< rad/s
+  Eigen::MatrixXd displacement = {};  ///< m; none where there is none
+};
+
+/// Where a search of a grid begins: a state of the joint and the grid it was laid on, and a grid to lay first.
+struct FitStart {
+  NearResonance unworn = {};
+  std::vector<fem::CellStrip> strips = {};
+  const LaidGrid* grid = nullptr;
+};
+
 struct ContactFit {
   int grids = 0;     ///< laid, the first not counted
   double moved = 1;  ///< largest change of an edge that another grid would have made, in lengths of the mesh's edge; 1
@@ -37,10 +53,8 @@ struct ContactFit {
   bool known = false;    ///< `moved` could be computed
   bool spent = false;    ///< its share of the budget is spent: the grid of those laid that edges would have left least
   int edges = 0;         ///< of worn zones
-  /// The unworn steady state near its resonance on the nodes laid, for the search of the resonance to start from:
-  /// rad/s and m. No displacement where there is none.
-  double omega = 0;
-  Eigen::MatrixXd displacement = {};
+  std::vector<NearResonance> unworn = {};  ///< of every load on the nodes laid
+  double wear_rate = 0;                    ///< of the first load on them, before wear, m^3 per cycle
   LaidGrid grid = {};
 };
 
@@ -69,5 +83,18 @@ struct Computation {
 /// are then those of whole nodes, and continuous in the design but for the number of cells. Where there are no edges
 /// the first grid stays. Where a state on the way is not found the last grid stays, unsettled.
 ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateModel& candidate);
+
+/// A load on the flanks of a design: the design under it, and its model.
+struct FlankLoad {
+  const Scene* scene;
+  CandidateModel* model;
+  FitStart start = {};
+};
+
+/// The same for loads that act in turn on one pair of flanks, whose contact nodes are then the same in all models: the
+/// worn zones are those of the mission (wear::mission, each load at its unworn resonance), which may end elsewhere
+/// than those of any load alone. Under an energy threshold, where each of them takes a history, nodes end where the
+/// zones of the load end that wears its flanks fastest before anything has worn.
+ContactFit fit_contact(std::span<const FlankLoad> loads, const Computation& how);
 
 }  // namespace dovetail::optimizer

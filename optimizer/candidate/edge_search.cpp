@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "optimizer/candidate/node_lines.hpp"
 #include "optimizer/candidate/params.hpp"
@@ -15,11 +17,17 @@ constexpr EdgeSearchParams kEdgeSearch;
 
 }  // namespace
 
-std::vector<std::vector<Edge>> edge_places(const fem::ContactCells& cells, const wear::ReleaseTrail& trail) {
+std::vector<std::vector<Edge>> edge_places(const fem::ContactCells& cells, std::span<const wear::ReleaseTrail> trails) {
   const std::vector<fem::CellStrip> strips = cells.strips();
   const std::vector<wear::NodeLine> lines = node_lines(cells);
   std::vector<std::vector<Edge>> places(lines.size());
-  for (const wear::ZoneEdge& edge : wear::zone_edges(trail, lines, cells.area)) {
+  std::map<std::pair<int, int>, wear::ZoneEdge> farthest;  // by the nodes that meet there
+  for (const wear::ReleaseTrail& trail : trails)
+    for (const wear::ZoneEdge& edge : wear::zone_edges(trail, lines, cells.area))
+      if (const auto [at, first] = farthest.try_emplace({edge.worn, edge.bearing}, edge);
+          !first && edge.fraction > at->second.fraction)
+        at->second = edge;
+  for (const auto& [nodes, edge] : farthest) {
     const auto line = static_cast<std::size_t>(edge.line);
     const fem::CellStrip& strip = strips[line];
     const auto middle = [&](int node) { return strip.middle(static_cast<std::size_t>(node) - strip.first); };

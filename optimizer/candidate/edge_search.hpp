@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "optimizer/candidate/cell_grid.hpp"
@@ -16,9 +17,10 @@ struct Edge {
   bool grown = false;  ///< by a later pass of release than the one that began the zone
 };
 
-/// Edges of every strip, rising.
+/// Edges of every strip, rising. Of the trails of several loads that wear off the same nodes, each edge is where the
+/// load has it that goes farthest there.
 [[nodiscard]] std::vector<std::vector<Edge>> edge_places(const fem::ContactCells& cells,
-                                                         const wear::ReleaseTrail& trail);
+                                                         std::span<const wear::ReleaseTrail> trails);
 
 /// The same under a wear law that lets nodes rest in slip, where release does not find the worn zones: a zone ends
 /// where the energy of the node beyond it, at rest, would come up to what the law lets it dissipate, if it rose towards

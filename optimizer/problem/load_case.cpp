@@ -71,8 +71,9 @@ CaseResponse split_case(std::string_view name) {
   return {.response = name.substr(0, at), .load_case = name.substr(at + 1)};
 }
 
-Barred over_cases(std::string_view over, std::span<const LoadCase> cases, std::span<const Barred> numbers,
-                  double share) {
+namespace {
+
+Barred by_rule(std::string_view over, std::span<const LoadCase> cases, std::span<const Barred> numbers, double share) {
   const std::optional<Over> rule = named<Over>(over);
   if (!rule) {
     std::vector<Barred> of_case;
@@ -97,6 +98,27 @@ Barred over_cases(std::string_view over, std::span<const LoadCase> cases, std::s
     squares += cases[i].weight / weights * std::pow(numbers[i].value - mean.value, 2);
   // No number moves it by more than its bar.
   return {.value = std::sqrt(squares), .bar = largest_bar(numbers)};
+}
+
+}  // namespace
+
+Barred over_cases(std::string_view over, std::span<const LoadCase> cases, std::span<const Barred> numbers,
+                  double share) {
+  Barred all = by_rule(over, cases, numbers, share);
+  std::vector<LoadCase> half;
+  std::vector<Barred> of_half;
+  double weights = 0, weights_of_half = 0;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    weights += cases[i].weight;
+    if (!cases[i].first_half) continue;
+    half.push_back(cases[i]);
+    of_half.push_back(numbers[i]);
+    weights_of_half += cases[i].weight;
+  }
+  if (half.empty()) return all;
+  for (LoadCase& sample : half) sample.weight *= weights / weights_of_half;
+  all.bar += std::abs(all.value - by_rule(over, half, of_half, share).value);
+  return all;
 }
 
 }  // namespace dovetail::optimizer

@@ -23,6 +23,8 @@ struct LoadCase {
   std::vector<KeyChange> changes;
   /// The case whose uncertain numbers it has a sample of; empty: it is one by itself.
   std::string sample_of = {};
+  /// Of a sequence of samples: it is of the first half, which is a coarser rule by itself.
+  bool first_half = false;
 };
 
 /// What several cases come to in one number. Anything else that is said of it is the name of one case, of whose samples
@@ -59,7 +61,8 @@ struct Barred {
   double value = 0, bar = 0;
 };
 
-/// What the numbers of all cases, larger ones worse, come to. The worst may be another case within the bars.
+/// What the numbers of all cases, larger ones worse, come to. The worst may be another case within the bars. Where the
+/// cases are samples of a sequence the bar has what its second half changes besides.
 /// @param share  of the quantile, in (0, 1)
 [[nodiscard]] Barred over_cases(std::string_view over, std::span<const LoadCase> cases, std::span<const Barred> numbers,
                                 double share);

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <limits>
 #include <string_view>
+#include <tuple>
 
 #include "core/errors.hpp"
 #include "core/options.hpp"
@@ -69,6 +70,19 @@ std::vector<std::string> answers_of(const Problem& problem, const std::string& r
   std::vector<std::string> names;
   for (const LoadCase& each : problem.cases) names.push_back(of_case(response, each.name));
   return names;
+}
+
+/// Of all cases the worst; where one has no margin the design has none.
+void add_tie_breaks(const Problem& problem, const Evaluation& evaluation, Judgement& judgement) {
+  double margin = std::numeric_limits<double>::infinity();
+  for (const std::string& name : answers_of(problem, kSlipMargin)) {
+    const double here = value_of(evaluation.model, name);
+    margin = std::min(margin, std::isfinite(here) ? here : Judgement{}.slip_margin);
+  }
+  judgement.slip_margin = margin;
+  for (const std::string& name : answers_of(problem, "peak_amplitude_m"))
+    if (const double here = value_of(evaluation.responses, name); std::isfinite(here))
+      judgement.amplitude = std::max(judgement.amplitude, here);
 }
 
 std::vector<Violation> violations_of_terms(const Problem& problem) {
@@ -139,10 +153,16 @@ std::vector<std::string> constraint_names(const Problem& problem) {
   return names;
 }
 
+bool better(const Judgement& one, const Judgement& other) {
+  const auto rank = [](const Judgement& j) { return std::tuple{j.objective, -j.slip_margin, j.amplitude}; };
+  return rank(one) < rank(other);
+}
+
 Judgement judge(const Problem& problem, const Evaluation& evaluation, double tolerance,
                 std::span<const double> shifts) {
   Judgement judgement;
   bool finite = evaluation.converged();
+  add_tie_breaks(problem, evaluation, judgement);
   for (const ObjectiveTerm& term : problem.objective)
     judgement.objective += term_value(problem, term, evaluation.responses, {}).value;
   finite = finite && std::isfinite(judgement.objective);

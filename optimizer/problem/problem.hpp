@@ -75,7 +75,19 @@ struct Judgement {
       {};                 ///< largest c != 0 of the rules reported; an infeasible candidate without any has 1
   double violation = 0;   ///< sum of max(0, c) over rules and constraints known
   bool feasible = false;  ///< computed, and no c above the tolerance
+  /// What decides between designs of one objective, see better: of the case with the least of it, kSlipMargin - none
+  /// without any - and of the one with the largest, the amplitude.
+  double slip_margin = -1;
+  double amplitude = 0;
 };
+
+/// Entry of Evaluation::model of a design that does not wear: what is left of the friction, as a share, before a
+/// contact node slips in every cycle.
+inline constexpr const char* kSlipMargin = "slip_margin";
+
+/// Whether a design is better than another one, both feasible: by its objective; where that is the same to the bit, as
+/// of designs that do not wear, by its margin against slip, and then by its amplitude.
+[[nodiscard]] bool better(const Judgement& one, const Judgement& other);
 
 /// Judges with the exact constraints: feasible when every c <= tolerance. Pure; never throws.
 /// @param shifts  added to the response constraints before they count, order of constraint_names; empty: none

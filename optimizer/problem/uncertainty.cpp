@@ -18,9 +18,8 @@ std::span<const Field<optimizer::RobustOptions>> option_table<optimizer::RobustO
   static const std::vector<Field<R>> fields{
       {.key = "rule",
        .member = &R::rule,
-       .help =
-           "Where uncertain numbers are looked at: at the corners of their ranges, on a Sobol sequence, or by Gauss "
-           "rules."},
+       .help = "Where uncertain numbers are looked at: at the corners of their ranges, on a Sobol sequence, by Gauss "
+               "rules, or, nominal, nowhere but at the numbers that the file has."},
       {.key = "points",
        .member = &R::points,
        .range = {.lower = 0, .upper = 4096},
@@ -129,13 +128,14 @@ KeyChange change_at(const Uncertain& number, double standard) {
 std::vector<LoadCase> sampled(const std::vector<LoadCase>& cases, const std::vector<Uncertain>& uncertain,
                               const RobustOptions& options, int most) {
   if (uncertain.empty()) return cases;
-  const std::vector<LoadCase> alone{{.name = "sample", .changes = {}}};
+  const bool nominal = options.rule == Rule::nominal;
+  const std::vector<LoadCase> alone{{.name = kSampleOfStudy, .changes = {}}};
   const std::vector<LoadCase>& of = cases.empty() ? alone : cases;
   double count = static_cast<double>(of.size());
   const double each = options.rule == Rule::gauss ? (options.points > 0 ? options.points : 3) : 2;
   if (options.rule == Rule::sobol)
     count *= options.points > 0 ? options.points : 16;
-  else
+  else if (!nominal)
     count *= std::pow(each, static_cast<double>(uncertain.size())) + (options.rule == Rule::corners ? 1 : 0);
   if (count > most)
     throw InputError(Violation{.file = {},
@@ -143,7 +143,7 @@ std::vector<LoadCase> sampled(const std::vector<LoadCase>& cases, const std::vec
                                .value = std::string(to_string(options.rule)),
                                .allowed = "would make " + shortest(count) + " samples of each design; at most " +
                                           std::to_string(most) + " are computed"});
-  const Points points = points_of(uncertain, options);
+  const Points points = nominal ? Points{.at = {{}}, .weight = {1}} : points_of(uncertain, options);
   std::vector<LoadCase> samples;
   for (const LoadCase& load : of)
     for (std::size_t i = 0; i < points.at.size(); ++i) {
@@ -151,7 +151,8 @@ std::vector<LoadCase> sampled(const std::vector<LoadCase>& cases, const std::vec
       sample.name = load.name + "/" + std::to_string(i + 1);
       sample.sample_of = load.name;
       sample.weight = load.weight * points.weight[i];
-      for (std::size_t n = 0; n < uncertain.size(); ++n) {
+      sample.first_half = options.rule == Rule::sobol && i < points.at.size() / 2;
+      for (std::size_t n = 0; n < points.at[i].size(); ++n) {
         const KeyChange change = change_at(uncertain[n], points.at[i][n]);
         // What a case sets itself is what is uncertain there.
         if (change.times == 0)

@@ -30,12 +30,13 @@ struct Uncertain {
 
 /// Where uncertain numbers are looked at.
 enum class Rule {
+  nominal,  ///< nowhere but at the numbers that the file has
   corners,  ///< both ends of every range (of a normal one sqrt 3 deviations away), and the middle
   sobol,    ///< points of a Sobol sequence
   gauss,    ///< a product of Gauss rules, of `points` each
 };
-constexpr EnumNames<Rule, 3> enum_names(Rule) {
-  return {{{Rule::corners, "corners"}, {Rule::sobol, "sobol"}, {Rule::gauss, "gauss"}}};
+constexpr EnumNames<Rule, 4> enum_names(Rule) {
+  return {{{Rule::nominal, "nominal"}, {Rule::corners, "corners"}, {Rule::sobol, "sobol"}, {Rule::gauss, "gauss"}}};
 }
 [[nodiscard]] constexpr std::string_view to_string(Rule rule) {
   return name_of(rule);
@@ -47,6 +48,9 @@ struct RobustOptions {
   int points = 0;          ///< >= 0; 0: 16 of a Sobol sequence, 3 of each Gauss rule; corners have as many as there are
   double quantile = 0.95;  ///< in (0, 1)
 };
+
+/// What samples are of where a study has no cases.
+inline constexpr const char* kSampleOfStudy = "sample";
 
 /// Samples of each case (of the one there is without cases, named "sample"), with weights that add up to the case's.
 /// Throws InputError where there would be more than `most`.

@@ -53,6 +53,9 @@ struct Response {
   bool amount = false;       ///< of which there may be nothing: a bar larger than the value says so
   /// Of the worn joint: the same of the unworn one. Of a joint that does not wear it is at least as uncertain.
   const Response* unworn = nullptr;
+  /// Of all cases that act in turn on the same flanks: the same of each by itself. It has no `value` of one candidate,
+  /// and its errors fall by the same orders.
+  const Response* alone = nullptr;
   /// By how much it is off where these are; nothing where it does not hang on them.
   std::optional<double> (*off)(const CandidateResult& result, const LeftOpen& open) = nullptr;
   OwnError own_error = {};

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/options.hpp"
 #include "optimizer/search/finer_limits.hpp"
 #include "optimizer/search/ipopt_search.hpp"
 #include "optimizer/search/nlopt_search.hpp"
@@ -147,6 +148,20 @@ SearchOutcome corrected_search(EvaluationSession& session, FinerLimits& finer) {
   return outcome;
 }
 
+/// How the best of several designs with the same objective was chosen; empty where it is the only one.
+std::string tie_words(const EvaluationSession& session) {
+  if (!session.best()) return {};
+  const Judgement& best = session[*session.best()].judgement;
+  const auto tied = std::ranges::count_if(session.candidates(), [&](const Candidate& candidate) {
+    return candidate.judgement.feasible && candidate.judgement.objective == best.objective;
+  });
+  if (tied < 2) return {};
+  std::string text = "; " + std::to_string(tied) + " designs have the same objective: the best of them ";
+  if (best.slip_margin < 0) return text + "is the one with the smallest amplitude";
+  return text + "is the one farthest from slip, with " + shortest(std::round(1000 * best.slip_margin) / 10) +
+         " % of its friction left";
+}
+
 OptimizationResult result_of(EvaluationSession& session, Status status, const std::string& message) {
   OptimizationResult result;
   result.status = status;
@@ -157,6 +172,7 @@ OptimizationResult result_of(EvaluationSession& session, Status status, const st
   result.statistics = session.statistics();
   result.evaluations.assign(session.candidates().begin(), session.candidates().end());
   if (!result.best) result.message += "; no candidate meets every constraint";
+  result.message += tie_words(session);
   return result;
 }
 

@@ -167,7 +167,7 @@ void EvaluationSession::commit(Pending& candidate, const std::string& phase) {
                          .judgement = judgement,
                          .phase = phase,
                          .replayed = replayed});
-  if (judgement.feasible && (!best_ || judgement.objective < candidates_[*best_].judgement.objective)) best_ = index;
+  if (judgement.feasible && (!best_ || better(judgement, candidates_[*best_].judgement))) best_ = index;
   if (hooks_.progress) hooks_.progress({.index = index, .candidate = candidates_.back(), .best = best_});
 }
 
@@ -191,7 +191,7 @@ void EvaluationSession::judge_again() {
     Judgement& judgement = candidates_[i].judgement;
     judgement = judge(problem_, candidates_[i].evaluation, options_.constraint_tolerance, shifts_);
     if (std::ranges::find(rejected_, i) != rejected_.end()) judgement.feasible = false;
-    if (judgement.feasible && (!best_ || judgement.objective < candidates_[*best_].judgement.objective)) best_ = i;
+    if (judgement.feasible && (!best_ || better(judgement, candidates_[*best_].judgement))) best_ = i;
   }
 }
 

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "wear/asymptote/rest.hpp"
+#include "wear/asymptote/worn_zones.hpp"
 #include "wear/measures.hpp"
 #include "wear/no_wear.hpp"
+#include "wear/release/friction_reserve.hpp"
 #include "wear/release/passes.hpp"
 #include "wear/wearing_joint.hpp"
 
@@ -28,17 +31,34 @@ class MissionSearch {
   }
 
   [[nodiscard]] Mission run() {
-    if (begin() && release() && (certify() || result_.status == Status::stalled)) look_at_the_order();
+    if (begin() && answered() && (options_.turns || result_.verdict != Verdict::asymptote)) look_at_the_order();
+    refuse_gross_sliding();
     for (const WearingJoint& joint : joints_) result_.solves += joint.solves();
     return std::move(result_);
   }
 
  private:
+  [[nodiscard]] const reduction::ContactNodes& contact() const { return joints_.front().model().contact(); }
+
   [[nodiscard]] bool ended(std::size_t load, Status status, Verdict verdict = Verdict::not_converged) {
     result_.failed = load;
     result_.status = status;
     result_.verdict = verdict;
     return false;
+  }
+
+  /// Directly, or that is left to the loads in turn; false where the search has failed.
+  [[nodiscard]] bool answered() {
+    for (std::size_t k = 0; k < joints_.size(); ++k)
+      if (rests_in_slip(joints_[k].model()) && fastest_[k] > thresholds_[k]) return !ended(k, Status::stalled);
+    if (!release()) return false;
+    if (!options_.asymptote.certify) return rests();
+    return certify() || result_.status == Status::stalled;
+  }
+
+  [[nodiscard]] bool rests() {
+    result_.verdict = Verdict::asymptote;
+    return true;
   }
 
   /// Every load on the flanks as they are.
@@ -48,13 +68,16 @@ class MissionSearch {
     result_.depth = VectorXd::Zero(nodes);
     for (std::size_t k = 0; k < joints_.size(); ++k) {
       start_ = k == 0 ? joints_[k].start() : VectorXd(start_.cwiseMax(joints_[k].start()));
-      steady::State state = joints_[k].worn(joints_[k].start(), {});
+      steady::State state = loads_[k].unworn != nullptr ? *loads_[k].unworn : joints_[k].worn(joints_[k].start(), {});
       if (state.status != Status::converged) return ended(k, state.status);
       const double none = no_wear_rate(options_.asymptote.rate_threshold, joints_[k].model(), state);
       fastest_.push_back(largest(state.wear_rate));
       thresholds_.push_back(std::max(none, options_.asymptote.relative_threshold * fastest_.back()));
+      unworn_.push_back(state);
       result_.states.push_back(std::move(state));
     }
+    result_.trails.assign(joints_.size(), {});
+    for (ReleaseTrail& trail : result_.trails) trail.released_in.assign(result_.released.size(), -1);
     return true;
   }
 
@@ -62,13 +85,15 @@ class MissionSearch {
     for (int pass = 0;; ++pass) {
       std::vector<bool> next = result_.released;
       bool slipping = false;
+      std::vector<std::vector<bool>> slips;
       for (std::size_t k = 0; k < joints_.size(); ++k) {
-        const std::vector<bool> slips = wear_off(result_.states[k], result_.released, thresholds_[k]);
+        slips.push_back(wear_off(result_.states[k], result_.released, thresholds_[k]));
         for (std::size_t i = 0; i < next.size(); ++i)
-          if (slips[i]) next[i] = slipping = true;
+          if (slips[k][i]) next[i] = slipping = true;
       }
       if (!slipping) break;
       if (pass >= options_.asymptote.passes) return ended(0, Status::iteration_limit);
+      remember(pass, slips, next);
       for (std::size_t k = 0; k < joints_.size(); ++k) {
         bool held = false;
         for (std::size_t i = 0; i < next.size(); ++i)
@@ -88,9 +113,19 @@ class MissionSearch {
     return true;
   }
 
+  /// What a pass sees, for the ends of worn zones.
+  void remember(int pass, const std::vector<std::vector<bool>>& slips, const std::vector<bool>& next) {
+    for (std::size_t k = 0; k < joints_.size(); ++k) {
+      ReleaseTrail& trail = result_.trails[k];
+      trail.reserves.push_back(friction_reserve(joints_[k].model(), result_.states[k], slips[k]));
+      for (std::size_t i = 0; i < next.size(); ++i)
+        if (next[i] && !result_.released[i]) trail.released_in[i] = pass;
+    }
+  }
+
   void set_depth(const VectorXd& depth) {
     result_.depth = depth;
-    result_.worn_volume = worn_volume(joints_.front().model().contact(), depth);
+    result_.worn_volume = worn_volume(contact(), depth);
     result_.largest_depth = largest(depth);
     result_.least_volume = result_.largest_volume = result_.worn_volume;
   }
@@ -104,20 +139,32 @@ class MissionSearch {
       if (largest(state.wear_rate) > allowed) return ended(k, Status::stalled);
       result_.states[k] = std::move(state);
     }
-    result_.verdict = Verdict::asymptote;
-    return true;
+    return rests();
+  }
+
+  /// A state that hardly anything bears.
+  void refuse_gross_sliding() {
+    if (result_.verdict != Verdict::asymptote) return;
+    const bool confirmed = result_.took_turns && !result_.order_matters;
+    for (std::size_t k = 0; k < joints_.size(); ++k) {
+      const Bearing here = bearing(joints_[k].model(), unworn_[k], result_.states[k], result_.depth);
+      if (k == 0 || here.share < result_.bearing.share) result_.bearing = here;
+      if (!here.impossible() && (confirmed || !here.doubtful())) continue;
+      static_cast<void>(ended(k, Status::gross_sliding));
+      return;
+    }
   }
 
   /// Each load in turn, until it has come to rest, where in doubt by its history.
   [[nodiscard]] std::optional<VectorXd> in_turn(bool reversed) {
-    AsymptoteOptions alone = options_.asymptote;
-    alone.certify_finer = false;
+    RestOptions alone{.asymptote = options_.asymptote, .history = options_.turns, .lines = options_.lines};
+    alone.asymptote.certify_finer = false;
     VectorXd depth = start_;
     for (int round = 0; round < options_.rounds; ++round) {
       const VectorXd before = depth;
       for (std::size_t i = 0; i < loads_.size(); ++i) {
         const MissionLoad& load = loads_[reversed ? loads_.size() - 1 - i : i];
-        const Asymptote rest = asymptote(load.joint.worn(depth), load.omega, alone, nullptr, watcher_);
+        const Asymptote rest = comes_to_rest(load.joint.worn(depth), load.omega, alone, nullptr, watcher_).asymptote;
         result_.solves += rest.solves;
         if (rest.verdict != Verdict::asymptote) return {};
         depth = rest.depth;
@@ -133,16 +180,19 @@ class MissionSearch {
     for (const bool reversed : {false, true}) {
       const std::optional<VectorXd> depth = in_turn(reversed);
       if (!depth) continue;
+      result_.took_turns = true;
       if (result_.verdict != Verdict::asymptote) {
         set_depth(*depth);
         if (!certify()) return;
         result_.failed.reset();
         result_.status = Status::converged;
       }
-      const double volume = worn_volume(joints_.front().model().contact(), *depth);
+      const double volume = worn_volume(contact(), *depth);
       result_.least_volume = std::min(result_.least_volume, volume);
       result_.largest_volume = std::max(result_.largest_volume, volume);
-      if (!same(*depth, result_.depth, options_.state_tolerance)) result_.order_matters = true;
+      if (!same(*depth, result_.depth, options_.state_tolerance) &&
+          !a_node_apart(options_.lines, contact().area, *depth, result_.depth))
+        result_.order_matters = true;
     }
   }
 
@@ -151,6 +201,7 @@ class MissionSearch {
   const Watcher& watcher_;
   std::vector<WearingJoint> joints_;
   std::vector<double> fastest_, thresholds_;  // of each load, m per cycle
+  std::vector<steady::State> unworn_;
   VectorXd start_;
   Mission result_;
 };

@@ -7,6 +7,9 @@
 #include <vector>
 
 #include "wear/asymptote/asymptote.hpp"
+#include "wear/asymptote/gross_sliding.hpp"
+#include "wear/node_line.hpp"
+#include "wear/release/zone_edges.hpp"
 
 namespace dovetail::wear {
 
@@ -15,14 +18,20 @@ namespace dovetail::wear {
 struct MissionLoad {
   steady::Joint joint;
   double omega = 0;
-  double share = 1;  ///< > 0, of the life; only of interest for a history
+  double share = 1;                       ///< > 0, of the life; only of interest for a history
+  const steady::State* unworn = nullptr;  ///< its steady state before wear, or null
 };
 
 struct MissionOptions {
+  /// `certify` and `certify_finer` are those of each load; the history has a word where loads are let act in turn.
   AsymptoteOptions asymptote;
-  int rounds = 20;                ///< >= 1, of all loads, until none of them wears the flanks any further
-  double unchanged = 1e-3;        ///< > 0, of the largest depth: a round that changes less is the last
-  double state_tolerance = 1e-2;  ///< > 0. Two worn states are the same when their depths differ by less, relative
+  std::vector<NodeLine> lines = {};  ///< neighbours, of nodes that end where worn zones do, see RestOptions; or none
+  bool turns = true;                 ///< lets the loads act in turn, too; false: only where there is no direct answer
+  int rounds = 20;                   ///< >= 1, of all loads, until none of them wears the flanks any further
+  double unchanged = 1e-3;           ///< > 0, of the largest depth: a round that changes less is the last
+  /// > 0. Two worn states are the same when their depths differ by less, relative, or, with lines, by a node at the
+  /// ends of zones.
+  double state_tolerance = 1e-2;
 };
 
 /// The flanks when no load wears them any further.
@@ -34,6 +43,9 @@ struct Mission {
   double worn_volume = 0;             ///< m^3
   double largest_depth = 0;           ///< m
   std::vector<bool> released;         ///< [Nc] worn off in one of them at least
+  std::vector<ReleaseTrail> trails;   ///< of every load: the passes are those of all, the reserves its own
+  Bearing bearing;                    ///< of the load that has the least to bear on
+  bool took_turns = false;            ///< the loads were let act in turn, and came to an end
   /// Another order of the loads, or a history of one of them, ends elsewhere: least and largest volume of those tried.
   bool order_matters = false;
   double least_volume = 0, largest_volume = 0;
@@ -45,8 +57,10 @@ struct Mission {
 /// load, each node that slips under load in one of them is released, until none does in any; a released node has then
 /// worn until it just does not touch in the load that asks for most. Every load is solved once more on these depths.
 /// Then the loads are let act in turn, each until it has come to rest, where that is in doubt by its wear history, in
-/// the order given and in the reverse one: where these end elsewhere the order of the loads matters. Cost: about three
-/// times the asymptotes of all loads. Throws InputError for options out of range.
+/// the order given and in the reverse one: where these end elsewhere the order of the loads matters. Where the wear law
+/// lets nodes rest in slip, of which release knows nothing, the flanks are those that the loads leave in turn. A state
+/// that hardly anything bears is an answer only when the loads in turn come to it. Cost: about three times the
+/// asymptotes of all loads; without turns as much as those. Throws InputError for options out of range.
 [[nodiscard]] Mission mission(std::span<const MissionLoad> loads, const MissionOptions& options = {},
                               const Watcher& watcher = {});
 

@@ -1,6 +1,9 @@
 #include "studies/program/answers/json.hpp"
 
+#include <string_view>
+
 #include "optimizer/journal/evaluation_json.hpp"
+#include "optimizer/mission/mission_result.hpp"
 #include "optimizer/problem/load_case.hpp"
 #include "studies/program/engine/json_values.hpp"
 
@@ -28,12 +31,33 @@ void take_cases_out(Json& json) {
   if (!cases.empty()) json["cases"] = std::move(cases);
 }
 
+/// What is told of all cases together, out of the rest of `model`.
+void take_mission_out(Json& json) {
+  if (!json.contains("model")) return;
+  constexpr std::string_view kPrefix = optimizer::kMissionPrefix;
+  Json rest = Json::object(), mission = Json::object();
+  for (const auto& [key, value] : json.at("model").items()) {
+    if (!key.starts_with(kPrefix)) {
+      rest[key] = value;
+      continue;
+    }
+    const std::string name = key.substr(kPrefix.size());
+    const bool yes_or_no = name == "order_matters" || name == "confirmed_by_history";
+    mission[name] = yes_or_no ? Json(value != 0) : value;
+  }
+  json["model"] = std::move(rest);
+  if (!mission.empty()) json["mission"] = std::move(mission);
+}
+
 }  // namespace
 
 std::string evaluation_json(const optimizer::Evaluation& evaluation, const nlohmann::ordered_json* accuracy) {
   Json json = json_of(evaluation);
   if (evaluation.derivatives.empty()) json.erase("derivatives");
   take_cases_out(json);
+  take_mission_out(json);
+  if (json.contains("cases"))
+    for (Json& in_case : json["cases"]) take_mission_out(in_case);
   if (accuracy) json["accuracy"] = *accuracy;
   return text(json);
 }

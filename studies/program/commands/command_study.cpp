@@ -99,10 +99,11 @@ std::string evaluation_table(const optimizer::Evaluation& evaluation) {
       std::ranges::all_of(undecided, [&](const auto& name) { return evaluation.constraints.contains(name); });
   text += all ? "\n" : ", as far as limits are judged\n";
   if (!evaluation.responses.empty()) text += "\nresponses\n";
-  for (const optimizer::Response& response : optimizer::responses()) {
-    const auto value = evaluation.responses.find(std::string(response.name));
+  for (const std::string& name : optimizer::response_names()) {
+    const auto value = evaluation.responses.find(name);
     if (value == evaluation.responses.end()) continue;
-    text += fmt::format("  {:<30} {:>14.7g}", response.name, value->second);
+    const optimizer::Response& response = *optimizer::find_response(name);
+    text += fmt::format("  {:<30} {:>14.7g}", name, value->second);
     const auto error = evaluation.error_estimates.find(value->first);
     if (error != evaluation.error_estimates.end()) text += fmt::format(" +- {:.2g}", error->second);
     if (!response.unit.empty()) text += fmt::format(" {}", response.unit);
@@ -181,13 +182,20 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
       });
   const optimizer::Purpose purpose{
       .bars = !options.no_bars && !options.unworn, .history = !options.no_history, .until = until};
+  const std::vector<optimizer::MissionCases> missions =
+      options.unworn ? std::vector<optimizer::MissionCases>() : study_missions(study, true);
   const auto computed = [&] {
     const auto evaluator = scene_evaluator(study);
     return optimizer::evaluated_in_cases(
         study.problem.cases, study.scene,
-        [&](const optimizer::Scene& scene, std::size_t) { return evaluator->evaluate(scene, purpose).evaluation; });
+        [&](const optimizer::Scene& scene, std::size_t) { return evaluator->evaluate(scene, purpose).evaluation; },
+        missions,
+        [&](const optimizer::MissionCases& mission, std::size_t) {
+          return evaluator->evaluate_mission(optimizer::mission_loads(study.scene, study.problem.cases, mission),
+                                             purpose);
+        });
   };
-  const bool one_case = study.problem.cases.empty();
+  const bool one_case = study.problem.cases.empty() && missions.empty();
   optimizer::Evaluation evaluation =
       choice && one_case && answers(*choice, *goal, purpose) ? choice->evaluation : computed();
   if (choice) optimizer::raise_bars(choice->raised, evaluation);

@@ -43,6 +43,15 @@ Scene reference_scene(const Study& study) {
   return scene_at(study, middle);
 }
 
+std::vector<optimizer::MissionCases> study_missions(const Study& study, bool all) {
+  const bool named = optimizer::of_a_mission(optimizer::responses_of(study.problem));
+  // Loads whose resonances are followed as the joint wears have no mission: one that is named is refused.
+  const bool held = study.scene.loading.follow == wear::Follow::fixed;
+  // In space it takes minutes: only where it is asked for.
+  if (!held || (!named && (!all || study.scene.kind->in_space))) return {};
+  return optimizer::missions_of(study.problem.cases, named);
+}
+
 std::shared_ptr<const SceneEvaluator> scene_evaluator(const Study& study) {
   return std::make_shared<const SceneEvaluator>(reference_scene(study), optimizer::responses_of(study.problem));
 }
@@ -61,6 +70,17 @@ optimizer::CandidateResult evaluated(const SceneEvaluator& evaluator, const Scen
   result.evaluation.parameters = optimizer::parameters(scene);
   result.model.status = result.evaluation.status;  // there is none
   return result;
+}
+
+/// What all loads of a design wear off together, as a candidate of a search.
+optimizer::Evaluation mission_piece(const SceneEvaluator& evaluator, optimizer::MissionLoads loads,
+                                    const Piece& piece) {
+  if (piece.what == Piece::What::finer) return optimizer::mission_finer(evaluator, std::move(loads), piece.number);
+  if (piece.what == Piece::What::departed)
+    for (optimizer::MissionLoads::Load& load : loads.all)
+      load.scene = optimizer::in_case(std::move(load.scene),
+                                      optimizer::usual_departures()[static_cast<std::size_t>(piece.number)]);
+  return evaluator.evaluate_mission(loads, optimizer::kSearch);
 }
 
 /// Designs with bars and what the wear history decides. The best one is verified and then described: it is computed
@@ -112,8 +132,11 @@ RunEngine study_engine(const Study& study) {
   if (study.optimizer.responses == optimizer::Answers::needed)
     purpose.until = optimizer::last_stage(optimizer::responses_of(study.problem));
   const std::vector<optimizer::LoadCase> cases = study.problem.cases;
-  engine.piece = [evaluator, cases, design_at, purpose](const Piece& piece) {
+  const std::vector<optimizer::MissionCases> missions = study_missions(study, false);
+  engine.piece = [evaluator, cases, missions, design_at, purpose](const Piece& piece) {
     const Scene design = design_at(piece.x);
+    if (const std::size_t loads = std::max<std::size_t>(cases.size(), 1); piece.load >= loads)
+      return mission_piece(*evaluator, optimizer::mission_loads(design, cases, missions.at(piece.load - loads)), piece);
     const Scene scene = cases.empty() ? design : optimizer::in_case(design, cases.at(piece.load));
     if (piece.what == Piece::What::finer)
       return optimizer::evaluated_finer(*evaluator, scene, purpose, piece.number).evaluation;
@@ -124,12 +147,14 @@ RunEngine study_engine(const Study& study) {
     return evaluator->evaluate(scene, purpose).evaluation;
   };
   engine.rules = [design_at](std::span<const double> x) { return optimizer::feasibility_of(design_at(x)).rules; };
-  const auto whole = [piece = engine.piece, cases, design_at](Piece::What what, std::span<const double> x, int number) {
+  const auto whole = [piece = engine.piece, cases, missions, design_at](Piece::What what, std::span<const double> x,
+                                                                        int number) {
     Piece one{.what = what, .x = {x.begin(), x.end()}, .load = 0, .number = number};
-    return optimizer::evaluated_in_cases(cases, design_at(x), [&](const Scene&, std::size_t load) {
+    const auto at = [&](const auto&, std::size_t load) {
       one.load = load;
       return piece(one);
-    });
+    };
+    return optimizer::evaluated_in_cases(cases, design_at(x), at, missions, at);
   };
   engine.evaluate = [whole](std::span<const double> x) { return whole(Piece::What::evaluate, x, 0); };
   engine.finer = [whole](std::span<const double> x, int level) { return whole(Piece::What::finer, x, level); };
@@ -142,12 +167,17 @@ RunEngine study_engine(const Study& study) {
   // Of what wears, all of it is shown.
   const bool wears = purpose.until >= optimizer::Stage::worn_state;
   const auto closer = std::make_shared<CloserLook>(evaluator, wears ? optimizer::Stage::worn_resonance : purpose.until);
-  engine.describe = [closer, cases](const Scene& design) {
+  const std::vector<optimizer::MissionCases> shown =
+      wears ? study_missions(study, true) : std::vector<optimizer::MissionCases>();
+  engine.describe = [closer, cases, shown](const Scene& design) {
     const Scene first = optimizer::in_first_case(design, cases);
     const auto result = closer->take(first);
     return DescribedDesign{
         .evaluation = optimizer::evaluated_in_cases(
-            cases, design, [&](const Scene& scene, std::size_t) { return closer->evaluation(scene); }),
+            cases, design, [&](const Scene& scene, std::size_t) { return closer->evaluation(scene); }, shown,
+            [&](const optimizer::MissionCases& mission, std::size_t) {
+              return closer->evaluator().evaluate_mission(optimizer::mission_loads(design, cases, mission));
+            }),
         .record = report::make_design_record(first, *result)};
   };
   if (!wears) return engine;

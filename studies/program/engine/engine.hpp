@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "dynamics/condensed_model.hpp"
+#include "optimizer/cases.hpp"
 #include "optimizer/evaluator.hpp"
 #include "reduction/reduced_model.hpp"
 #include "steady/options.hpp"
@@ -33,6 +34,10 @@ inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();  //
 
 /// The study's scene with these values of the variables, in the unit of the file.
 [[nodiscard]] optimizer::Scene scene_at(const Study& study, std::span<const double> x);
+
+/// The missions of a study that a search evaluates: those of which it names a response. `all`: in a plane section a
+/// closer look has those of all cases whatever it names.
+[[nodiscard]] std::vector<optimizer::MissionCases> study_missions(const Study& study, bool all);
 
 /// The evaluator of a study, on the reference scene's mesh topology, or on the scene's own where the reference cannot
 /// be meshed. Throws InputError when neither can.

@@ -72,7 +72,7 @@ Evaluation lost(const Study& study, const Piece& piece, const std::string& ended
   std::string command = "dovetail evaluate " + study.file + " --no-bars --no-history";
   const auto set = [&](const std::string& key, double value) { command += " --set " + key + "=" + shortest(value); };
   for (const auto& [key, value] : study.problem.space.settings(piece.x)) set(key, value);
-  if (!study.problem.cases.empty())
+  if (piece.load < study.problem.cases.size())  // else it is of all cases together
     for (const auto& [key, value, times] : study.problem.cases.at(piece.load).changes)
       set(key, optimizer::parameter(scene_of(study, piece.x, piece.load), key));
   evaluation.messages.push_back("The process that computed it " + ended + "; the same again: " + command);
@@ -86,12 +86,13 @@ Evaluation evaluation_of(const Study& study, const Piece& piece, const Finished&
   return evaluation;
 }
 
-/// Pieces of many designs, all cases of each; tells of a design when its last case is there. Of each the case stays
-/// open.
+/// Pieces of many designs, all cases and missions of each; tells of a design when its last case is there. Of each the
+/// case stays open.
 void run_designs(const Study& study, const std::vector<Piece>& designs, optimizer::WorkerPool& pool,
                  const std::function<bool(std::size_t, Evaluation)>& told) {
   const std::vector<optimizer::LoadCase>& cases = study.problem.cases;
-  const std::size_t loads = std::max<std::size_t>(cases.size(), 1);
+  const std::vector<optimizer::MissionCases> missions = study_missions(study, false);
+  const std::size_t loads = std::max<std::size_t>(cases.size(), 1) + missions.size();
   std::vector<Piece> pieces;
   std::vector<std::string> tasks;
   for (Piece piece : designs)
@@ -105,7 +106,7 @@ void run_designs(const Study& study, const std::vector<Piece>& designs, optimize
     const std::size_t design = finished.task / loads;
     found[design][finished.task % loads] = evaluation_of(study, pieces[finished.task], finished);
     if (--left[design] > 0) return true;
-    return told(design, optimizer::together(cases, scene_at(study, designs[design].x), found[design]));
+    return told(design, optimizer::together(cases, scene_at(study, designs[design].x), found[design], missions));
   });
 }
 

@@ -25,7 +25,8 @@ struct DescribedDesign {
   report::DesignRecord record;
 };
 
-/// A part of the work of a run that others can do by themselves: a design in one case.
+/// A part of the work of a run that others can do by themselves: a design in one case, or in all of them that act in
+/// turn.
 struct Piece {
   enum class What {
     evaluate,  ///< as a candidate
@@ -35,7 +36,7 @@ struct Piece {
   };
   What what = What::evaluate;
   std::vector<double> x;  ///< of the variables, in the unit of the file
-  std::size_t load = 0;   ///< place of the case; 0 without cases
+  std::size_t load = 0;   ///< place of the case, 0 without cases; after them those of the missions
   int number = 0;
 };
 constexpr EnumNames<Piece::What, 4> enum_names(Piece::What) {

@@ -13,10 +13,25 @@
 
 namespace dovetail::studies {
 
+namespace {
+
+/// The responses of a study of which settings are chosen in one case: of all cases together, what each wears off alone.
+std::vector<std::string> settled_responses(const Study& study) {
+  std::vector<std::string> names;
+  for (const std::string& name : optimizer::responses_of(study.problem)) {
+    const optimizer::Response* alone = optimizer::find_response(name)->alone;
+    const std::string settled = alone == nullptr ? name : std::string(alone->name);
+    if (std::ranges::find(names, settled) == names.end()) names.push_back(settled);
+  }
+  return names;
+}
+
+}  // namespace
+
 std::optional<optimizer::AccuracyGoal> accuracy_goal(const Study& study, optimizer::Stage until) {
   if (study.scene.solver.accuracy == 0) return {};
   optimizer::AccuracyGoal goal{.relative = study.scene.solver.accuracy};
-  goal.responses = optimizer::responses_of(study.problem);
+  goal.responses = settled_responses(study);
   if (until < optimizer::Stage::worn_resonance) {
     if (goal.responses.empty())
       for (const optimizer::Response& response : optimizer::responses()) goal.responses.emplace_back(response.name);
@@ -27,7 +42,9 @@ std::optional<optimizer::AccuracyGoal> accuracy_goal(const Study& study, optimiz
   goal.fixed = study.given;
   const auto own = [&goal](const auto& term) {
     if (term.accuracy == 0) return;
-    const auto [at, first] = goal.of.try_emplace(term.response, term.accuracy);
+    const optimizer::Response* alone = optimizer::find_response(term.response)->alone;
+    const auto [at, first] =
+        goal.of.try_emplace(alone == nullptr ? term.response : std::string(alone->name), term.accuracy);
     if (!first) at->second = std::min(at->second, term.accuracy);
   };
   for (const optimizer::ObjectiveTerm& term : study.problem.objective) own(term);
@@ -39,7 +56,7 @@ std::optional<optimizer::AccuracyGoal> truncation_goal(const Study& study, const
                                                        optimizer::Stage until) {
   if (!solver.automatic()) return {};
   optimizer::AccuracyGoal goal{.relative = 10 * accuracy(solver), .of_truncation = true};
-  const std::vector<std::string> named = optimizer::responses_of(study.problem);
+  const std::vector<std::string> named = settled_responses(study);
   for (const optimizer::Response& response : optimizer::responses()) {
     const std::string name(response.name);
     if (response.stage <= until && (named.empty() || std::ranges::count(named, name) > 0))

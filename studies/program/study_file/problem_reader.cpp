@@ -5,6 +5,7 @@
 #include <map>
 #include <tuple>
 
+#include "optimizer/problem/missions.hpp"
 #include "optimizer/responses/response_table.hpp"
 #include "studies/program/study_file/case_reader.hpp"
 #include "studies/program/study_file/scene_keys.hpp"
@@ -153,8 +154,7 @@ std::vector<DesignVariable> read_variables(SectionReader& root, const optimizer:
 std::string read_response(SectionReader& section, Problems& problems) {
   const std::optional<std::string> name = section.text("response", {}, true);
   if (!name || optimizer::find_response(*name)) return name.value_or("");
-  std::vector<std::string> names;
-  for (const optimizer::Response& r : optimizer::responses()) names.emplace_back(r.name);
+  const std::vector<std::string> names = optimizer::response_names();
   std::string allowed = "is not a response";
   if (const std::string near = nearest(*name, names); !near.empty())
     allowed += "; did you mean \"" + near + "\"?";
@@ -278,6 +278,26 @@ std::vector<ResponseConstraint> read_constraints(SectionReader& root, const std:
 
 }  // namespace
 
+namespace {
+
+/// What all cases wear off together is asked of one pair of flanks, each case at its own resonance before wear.
+void refuse_missions(SectionReader& root, const optimizer::Scene& scene, const optimizer::Problem& problem,
+                     Problems& problems) {
+  const std::vector<std::string> names = optimizer::responses_of(problem);
+  const bool followed = scene.loading.follow != wear::Follow::fixed;
+  if (!optimizer::of_a_mission(names) || (!followed && !optimizer::missions_of(problem.cases, true).empty())) return;
+  for (const char* table : {"objective", "constraint"})
+    for (const auto& [node, path] : entries(root, table, problems)) {
+      const Node* name = node->find("response");
+      if (name == nullptr || !optimizer::of_a_mission({name->text})) continue;
+      problems.add(*name, path + ".response",
+                   followed ? "is of flanks that wear at held frequencies: needs loading.follow = \"fixed\""
+                            : "is of cases that act on the same flanks: none of them may change the geometry");
+    }
+}
+
+}  // namespace
+
 optimizer::Problem read_problem(SectionReader& root, const optimizer::Scene& scene,
                                 const optimizer::OptimizerOptions& options, Problems& problems) {
   optimizer::Problem problem;
@@ -288,6 +308,7 @@ optimizer::Problem read_problem(SectionReader& root, const optimizer::Scene& sce
   problem.cases = read_samples(root, scene, variables, problem.cases, problem.quantile, problems);
   problem.objective = read_objective(root, named, !problem.cases.empty(), accurate, problems);
   problem.constraints = read_constraints(root, named, !problem.cases.empty(), accurate, problems);
+  refuse_missions(root, scene, problem, problems);
   const bool varies = root.node() && root.node()->find("variable");
   if (problem.objective.empty() && (varies || (root.node() && root.node()->find("objective"))))
     problems.missing(nullptr, "objective",

@@ -99,8 +99,8 @@ std::string scene_sections() {
 
 std::string response_list() {
   std::string text;
-  for (const optimizer::Response& response : optimizer::responses())
-    text += "#   " + std::string(response.name) + ": " + std::string(response.help) + "\n";
+  for (const std::string& name : optimizer::response_names())
+    text += "#   " + name + ": " + std::string(optimizer::find_response(name)->help) + "\n";
   return text;
 }
 

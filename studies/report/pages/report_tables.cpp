@@ -24,8 +24,8 @@ std::vector<std::string> names_of(const EvaluationRecord* first, const Evaluatio
     return (first && first->responses.count(name) > 0) || (second && second->responses.count(name) > 0);
   };
   std::vector<std::string> names;
-  for (const optimizer::Response& response : optimizer::responses())
-    if (known(std::string(response.name))) names.emplace_back(response.name);
+  for (const std::string& name : optimizer::response_names())
+    if (known(name)) names.push_back(name);
   for (const EvaluationRecord* evaluation : {first, second}) {
     if (!evaluation) continue;
     for (const auto& [name, value] : evaluation->responses)

@@ -20,12 +20,12 @@ Needs spent_on_contact(const optimizer::CandidateModel& candidate) {
 void fit_contact(Chain& chain) {
   chain.fit =
       optimizer::fit_contact(chain.scene, optimizer::until(optimizer::Stage::worn_resonance, false), chain.fitted);
-  require(chain.fitted.converged() && chain.fit.displacement.size() > 0, "contact_fit", chain.fitted.status);
+  require(chain.fitted.converged() && !chain.fit.unworn.empty(), "contact_fit", chain.fitted.status);
 }
 
 void find_unworn(Chain& chain) {
-  chain.unworn = paths::resonance(optimizer::joint_of(chain.scene, chain.fitted), chain.fit.omega,
-                                  optimizer::resonance_options(chain.scene), chain.fit.displacement);
+  chain.unworn = paths::resonance(optimizer::joint_of(chain.scene, chain.fitted), chain.fit.unworn.front().omega,
+                                  optimizer::resonance_options(chain.scene), chain.fit.unworn.front().displacement);
   require(chain.unworn->status == Status::converged, "unworn_resonance", to_string(chain.unworn->status));
 }
 

@@ -216,5 +216,37 @@ TEST(ProblemWithCases, AResponseMissingInOneIsAFailure) {
   EXPECT_EQ(e.status, "response: wear@climb is missing");
 }
 
+// Of designs that do not wear the one farthest from slip is the best, and then the one that moves least.
+TEST(BetterDesigns, AreFartherFromSlipWhereObjectivesAreTheSame) {
+  Problem problem;
+  problem.objective = {{.response = "worn"}};
+  const auto judged = [&](double worn, double margin, double amplitude) {
+    Evaluation e;
+    e.responses = {{"worn", worn}, {"peak_amplitude_m", amplitude}};
+    if (margin >= 0) e.model[kSlipMargin] = margin;
+    return judge(problem, e, 0);
+  };
+  EXPECT_TRUE(better(judged(1, -1, 9), judged(2, 0.9, 1)));
+  EXPECT_TRUE(better(judged(0, 0.3, 9), judged(0, 0.2, 1)));
+  EXPECT_TRUE(better(judged(0, 0, 9), judged(0, -1, 1)));
+  EXPECT_TRUE(better(judged(0, 0.3, 1), judged(0, 0.3, 2)));
+  EXPECT_FALSE(better(judged(0, 0.3, 1), judged(0, 0.3, 1)));
+  // Next to nothing is not nothing.
+  EXPECT_TRUE(better(judged(0, 0.1, 1), judged(1e-30, -1, 1)));
+}
+
+TEST(BetterDesigns, HaveTheMarginOfTheirWorstCase) {
+  Problem problem;
+  problem.objective = {{.response = "worn"}};
+  problem.cases = {{.name = "a", .changes = {}}, {.name = "b", .changes = {}}};
+  Evaluation e;
+  e.responses = {{"worn@a", 0}, {"worn@b", 0}, {"peak_amplitude_m@a", 1}, {"peak_amplitude_m@b", 3}};
+  e.model = {{"slip_margin@a", 0.4}, {"slip_margin@b", 0.2}, {"slip_margin", 0.4}};
+  EXPECT_EQ(judge(problem, e, 0).slip_margin, 0.2);
+  EXPECT_EQ(judge(problem, e, 0).amplitude, 3);
+  e.model.erase("slip_margin@b");  // it wears there
+  EXPECT_LT(judge(problem, e, 0).slip_margin, 0);
+}
+
 }  // namespace
 }  // namespace dovetail::optimizer

@@ -165,5 +165,27 @@ TEST_F(Run, ReportsEveryWrongInputAtOnce) {
   }
 }
 
+// Where the objective is flat the best is not the first that was seen, and the message says how it was chosen.
+TEST_F(Run, BreaksTiesByTheMarginAgainstSlip) {
+  Problem problem = bowl_problem();
+  const auto flat = [](std::span<const double> x) {
+    Evaluation e = bowl(x);
+    e.responses["bowl"] = 0;
+    e.model[kSlipMargin] = 1 - std::abs(x[1] - 3) / 10;
+    return e;
+  };
+  OptimizerOptions options;
+  options.algorithm = Algorithm::scan;
+  options.max_evaluations = 20;
+  const OptimizationResult result = run_optimization(problem, flat, options);
+  ASSERT_TRUE(result.best);
+  for (const Candidate& candidate : result.evaluations)
+    EXPECT_LE(std::abs(result.evaluations[*result.best].x[1] - 3), std::abs(candidate.x[1] - 3));
+  EXPECT_NE(*result.best, 0U);
+  EXPECT_NE(result.message.find("designs have the same objective: the best of them is the one farthest from slip"),
+            std::string::npos)
+      << result.message;
+}
+
 }  // namespace
 }  // namespace dovetail::optimizer

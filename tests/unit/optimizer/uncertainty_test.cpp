@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -77,6 +78,42 @@ TEST(Sampled, SobolPointsFillTheRange) {
 TEST(Sampled, TooManyAreRefused) {
   const std::vector<Uncertain> many(13, kFriction);
   EXPECT_THROW(static_cast<void>(sampled({}, many, {})), InputError);
+}
+
+// What the file says alone, whatever is uncertain.
+TEST(Sampled, NominalIsTheFileItself) {
+  const std::vector<LoadCase> cases{{.name = "a", .weight = 3, .changes = {{"contact.friction", 0.6}}}};
+  const std::vector<LoadCase> samples = sampled(cases, {kFriction, kMismatch}, {.rule = Rule::nominal});
+  ASSERT_EQ(samples.size(), 1U);
+  EXPECT_EQ(samples[0].sample_of, "a");
+  EXPECT_EQ(samples[0].weight, 3);
+  ASSERT_EQ(samples[0].changes.size(), 1U);
+  EXPECT_EQ(samples[0].changes[0].value, 0.6);
+}
+
+// Of a sequence the bar has what its second half changes.
+TEST(OverCases, OfASequenceHaveABarOfTheRule) {
+  const std::vector<LoadCase> samples = sampled({}, {kFriction}, {.rule = Rule::sobol, .points = 8});
+  EXPECT_EQ(std::ranges::count(samples, true, &LoadCase::first_half), 4);
+  std::vector<Barred> numbers;
+  double half = 0, whole = 0, most_of_half = 0, most = 0;
+  for (const LoadCase& sample : samples) {
+    const double value = std::exp(10 * sample.changes[0].value);
+    numbers.push_back({.value = value, .bar = 0.5});
+    whole += value / 8;
+    most = std::max(most, value);
+    if (sample.first_half) {
+      half += value / 4;
+      most_of_half = std::max(most_of_half, value);
+    }
+  }
+  EXPECT_NEAR(over_cases("mean", samples, numbers, 0.5).bar, 0.5 + std::abs(whole - half), 1e-9);
+  EXPECT_NEAR(over_cases("worst", samples, numbers, 0.5).bar, 0.5 + most - most_of_half, 1e-9);
+  EXPECT_NEAR(over_cases("sum", samples, numbers, 0.5).bar, 0.5 + std::abs(whole - half), 1e-9);
+  EXPECT_GT(std::abs(whole - half), 1e-3);
+  // Corners and Gauss rules are no sequence.
+  for (const Rule rule : {Rule::corners, Rule::gauss})
+    for (const LoadCase& sample : sampled({}, {kFriction}, {.rule = rule})) EXPECT_FALSE(sample.first_half);
 }
 
 TEST(OverCases, DeviationAndQuantile) {

@@ -159,8 +159,16 @@ expect 0 evaluate s.toml --no-bars --no-history --set loading.tip_force_n=1.5 --
 if command -v python3 > /dev/null; then
   python3 - <<'PYTHON' || fail "a case is not what the study would be with its keys"
 import json
-case, alone = json.load(open("cases.json"))["cases"]["b"], json.load(open("b.json"))
-assert case["responses"] == alone["responses"], (case["responses"], alone["responses"])
+whole, alone = json.load(open("cases.json")), json.load(open("b.json"))
+responses = {c: whole["cases"][c]["responses"] for c in "ab"}
+mission = {c: {k: responses[c].pop(k) for k in list(responses[c]) if k.startswith("mission_")} for c in "ab"}
+assert responses["b"] == alone["responses"], (responses["b"], alone["responses"])
+# All cases together wear off at least as much as each of them.
+volume = whole["responses"]["mission_wear_volume_m3"]
+assert all(mission[c]["mission_wear_volume_m3"] == volume for c in "ab"), mission
+assert volume >= 0.99 * max(responses[c]["asymptotic_wear_volume_m3"] for c in "ab"), (volume, responses)
+assert whole["responses"]["mission_drift"] == mission["a"]["mission_drift"] != mission["b"]["mission_drift"], mission
+assert whole["mission"]["loads"] == 2 and not any(k.startswith("mission") for k in whole["model"]), whole["mission"]
 PYTHON
 fi
 

@@ -3,6 +3,7 @@
 
 #include "optimizer/candidate/candidate_model.hpp"
 #include "optimizer/cases.hpp"
+#include "optimizer/problem/uncertainty.hpp"
 #include "studies/program/engine/engine.hpp"
 
 namespace dovetail::optimizer {
@@ -96,6 +97,79 @@ TEST(Cases, AFailureNamesItsCase) {
   EXPECT_EQ(e.status, "case hard: unworn_resonance: no_bracket");
   EXPECT_FALSE(e.converged());
   EXPECT_TRUE(e.responses.contains("force@plain"));
+}
+
+Evaluation all_forces(const MissionCases& mission, std::size_t place) {
+  Evaluation e;
+  e.responses["mission_wear_volume_m3"] = static_cast<double>(place);
+  for (const char* name : {"plain", "hard"}) e.responses[of_case("mission_drift", name)] = name[0];
+  e.error_estimates["mission_wear_volume_m3"] = static_cast<double>(mission.cases.size());
+  e.model["mission_order_matters"] = 1;
+  return e;
+}
+
+const std::vector<LoadCase> kTwoCases{{.name = "plain", .changes = {}},
+                                      {.name = "hard", .changes = {{"loading.tip_force_n", 3}}}};
+
+TEST(Missions, AreOfAllCasesAndToldByEach) {
+  const std::vector<MissionCases> missions = missions_of(kTwoCases, true);
+  ASSERT_EQ(missions.size(), 1U);
+  EXPECT_EQ(missions[0].cases, (std::vector<std::size_t>{0, 1}));
+  const Evaluation e = evaluated_in_cases(kTwoCases, Scene{}, by_force, missions, all_forces);
+  ASSERT_EQ(e.status, "converged");
+  for (const char* name : {"mission_wear_volume_m3", "mission_wear_volume_m3@plain", "mission_wear_volume_m3@hard"}) {
+    EXPECT_EQ(e.responses.at(name), 2) << name;  // evaluated after the cases
+    EXPECT_EQ(e.error_estimates.at(name), 2) << name;
+  }
+  EXPECT_EQ(e.responses.at("mission_drift"), 'p');
+  EXPECT_EQ(e.responses.at("mission_drift@plain"), 'p');
+  EXPECT_EQ(e.responses.at("mission_drift@hard"), 'h');
+  EXPECT_EQ(e.model.at("mission_order_matters@hard"), 1);
+}
+
+// Of numbers that are not known, each sample is a world of its own.
+TEST(Missions, AreOfTheCasesOfEachSample) {
+  const std::vector<LoadCase> samples =
+      sampled(kTwoCases, {{.key = "contact.friction", .first = 0.3, .second = 0.5}}, {});
+  const std::vector<MissionCases> missions = missions_of(samples, false);
+  ASSERT_EQ(missions.size(), 3U);
+  for (const MissionCases& mission : missions) {
+    ASSERT_EQ(mission.cases.size(), 2U);
+    EXPECT_EQ(samples[mission.cases[0]].sample_of, "plain");
+    EXPECT_EQ(samples[mission.cases[1]].sample_of, "hard");
+    EXPECT_EQ(samples[mission.cases[0]].changes.back().value, samples[mission.cases[1]].changes.back().value);
+  }
+  EXPECT_TRUE(missions_of(sampled({}, {{.key = "contact.friction", .first = 0.3, .second = 0.5}}, {}), false).empty());
+}
+
+TEST(Missions, NeedOneShape) {
+  std::vector<LoadCase> cases = kTwoCases;
+  cases[1].changes.push_back({"geometry.flank_length_mm", 5});
+  EXPECT_TRUE(missions_of(cases, true).empty());
+  cases[0].changes.push_back({"geometry.flank_length_mm", 5});
+  EXPECT_EQ(missions_of(cases, true).size(), 1U);
+  EXPECT_EQ(missions_of({}, true).size(), 1U);
+  EXPECT_TRUE(missions_of({}, false).empty());
+}
+
+// A failure counts where the study names the mission; else it is told.
+TEST(Missions, FailAsTheyAreNeeded) {
+  const auto fails = [](const MissionCases&, std::size_t) {
+    Evaluation e;
+    e.status = failed_at("asymptote", Status::gross_sliding);
+    return e;
+  };
+  const Evaluation named = evaluated_in_cases(kTwoCases, Scene{}, by_force, missions_of(kTwoCases, true), fails);
+  EXPECT_EQ(named.status, "mission: asymptote: gross_sliding");
+  const Evaluation shown = evaluated_in_cases(kTwoCases, Scene{}, by_force, missions_of(kTwoCases, false), fails);
+  EXPECT_EQ(shown.status, "converged");
+  ASSERT_EQ(shown.messages.size(), 1U);
+  EXPECT_THAT(shown.messages[0], HasSubstr("asymptote: gross_sliding"));
+  // After a case that failed none is looked at.
+  std::vector<LoadCase> cases = kTwoCases;
+  cases[1].changes[0].value = 6;
+  EXPECT_EQ(evaluated_in_cases(cases, Scene{}, by_force, missions_of(cases, true), fails).status,
+            "case hard: unworn_resonance: no_bracket");
 }
 
 // The physics: a case is what the study would be with its keys.

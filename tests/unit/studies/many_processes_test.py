@@ -37,6 +37,9 @@ response = "asymptotic_wear_volume_m3"
 [[constraint]]
 response = "peak_amplitude_m"
 upper = 12e-3
+[[constraint]]
+response = "mission_wear_volume_m3"
+upper = 5e-9
 [optimizer]
 algorithm = "cobyla"
 scan_evaluations = 6

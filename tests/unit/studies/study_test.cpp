@@ -433,6 +433,15 @@ TEST(StudyCases, WrongOnesAreRefused) {
               HasSubstr("deviation, quantile, a"));
 }
 
+TEST(StudyCases, ActTogetherOnFlanksOfOneShapeAtHeldFrequencies) {
+  const std::string limit = "[[constraint]]\nresponse = \"mission_wear_volume_m3\"\nupper = 1e-9\n";
+  const std::string cases = "[[case]]\nname = \"a\"\n[[case]]\nname = \"b\"\n";
+  EXPECT_EQ(complaint(cases + "\"loading.tip_force_n\" = 1\n" + limit), "");
+  EXPECT_EQ(complaint(limit), "");
+  EXPECT_THAT(complaint(cases + "\"geometry.platform_width_mm\" = 29\n" + limit),
+              HasSubstr("none of them may change the geometry"));
+}
+
 /// The sample with another objective.
 optimizer::ObjectiveTerm term(const std::string& lines) {
   std::string text = sample();

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "optimizer/candidate/contact_fit.hpp"
+#include "paths/resonance.hpp"
+#include "steady/state.hpp"
+
+namespace dovetail::optimizer {
+
+/// A load on the grid of contact nodes at hand, while one is looked for.
+struct LoadOnGrid {
+  const FlankLoad* load;
+  steady::Joint joint;
+  paths::Resonance peak = {};  ///< of the first grid, or of the last one
+  steady::State unworn = {};   ///< at that frequency
+
+  [[nodiscard]] const Scene& scene() const { return *load->scene; }
+  [[nodiscard]] CandidateModel& model() const { return *load->model; }
+
+  /// False where there is none.
+  [[nodiscard]] bool find_resonance(double start, const Eigen::MatrixXd& guess = {});
+  /// From where the load says, or from the glued joint.
+  [[nodiscard]] bool find_first_resonance();
+  /// The displacement on the nodes there are now, as it was on those before.
+  void carry(const std::vector<fem::CellStrip>& before);
+  /// The unworn state that begins with it; false where there is none.
+  [[nodiscard]] bool find_unworn();
+
+ private:
+  [[nodiscard]] Eigen::MatrixXd carried(const Eigen::MatrixXd& displacement,
+                                        const std::vector<fem::CellStrip>& before) const;
+};
+
+}  // namespace dovetail::optimizer
