@@ -51,15 +51,22 @@ void add_front_bars(const RunSite& site, const std::string& fingerprint, const O
   optimizer::Journal journal = optimizer::Journal::renew(site.directory / "front.jsonl", fingerprint);
   std::vector<std::vector<double>> asked;
   std::vector<std::size_t> places;
+  // The search takes the direct worn state; what a history makes of it is within the bar.
   const auto take = [&](std::size_t index, const Evaluation& barred) {
     Evaluation& own = result.evaluations[index].evaluation;
     own.error_estimates = barred.error_estimates;
+    for (auto& [name, bar] : own.error_estimates) {
+      const double moved = value_in(barred.responses, name) - value_in(own.responses, name);
+      if (std::isfinite(moved)) bar += std::abs(moved);
+    }
     own.error_sources = barred.error_sources;
     own.unbounded = barred.unbounded;
   };
-  for (const std::size_t point :
-       optimizer::spread(terms, static_cast<std::size_t>(site.study.optimizer.front_points))) {
-    const std::size_t index = result.front->points[point];
+  std::vector<std::size_t> wanted;
+  for (const std::size_t point : optimizer::spread(terms, static_cast<std::size_t>(site.study.optimizer.front_points)))
+    wanted.push_back(result.front->points[point]);
+  if (std::ranges::find(wanted, result.front->compromise) == wanted.end()) wanted.push_back(result.front->compromise);
+  for (const std::size_t index : wanted) {
     const std::vector<double>& x = result.evaluations[index].x;
     const auto known = std::ranges::find(journal.records(), x, &optimizer::JournalRecord::x);
     if (known != journal.records().end()) {

@@ -8,7 +8,8 @@
 
 namespace dovetail::studies {
 
-/// Computes bars of `front_points` points of the front, spread over it, and gives them to its candidates. What was
+/// Computes bars of `front_points` points of the front, spread over it, and of its compromise. Its candidates are given
+/// them; their values stay those of the search. What was
 /// computed before, for that fingerprint, is taken from front.jsonl. Nothing without a front.
 void add_front_bars(const RunSite& site, const std::string& fingerprint, const OrderlyInterrupt& interrupt,
                     optimizer::OptimizationResult& result);

@@ -122,7 +122,7 @@ RunEngine study_engine(const Study& study) {
       return evaluated(*evaluator, optimizer::in_case(scene, departure), purpose).evaluation;
     }
     optimizer::Purpose asked = purpose;
-    asked.bars = piece.what == Piece::What::barred;
+    asked.bars = asked.history = piece.what == Piece::What::barred;
     return evaluator->evaluate(scene, asked).evaluation;
   };
   engine.rules = [design_at](std::span<const double> x) { return optimizer::feasibility_of(design_at(x)).rules; };

@@ -30,7 +30,7 @@ struct Piece {
   enum class What {
     evaluate,  ///< as a candidate
     finer,     ///< the same on a finer mesh, `number` levels
-    barred,    ///< as a candidate, with bars
+    barred,    ///< as a candidate, with bars and what a wear history decides
     departed,  ///< where something is other than the study says: the departure of that number
     verify,    ///< by its wear history and at finer settings
   };
@@ -73,7 +73,7 @@ struct RunEngine {
       verify = {};
   /// The design where something is other than the study says, as a candidate is computed; empty: nobody asks.
   std::function<optimizer::Evaluation(std::span<const double> x, int departure)> departed = {};
-  /// The design as a candidate, with bars; empty: there are none.
+  /// The design as a candidate, with bars and what a wear history decides; empty: there are none.
   optimizer::Evaluator barred = {};
   /// Any piece but a verification; empty: candidates are evaluated whole.
   std::function<optimizer::Evaluation(const Piece&)> piece = {};
