@@ -41,11 +41,13 @@ struct DifferentialParams {
   unsigned variant = 7;    ///< rand/1/bin
 };
 
-/// NSGA-II [Deb 2002]; each child has one of its variables mutated on average.
+/// NSGA-II [Deb 2002]; each child has one of its variables mutated on average. The larger an index the nearer are
+/// children to their parents. Deb has 15 to 20 for tens of thousands of evaluations; of a few hundred these found 1 to
+/// 3 % more of the hypervolume on four to six dimensions of a dovetail.
 struct GeneticParams {
   double crossover = 0.9;
-  double crossover_index = 15;  ///< the larger the nearer children are to their parents; Deb has 15 to 20
-  double mutation_index = 20;
+  double crossover_index = 5;
+  double mutation_index = 5;
 };
 
 /// The epsilon-constraint method.

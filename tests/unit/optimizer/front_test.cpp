@@ -181,6 +181,42 @@ TEST_P(Generations, AreComputedAtOnce) {
 INSTANTIATE_TEST_SUITE_P(Optimizer, Generations, testing::Values(Algorithm::nsga2, Algorithm::cmaes, Algorithm::de),
                          [](const auto& parameter) { return std::string(to_string(parameter.param)); });
 
+/// Designs that break a limit would beat all that keep it, and are turned away from.
+TEST(Nsga2, StaysWhereLimitsAreKept) {
+  Problem problem = two_bowls();
+  problem.constraints = {{.response = "height", .lower = 0.5, .upper = {}}};
+  const Evaluator evaluator = [](std::span<const double> x) {
+    Evaluation e = two_bowls_at(x);
+    e.responses["height"] = x[1];
+    return e;
+  };
+  OptimizerOptions options = front_options(Algorithm::nsga2);
+  options.max_evaluations = 144;
+  const OptimizationResult result = run_optimization(problem, evaluator, options);
+  int kept = 0;
+  for (std::size_t i = 72; i < 144; ++i) kept += result.evaluations[i].judgement.feasible ? 1 : 0;
+  EXPECT_GT(kept, 24) << "of the last 72";
+}
+
+/// Beyond the bounds the answer is that of the nearest design: the mean has to come back from there all the same.
+TEST(Cmaes, EndsInACorner) {
+  Problem problem = bowl_problem();
+  problem.constraints.clear();
+  const Evaluator evaluator = [](std::span<const double> x) {
+    Evaluation e;
+    e.responses["bowl"] = std::pow(x[0] - 5, 2) + std::pow(x[1] - 20, 2);
+    return e;
+  };
+  OptimizerOptions options;
+  options.algorithm = Algorithm::cmaes;
+  options.max_evaluations = 2000;
+  const OptimizationResult result = run_optimization(problem, evaluator, options);
+  EXPECT_EQ(result.status, Status::converged) << result.message;
+  EXPECT_THAT(result.evaluations[*result.best].x, ElementsAre(3, 10));
+  // Lost outside it would ask for the corner again and again.
+  EXPECT_LT(result.statistics.repeated, static_cast<int>(result.evaluations.size()));
+}
+
 std::string refusal(const Problem& problem, const OptimizerOptions& options) {
   try {
     static_cast<void>(run_optimization(problem, bowl, options));
