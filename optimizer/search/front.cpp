@@ -58,8 +58,10 @@ Front front_of(const Problem& problem, std::span<const Candidate> candidates) {
   Terms first;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const Candidate& one = candidates[i];
+    // As their values say: what looks at finer meshes bring comes and goes with the length of the run.
+    if (one.evaluation.feasible && (one.phase == kStartPhase || one.phase == kScanPhase))
+      first.push_back(one.judgement.terms);
     if (!one.judgement.feasible) continue;
-    if (one.phase == kStartPhase || one.phase == kScanPhase) first.push_back(one.judgement.terms);
     bool beaten = false;
     for (std::size_t j = 0; j < candidates.size() && !beaten; ++j)
       beaten = j != i && candidates[j].judgement.feasible && beats(candidates[j], one, j < i);

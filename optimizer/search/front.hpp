@@ -25,8 +25,9 @@ struct Front {
 /// The front of the candidates as they are judged; without points where none is feasible. The values themselves decide:
 /// a search has no bars.
 ///
-/// The reference of an objective is what its term says; otherwise the worst feasible value of start and scan, which
-/// no search and no resumption moves, or where nothing of these is feasible the worst value on the front.
+/// The reference of an objective is what its term says; otherwise the worst value of start and scan that keeps
+/// limits on the mesh of the search, which no search and no resumption moves, or where nothing of these is feasible the
+/// worst value on the front.
 [[nodiscard]] Front front_of(const Problem& problem, std::span<const Candidate> candidates);
 
 /// At most `count` of the points of a front, its ends among them, spread: one after the other the point that is

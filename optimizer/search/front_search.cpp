@@ -15,6 +15,7 @@ constexpr double kInf = std::numeric_limits<double>::infinity();
 
 /// Where the other objectives are limited, run by run: fractions of the way from their worst to their best value.
 std::vector<std::vector<double>> fractions(std::size_t runs, std::size_t others, int seed) {
+  if (runs == 0) return {};
   if (others > 1) return latin_hypercube(runs, others, static_cast<std::uint64_t>(seed));
   std::vector<std::vector<double>> even;
   for (std::size_t k = 1; k <= runs; ++k) even.push_back({static_cast<double>(k) / static_cast<double>(runs + 1)});

@@ -121,7 +121,10 @@ FrontRecord front_record(const optimizer::Problem& problem, const optimizer::Opt
 void write_front(const fs::path& directory, const Study& study, const report::RunRecord& record) {
   const fs::path folder = directory / "front";
   std::error_code none;
-  fs::remove_all(folder, none);
+  std::vector<fs::path> older;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none))
+    if (entry.path().filename().string().starts_with("point_")) older.push_back(entry.path());
+  for (const fs::path& file : older) fs::remove(file, none);
   if (!record.front) {
     fs::remove(directory / "front.csv", none);
     return;

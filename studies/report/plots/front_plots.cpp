@@ -75,8 +75,8 @@ Plot front_plot(const RunRecord& record, std::size_t other) {
                 "computed, as far as the designs that are shown; designs beyond the reference are left out.",
             .x = across.axis(),
             .y = up.axis(),
-            .width = 1040,
-            .height = 440};
+            .width = 820,
+            .height = 400};
   Series beaten{.name = "beaten", .role = Role::muted, .stroke = Stroke::none, .mark = Mark::dot};
   Series broken{.name = "breaks a limit", .role = Role::bad, .stroke = Stroke::none, .mark = Mark::cross};
   Series start{.name = "start", .role = Role::before, .stroke = Stroke::none, .mark = Mark::triangle};

@@ -22,7 +22,7 @@ Candidate candidate(std::vector<double> terms, bool feasible = true, const char*
   Candidate c;
   c.phase = phase;
   c.judgement.computed = true;
-  c.judgement.feasible = feasible;
+  c.judgement.feasible = c.evaluation.feasible = feasible;
   c.judgement.terms = std::move(terms);
   return c;
 }
@@ -62,6 +62,29 @@ TEST(Front, CountsAgainstTheWorstFeasibleOfStartAndScanUnlessTold) {
   problem.objective[1].weight = -1;  // maximised
   problem.objective[1].reference = 5;
   EXPECT_THAT(front_of(problem, all).reference, ElementsAre(2, -5));
+}
+
+TEST(Front, IsOfAnyNumberOfObjectives) {
+  Problem problem = plain_problem();
+  problem.objective.push_back({.response = "height", .weight = -1});  // maximised
+  const Evaluator evaluator = [](std::span<const double> x) {
+    Evaluation e = two_bowls_at(x);
+    e.responses["height"] = x[1];
+    return e;
+  };
+  for (const Algorithm algorithm : {Algorithm::nsga2, Algorithm::cobyla})
+    for (const int points : {3, 8}) {
+      OptimizerOptions options;
+      options.algorithm = algorithm;
+      options.max_evaluations = 120;
+      options.scan_evaluations = 8;
+      options.front_points = points;
+      const OptimizationResult result = run_optimization(problem, evaluator, options);
+      ASSERT_TRUE(result.front) << result.message;
+      EXPECT_GT(result.front->points.size(), 5U);
+      EXPECT_GT(result.front->hypervolume, 0);
+      EXPECT_LT(result.front->ideal[2], -0.8) << "at most 1 is there";
+    }
 }
 
 TEST(Front, IsEmptyWhereNothingIsFeasible) {
