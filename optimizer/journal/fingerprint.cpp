@@ -38,8 +38,10 @@ std::string fingerprint(const Problem& problem, const OptimizerOptions& options,
     word(term.response);
     for (const double value : {term.weight, term.scale, term.absolute ? 1.0 : 0.0}) number(value);
     if (term.target != 0) number(term.target);
+    if (term.reference) word("reference " + shortest(*term.reference));
     over(term.over);
   }
+  if (problem.front) text += ";front";
   text += ";constraints";
   for (const ResponseConstraint& c : problem.constraints) {
     word(c.response);
@@ -63,6 +65,10 @@ std::string fingerprint(const Problem& problem, const OptimizerOptions& options,
   for (const Field<OptimizerOptions>& field : option_table<OptimizerOptions>()) {
     if (field.key == "max_evaluations" || field.key == "restarts" || field.key == "departures" ||
         field.key.starts_with("verify"))
+      continue;
+    // Keys that came later count where they are not what they are by default: older runs can be resumed.
+    if ((field.key == "population" || field.key == "front_points") &&
+        value_in_file_unit(options, field) == value_in_file_unit(OptimizerOptions{}, field))
       continue;
     word(field.key);
     if (const std::optional<std::string> choice = text_in(options, field))

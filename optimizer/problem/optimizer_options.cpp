@@ -27,6 +27,16 @@ Fields fields_of_the_search() {
        .member = &O::scan_evaluations,
        .range = kNonNegative,
        .help = "Latin-hypercube candidates before the algorithm, which starts from the best of them."},
+      {.key = "population",
+       .member = &O::population,
+       .range = {.lower = PopulationParams{}.least, .upper = 10000, .zero = "as many as suit the number of variables"},
+       .help = "Candidates in a generation of cmaes, de and nsga2, which are computed at once."},
+      {.key = "front_points",
+       .member = &O::front_points,
+       .range = {.lower = 3, .upper = 1000},
+       .help =
+           "Several objectives without weights: points of their front that are computed with bars. Algorithms other "
+           "than nsga2 run as often to find it."},
       {.key = "seed", .member = &O::seed, .range = kNonNegative, .help = "Same seed, same candidates."},
       {.key = "tolerance",
        .member = &O::tolerance,
@@ -103,6 +113,40 @@ Fields joined(Fields first, const Fields& second) {
 }
 
 }  // namespace
+
+bool has_population(Algorithm algorithm) {
+  return algorithm == Algorithm::cmaes || algorithm == Algorithm::de || algorithm == Algorithm::nsga2;
+}
+
+int population_of(const OptimizerOptions& options, std::size_t variables) {
+  constexpr PopulationParams kParams;
+  if (!has_population(options.algorithm)) return 0;
+  if (options.population > 0) return options.population;
+  const auto n = static_cast<double>(variables);
+  if (options.algorithm == Algorithm::nsga2) return kParams.of_nsga2;
+  if (options.algorithm == Algorithm::de) return std::max(kParams.least, static_cast<int>(kParams.of_de * n));
+  return std::max(kParams.least, 4 + static_cast<int>(3 * std::log(n)));  // [Hansen 2006]
+}
+
+std::vector<Violation> contradictions(const OptimizerOptions& options, bool front) {
+  std::vector<Violation> found;
+  const bool nsga2 = options.algorithm == Algorithm::nsga2;
+  const auto wrong = [&](const char* key, std::string value, std::string allowed) {
+    found.push_back({.file = {}, .key = key, .value = std::move(value), .allowed = std::move(allowed)});
+  };
+  if (nsga2 && !front)
+    wrong("optimizer.algorithm", "nsga2",
+          "finds a front and needs several [[objective]] without weight; of one objective, or a weighted sum, take "
+          "another algorithm");
+  constexpr int kQuartets = PopulationParams{}.quartets;
+  if (nsga2 && options.population % kQuartets != 0)
+    wrong("optimizer.population", std::to_string(options.population),
+          "must be a multiple of " + std::to_string(kQuartets) + " with algorithm = \"nsga2\"");
+  if (options.population > 0 && !has_population(options.algorithm))
+    wrong("optimizer.population", std::to_string(options.population),
+          "has a meaning with algorithm = \"cmaes\", \"de\" or \"nsga2\" alone");
+  return found;
+}
 
 double difference_step(const OptimizerOptions& options) {
   const double noise = noise_of(options);

@@ -1,13 +1,15 @@
 #pragma once
 
+#include <cstddef>
 #include <string_view>
+#include <vector>
 
 #include "core/enum_names.hpp"
 #include "core/options.hpp"
 
 namespace dovetail::optimizer {
 
-/// What searches, see nlopt_search.hpp and ipopt_search.hpp.
+/// What searches, see nlopt_search.hpp, ipopt_search.hpp and pagmo_search.hpp.
 enum class Algorithm {
   cobyla,
   bobyqa,
@@ -19,9 +21,12 @@ enum class Algorithm {
   mma,
   slsqp,
   ipopt,
-  scan,  ///< a Latin hypercube and nothing after it
+  cmaes,
+  de,
+  nsga2,  ///< of a front
+  scan,   ///< a Latin hypercube and nothing after it
 };
-constexpr EnumNames<Algorithm, 11> enum_names(Algorithm) {
+constexpr EnumNames<Algorithm, 14> enum_names(Algorithm) {
   return {{{Algorithm::cobyla, "cobyla"},
            {Algorithm::bobyqa, "bobyqa"},
            {Algorithm::neldermead, "neldermead"},
@@ -32,6 +37,9 @@ constexpr EnumNames<Algorithm, 11> enum_names(Algorithm) {
            {Algorithm::mma, "mma"},
            {Algorithm::slsqp, "slsqp"},
            {Algorithm::ipopt, "ipopt"},
+           {Algorithm::cmaes, "cmaes"},
+           {Algorithm::de, "de"},
+           {Algorithm::nsga2, "nsga2"},
            {Algorithm::scan, "scan"}}};
 }
 [[nodiscard]] constexpr std::string_view to_string(Algorithm algorithm) {
@@ -63,6 +71,8 @@ struct OptimizerOptions {
   int max_evaluations = 100;     ///< >= 1; different candidates, start and scan included
   int scan_evaluations = 0;      ///< >= 0; Latin-hypercube candidates before the local algorithm
   int seed = 1;                  ///< >= 0
+  int population = 0;            ///< candidates of a generation of cmaes, de, nsga2; 0: by the number of variables
+  int front_points = 12;         ///< >= 3; of a front, handed over with bars; runs of a local algorithm that make it
   double tolerance = 1e-6;       ///< > 0; relative change of the objective at which gradient methods stop
   double step_tolerance = 1e-4;  ///< > 0, <= 0.1; step at which a local algorithm stops
   double noise =
@@ -87,6 +97,23 @@ struct NoiseParams {
   double unknown_bar = 0.02;  ///< the objective has no bar, or there is nothing of it at the start
 };
 static_assert(NoiseParams{}.unknown < NoiseParams{}.unknown_bar, "in doubt longer steps");
+
+/// Generations of algorithms that have them.
+struct PopulationParams {
+  int least = 5;      ///< as pagmo takes
+  int of_de = 5;      ///< times the number of variables; Storn and Price advise 5 to 10
+  int of_nsga2 = 16;  ///< the hypervolume of a few hundred evaluations is largest for 12 to 20
+  int quartets = 4;   ///< nsga2 has tournaments of four
+};
+
+/// Whether the algorithm has generations.
+[[nodiscard]] bool has_population(Algorithm algorithm);
+/// Candidates of a generation for so many variables; 0 where there are none.
+[[nodiscard]] int population_of(const OptimizerOptions& options, std::size_t variables);
+
+/// Keys of [optimizer] that cannot be had together, or not with so many objectives: `front` when each is wanted for
+/// itself. Without a file.
+[[nodiscard]] std::vector<Violation> contradictions(const OptimizerOptions& options, bool front);
 
 /// Step of finite differences in unit coordinates that balances noise (1e-6 where it is not known) and truncation:
 /// forward 2 sqrt(noise), central cbrt(3 noise), within [1e-7, 0.1].

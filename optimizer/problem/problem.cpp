@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <string_view>
 #include <tuple>
 
@@ -35,6 +36,20 @@ Barred over_all(const Problem& problem, const std::string& response, const std::
   std::vector<Barred> numbers;
   for (const LoadCase& each : problem.cases) numbers.push_back(in(each.name));
   return over_cases(over, problem.cases, numbers, problem.quantile);
+}
+
+double scale_of(const ObjectiveTerm& term) {
+  return term.scale > 0 ? term.scale : 1.0;
+}
+
+double size_in(const ObjectiveTerm& term, double response) {
+  return term.absolute ? std::abs(response - term.target) : response;
+}
+
+/// The number that stands for all terms, or for all their bars.
+double total(const Problem& problem, const std::vector<double>& terms) {
+  if (problem.front) return terms.empty() ? 0.0 : terms.front();
+  return std::accumulate(terms.begin(), terms.end(), 0.0);
 }
 
 /// One side of a ResponseConstraint: c = sign (r - limit)/scale.
@@ -97,7 +112,9 @@ std::vector<Violation> violations_of_terms(const Problem& problem) {
     if (!std::isfinite(term.weight) || term.weight == 0)
       wrong(at + ".weight", shortest(term.weight), "must be a finite number other than 0");
     if (!(std::isfinite(term.scale) && term.scale >= 0)) wrong(at + ".scale", shortest(term.scale), kPositive.phrase());
-    if (term.scale == 0 && problem.objective.size() > 1)
+    if (term.reference && !std::isfinite(*term.reference))
+      wrong(at + ".reference", shortest(*term.reference), kAnyNumber.phrase());
+    if (term.scale == 0 && problem.objective.size() > 1 && !problem.front)
       wrong(at + ".scale", "0", "must be given (> 0, in the response's unit) when the objective has several terms");
   }
   for (const ResponseConstraint& c : problem.constraints) {
@@ -133,6 +150,7 @@ void check(const Problem& problem) {
   };
   if (problem.space.size() == 0) none("variables", "must name at least one design variable");
   if (problem.objective.empty()) none("objective", "must name at least one response");
+  if (problem.front && problem.objective.size() == 1) none("objective", "must name several responses for a front");
   for (Violation& wrong : violations_of_terms(problem)) found.push_back(std::move(wrong));
   if (!found.empty()) throw InputError(std::move(found));
 }
@@ -163,9 +181,11 @@ Judgement judge(const Problem& problem, const Evaluation& evaluation, double tol
   Judgement judgement;
   bool finite = evaluation.converged();
   add_tie_breaks(problem, evaluation, judgement);
-  for (const ObjectiveTerm& term : problem.objective)
-    judgement.objective += term_value(problem, term, evaluation.responses, {}).value;
-  finite = finite && std::isfinite(judgement.objective);
+  for (const ObjectiveTerm& term : problem.objective) {
+    judgement.terms.push_back(term_value(problem, term, evaluation.responses, {}).value);
+    finite = finite && std::isfinite(judgement.terms.back());
+  }
+  judgement.objective = total(problem, judgement.terms);
   for (const Limit& limit : limits(problem)) {
     judgement.constraints.push_back(limit.value(problem, evaluation.responses, {}).value);
     finite = finite && std::isfinite(judgement.constraints.back());
@@ -174,6 +194,7 @@ Judgement judge(const Problem& problem, const Evaluation& evaluation, double tol
   bool met = finite;
   if (!finite) {
     judgement.objective = kNaN;
+    std::fill(judgement.terms.begin(), judgement.terms.end(), kNaN);
     std::fill(judgement.constraints.begin(), judgement.constraints.end(), kNaN);
   } else {
     for (std::size_t j = 0; j < judgement.constraints.size(); ++j) {
@@ -198,17 +219,22 @@ Judgement judge(const Problem& problem, const Evaluation& evaluation, double tol
   return judgement;
 }
 
+double as_term(const ObjectiveTerm& term, double response) {
+  return term.weight * size_in(term, response) / scale_of(term);
+}
+
 Barred term_value(const Problem& problem, const ObjectiveTerm& term, const Values& responses, const Values& bars) {
-  const double scale = term.scale > 0 ? term.scale : 1.0;
+  const double scale = scale_of(term);
   const auto [value, bar] = over_all(problem, term.response, term.over, term.weight, responses, bars,
-                                     [&](double r) { return term.absolute ? std::abs(r - term.target) : r; });
+                                     [&](double r) { return size_in(term, r); });
   return {.value = value / scale, .bar = bar / scale};
 }
 
 JudgementBars judgement_bars(const Problem& problem, const Values& responses, const Values& error_estimates) {
   JudgementBars bars;
   for (const ObjectiveTerm& term : problem.objective)
-    bars.objective += term_value(problem, term, responses, error_estimates).bar;
+    bars.terms.push_back(term_value(problem, term, responses, error_estimates).bar);
+  bars.objective = total(problem, bars.terms);
   for (const Limit& limit : limits(problem))
     bars.constraints.push_back(limit.value(problem, responses, error_estimates).bar);
   return bars;

@@ -23,6 +23,7 @@ struct ObjectiveTerm {
   double accuracy = 0;    ///< asked of the response, relative; 0: as of the others
   double target = 0;      ///< of an absolute one
   std::string over{to_string(Over::worst)};  ///< see over_cases; of no interest without cases
+  std::optional<double> reference = {};      ///< of a front: values of the response beyond it count nothing; SI
 };
 
 /// Limits on one response. Each gives a smooth normalised c <= 0:
@@ -41,7 +42,8 @@ struct ResponseConstraint {
 /// What is minimised over which variables under which limits.
 struct Problem {
   DesignSpace space;
-  std::vector<ObjectiveTerm> objective;
+  std::vector<ObjectiveTerm> objective;  ///< their sum, or each for itself
+  bool front = false;                    ///< several terms are wanted, each for itself: designs that no other beats
   std::vector<ResponseConstraint> constraints;
   /// Empty: a design has one load, that of the study. Otherwise an evaluation has responses of every case under the
   /// names of of_case, and under the plain ones those of the first case.
@@ -69,7 +71,8 @@ inline constexpr const char* kRulePrefix = "rule:";
 /// One evaluation seen through the problem.
 struct Judgement {
   bool computed = false;                 ///< converged with every response of the problem finite
-  double objective = 0;                  ///< NaN unless computed
+  double objective = 0;                  ///< of a front its first term; NaN unless computed
+  std::vector<double> terms = {};        ///< of the objective, in its order; NaN unless computed
   std::vector<double> constraints = {};  ///< c in the order of constraint_names, NaN unless computed
   std::optional<double> rules =
       {};                 ///< largest c != 0 of the rules reported; an infeasible candidate without any has 1
@@ -94,6 +97,9 @@ inline constexpr const char* kSlipMargin = "slip_margin";
 [[nodiscard]] Judgement judge(const Problem& problem, const Evaluation& evaluation, double tolerance,
                               std::span<const double> shifts = {});
 
+/// A response's value as a term of the objective has it: less is better.
+[[nodiscard]] double as_term(const ObjectiveTerm& term, double response);
+
 /// What a term comes to, and by how much it may be off; NaN where that is not known.
 [[nodiscard]] Barred term_value(const Problem& problem, const ObjectiveTerm& term,
                                 const std::map<std::string, double>& responses,
@@ -103,6 +109,7 @@ inline constexpr const char* kSlipMargin = "slip_margin";
 /// is none.
 struct JudgementBars {
   double objective = 0;
+  std::vector<double> terms = {};
   std::vector<double> constraints = {};
 };
 [[nodiscard]] JudgementBars judgement_bars(const Problem& problem, const std::map<std::string, double>& responses,

@@ -44,14 +44,11 @@ struct Penalty {
   std::vector<double> multipliers;  ///< augmented Lagrangian when not empty
   double weight = 0;                ///< rho, or the weight of the exact penalty
   [[nodiscard]] double operator()(const SearchValue& value) const {
+    if (multipliers.empty()) return penalised(value, weight);
     double sum = 0;
     for (std::size_t j = 0; j < value.constraints.size(); ++j) {
-      if (multipliers.empty()) {
-        sum += weight * std::max(0.0, value.constraints[j]);
-      } else {
-        const double shifted = std::max(0.0, value.constraints[j] + multipliers[j] / weight);
-        sum += weight / 2 * shifted * shifted;
-      }
+      const double shifted = std::max(0.0, value.constraints[j] + multipliers[j] / weight);
+      sum += weight / 2 * shifted * shifted;
     }
     return value.objective + sum;
   }

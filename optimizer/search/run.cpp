@@ -8,8 +8,10 @@
 
 #include "core/options.hpp"
 #include "optimizer/search/finer_limits.hpp"
+#include "optimizer/search/front_search.hpp"
 #include "optimizer/search/ipopt_search.hpp"
 #include "optimizer/search/nlopt_search.hpp"
+#include "optimizer/search/pagmo_search.hpp"
 #include "optimizer/search/params.hpp"
 #include "optimizer/search/session.hpp"
 #include "optimizer/search/space_filling.hpp"
@@ -20,6 +22,7 @@ namespace {
 
 void check(const Problem& problem, const OptimizerOptions& options) {
   std::vector<Violation> found = violations(options, "optimizer");
+  for (Violation& wrong : contradictions(options, problem.front)) found.push_back(std::move(wrong));
   try {
     optimizer::check(problem);
   } catch (const InputError& error) {
@@ -33,8 +36,11 @@ SearchOutcome search_once(EvaluationSession& session, double step, int run) {
   SearchFunctions functions(session, std::string(to_string(options.algorithm)));
   const std::vector<double> start = session.unit(functions.reference());
   try {
-    if (options.algorithm == Algorithm::ipopt) return ipopt_search(functions, start);
     const auto seed = static_cast<std::uint64_t>(options.seed) + static_cast<std::uint64_t>(run) * 1000003U;
+    if (options.algorithm == Algorithm::ipopt) return ipopt_search(functions, start);
+    if (options.algorithm == Algorithm::cmaes) return cmaes_search(functions, start, step, seed);
+    if (options.algorithm == Algorithm::de) return de_search(functions, session, seed);
+    if (options.algorithm == Algorithm::nsga2) return nsga2_search(session, seed);
     return nlopt_search(options.algorithm, functions, start, step, seed);
   } catch (const StopSearch& stop) {
     if (stop.reason != Status::stalled) throw;
@@ -48,7 +54,7 @@ SearchOutcome search(EvaluationSession& session) {
   const OptimizerOptions& options = session.options();
   double step = options.initial_step;
   SearchOutcome outcome = search_once(session, step, 0);
-  if (is_global(options.algorithm)) return outcome;
+  if (is_global(options.algorithm) || options.algorithm == Algorithm::de) return outcome;
   for (int run = 1; run <= options.restarts; ++run) {
     step = std::max(step * options.restart_factor, 2 * stopping_step(options));
     const auto value = [&] {
@@ -97,6 +103,11 @@ std::string describe(Status status, const std::string& message) {
   if (status == Status::iteration_limit && message.empty()) return "the budget of evaluations is used up";
   if (status == Status::interrupted) return "interrupted; everything finished is kept";
   return message;
+}
+
+Front front_in(const EvaluationSession& session) {
+  const std::vector<Candidate> all(session.candidates().begin(), session.candidates().end());
+  return front_of(session.problem(), all);
 }
 
 /// The search with its limits corrected by what finer meshes say, at its start and where it ends. Its best candidate
@@ -162,11 +173,36 @@ std::string tie_words(const EvaluationSession& session) {
          " % of its friction left";
 }
 
+/// Points of a front, of which the compromise keeps its limits on finer meshes.
+SearchOutcome front_search(EvaluationSession& session, FinerLimits& finer) {
+  const Algorithm algorithm = session.options().algorithm;
+  SearchOutcome outcome{.status = Status::converged, .message = "scan: complete"};
+  if (finer.active()) finer.correct(session.best().value_or(0));
+  if (algorithm == Algorithm::nsga2)
+    outcome = within_budget([&] { return search_once(session, session.options().initial_step, 0); });
+  else if (algorithm != Algorithm::scan)
+    outcome = epsilon_constraint(session, [&] { return within_budget([&] { return search(session); }); });
+  session.focus({});
+  bool held = !finer.active();
+  for (int look = 0; !held && session.best() && look < CorrectionParams{}.looks; ++look)
+    held = finer.holds(front_in(session).compromise);
+  if (!held)
+    outcome.message =
+        describe(outcome.status, outcome.message) +
+        "; points that looked like a compromise break limits on finer meshes, and the one there is now was "
+        "not looked at";
+  return outcome;
+}
+
 OptimizationResult result_of(EvaluationSession& session, Status status, const std::string& message) {
   OptimizationResult result;
   result.status = status;
   result.message = describe(status, message);
   result.best = session.best();
+  if (session.problem().front && result.best) {
+    result.front = front_in(session);
+    result.best = result.front->compromise;
+  }
   if (!result.best) result.least_broken = session.least_broken();
   session.statistics().unused_records = session.unused_records();
   result.statistics = session.statistics();
@@ -181,11 +217,14 @@ void scan(EvaluationSession& session) {
   int count = options.scan_evaluations;
   // As an algorithm of its own the scan takes the whole budget unless told otherwise.
   if (options.algorithm == Algorithm::scan && count == 0) count = options.max_evaluations - 1;
+  // With the start it is their first generation.
+  if (options.algorithm == Algorithm::de || options.algorithm == Algorithm::nsga2)
+    count = std::max(count, population_of(options, session.problem().space.size()) - 1);
   if (count == 0) return;
   static_cast<void>(
       session.evaluate_all(latin_hypercube(static_cast<std::size_t>(count), session.problem().space.size(),
                                            static_cast<std::uint64_t>(options.seed)),
-                           "scan"));
+                           kScanPhase));
 }
 
 }  // namespace
@@ -195,17 +234,22 @@ OptimizationResult run_optimization(const Problem& problem, const Evaluator& eva
   check(problem, options);
   EvaluationSession session(problem, evaluator, options, hooks);
   FinerLimits finer(session, hooks);
-  OptimizationResult result;
+  SearchOutcome outcome;
+  bool stopped = false;
   try {
     session.evaluate_start();
     static_cast<void>(within_budget([&] {
       scan(session);
       return SearchOutcome{};
     }));
-    const SearchOutcome outcome = corrected_search(session, finer);
-    result = result_of(session, outcome.status, outcome.message);
+    outcome = problem.front ? front_search(session, finer) : corrected_search(session, finer);
   } catch (const StopSearch& stop) {
-    result = result_of(session, stop.reason, {});
+    outcome = {.status = stop.reason, .message = {}};
+    stopped = true;
+    session.focus({});
+  }
+  OptimizationResult result = result_of(session, outcome.status, outcome.message);
+  if (stopped) {
     const auto looks =
         std::ranges::count_if(finer.checks(), [&](const FinerCheck& check) { return check.candidate == result.best; });
     if (finer.active() && result.best && looks < options.finer_meshes)

@@ -11,8 +11,11 @@
 #include "optimizer/journal/journal.hpp"
 #include "optimizer/problem/optimizer_options.hpp"
 #include "optimizer/problem/problem.hpp"
+#include "optimizer/search/front.hpp"
 
 namespace dovetail::optimizer {
+
+inline constexpr const char *kStartPhase = "start", *kScanPhase = "scan";
 
 /// One candidate of a run.
 struct Candidate {
@@ -79,7 +82,8 @@ struct OptimizationResult {
   /// converged: the algorithm's stopping rule held; iteration_limit: the budget was used up; interrupted; stalled: the
   /// algorithm gave up (message says why). Says nothing about feasibility: look at `best`.
   Status status = Status::stalled;
-  std::optional<std::size_t> best;          ///< feasible candidate with the least objective
+  std::optional<std::size_t> best;          ///< feasible candidate with the least objective; of a front its compromise
+  std::optional<Front> front;               ///< where one was asked for and something is feasible
   std::optional<std::size_t> least_broken;  ///< without `best`: the candidate nearest to feasible
   std::vector<Candidate> evaluations;       ///< in the order asked for
   std::vector<FinerCheck> finer;            ///< in the order asked for
@@ -95,6 +99,11 @@ struct OptimizationResult {
 /// it breaks a limit there, the constraints are shifted by what was seen and the search goes on from there with
 /// small steps. `best` then is a design that keeps its limits on all of them, and `feasible` of a Judgement says that
 /// its values leave room for the shifts.
+///
+/// Of a front algorithms find points, see pagmo_search.hpp (nsga2) and front_search.hpp (all others); the scan has at
+/// least one generation of nsga2 and de. Limits are corrected once, by what the candidate with the least first
+/// objective changes, and the compromise has to keep them; the points beside it are judged with the shifts these looks
+/// bring.
 ///
 /// Same problem, options and evaluator give the same candidates bit by bit, however many are computed at once. To
 /// resume, run again with the journal: it answers the candidates it holds, the algorithm takes the same path and

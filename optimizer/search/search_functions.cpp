@@ -13,6 +13,12 @@ namespace {
 constexpr SubstituteParams kSubstitute;
 }  // namespace
 
+double penalised(const SearchValue& value, double weight) {
+  double sum = 0;
+  for (const double c : value.constraints) sum += std::max(0.0, c);
+  return value.objective + weight * sum;
+}
+
 SearchFunctions::SearchFunctions(EvaluationSession& session, std::string phase)
     : session_(session), phase_(std::move(phase)) {
   if (const auto best = session_.best())
@@ -43,7 +49,8 @@ SearchFunctions::SearchFunctions(EvaluationSession& session, std::string phase)
 }
 
 double SearchFunctions::aimed(const Judgement& judgement, std::size_t j) const {
-  return judgement.constraints[j] + session_.shifts()[j] + options().constraint_margin;
+  const std::vector<double>& shifts = session_.shifts();  // the limits of a focus have none
+  return judgement.constraints[j] + (j < shifts.size() ? shifts[j] : 0) + options().constraint_margin;
 }
 
 std::size_t SearchFunctions::size() const {
@@ -74,6 +81,12 @@ SearchValue SearchFunctions::seen(const Candidate& candidate) const {
 
 SearchValue SearchFunctions::value(std::span<const double> unit) {
   return seen(session_[session_.evaluate(unit, phase_)]);
+}
+
+std::vector<SearchValue> SearchFunctions::values(const std::vector<std::vector<double>>& units) {
+  std::vector<SearchValue> all;
+  for (const std::size_t index : session_.evaluate_all(units, phase_)) all.push_back(seen(session_[index]));
+  return all;
 }
 
 SearchGradient SearchFunctions::gradient(std::span<const double> unit) {

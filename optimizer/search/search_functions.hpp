@@ -16,6 +16,9 @@ struct SearchValue {
   bool computed = false;            ///< from physics; otherwise the substitutes described at SearchFunctions
 };
 
+/// The exact penalty f + weight sum max(0, c), of algorithms that know no constraints.
+[[nodiscard]] double penalised(const SearchValue& value, double weight);
+
 struct SearchGradient {
   std::vector<double> objective;                 ///< [n], by unit coordinates
   std::vector<std::vector<double>> constraints;  ///< [constraint][n]
@@ -43,6 +46,8 @@ class SearchFunctions {
   [[nodiscard]] std::size_t constraint_count() const;
   [[nodiscard]] std::size_t reference() const { return reference_; }
   [[nodiscard]] SearchValue value(std::span<const double> unit);
+  /// Of many, at once where there are hooks for that.
+  [[nodiscard]] std::vector<SearchValue> values(const std::vector<std::vector<double>>& units);
   [[nodiscard]] SearchGradient gradient(std::span<const double> unit);
   [[nodiscard]] const OptimizerOptions& options() const { return session_.options(); }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "optimizer/search/params.hpp"
@@ -36,7 +37,7 @@ std::size_t EvaluationSession::evaluate_start() {
   std::vector<Pending> pending(1);
   pending[0].unit = snap(problem_.space.to_unit(x));
   pending[0].x = x;
-  compute(pending, "start");
+  compute(pending, kStartPhase);
   return 0;
 }
 
@@ -156,7 +157,7 @@ void EvaluationSession::commit(Pending& candidate, const std::string& phase) {
   by_unit_.insert(candidate.unit, index);
   by_value_.insert(candidate.x, index);
   units_.push_back(candidate.unit);
-  const Judgement judgement = judge(problem_, evaluation, options_.constraint_tolerance, shifts_);
+  const Judgement judgement = judged(index, evaluation);
   ++(replayed ? statistics_.replayed : statistics_.computed);
   if (evaluation.infeasible())
     ++statistics_.infeasible;
@@ -185,12 +186,33 @@ void EvaluationSession::reject(std::size_t index) {
   judge_again();
 }
 
+void EvaluationSession::focus(std::optional<Focus> on) {
+  focus_ = std::move(on);
+  judge_again();
+}
+
+Judgement EvaluationSession::judged(std::size_t index, const Evaluation& evaluation) const {
+  Judgement judgement = judge(problem_, evaluation, options_.constraint_tolerance, shifts_);
+  if (std::ranges::find(rejected_, index) != rejected_.end()) judgement.feasible = false;
+  if (!focus_) return judgement;
+  judgement.objective =
+      std::inner_product(judgement.terms.begin(), judgement.terms.end(), focus_->weights.begin(), 0.0);
+  for (std::size_t i = 0; i < judgement.terms.size(); ++i) {
+    if (std::isinf(focus_->most[i])) continue;
+    const double c = (judgement.terms[i] - focus_->most[i]) / focus_->size[i];  // NaN unless computed
+    judgement.constraints.push_back(c);
+    if (!judgement.computed) continue;
+    judgement.violation += std::max(0.0, c);
+    judgement.feasible = judgement.feasible && c <= options_.constraint_tolerance;
+  }
+  return judgement;
+}
+
 void EvaluationSession::judge_again() {
   best_.reset();
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     Judgement& judgement = candidates_[i].judgement;
-    judgement = judge(problem_, candidates_[i].evaluation, options_.constraint_tolerance, shifts_);
-    if (std::ranges::find(rejected_, i) != rejected_.end()) judgement.feasible = false;
+    judgement = judged(i, candidates_[i].evaluation);
     if (judgement.feasible && (!best_ || better(judgement, candidates_[*best_].judgement))) best_ = i;
   }
 }

@@ -19,6 +19,13 @@ struct StopSearch {
   Status reason;
 };
 
+/// One objective of several in place of the others, which are limited instead.
+struct Focus {
+  std::vector<double> weights{};  ///< of the terms: 1 of the one that counts, next to nothing of the others
+  std::vector<double> most{};     ///< of each term; infinite: no limit, as of the term that counts
+  std::vector<double> size{};     ///< of a notable violation, > 0
+};
+
 /// The candidates of one run: answers from cache and journal, else calls the evaluator, records, counts, judges.
 /// Algorithms see unit coordinates, rounded to multiples of 2^-40 so that an algorithm's internal scaling, which moves
 /// a point by some units in the last place, does not cost an evaluation.
@@ -40,6 +47,8 @@ class EvaluationSession {
   /// Candidates keep their limits when c + shift does; order of constraint_names. All are judged again.
   void shift_constraints(std::vector<double> shifts);
   [[nodiscard]] const std::vector<double>& shifts() const { return shifts_; }
+  /// From now on candidates are judged by this, which adds a limit for each term; by nothing: as the problem says.
+  void focus(std::optional<Focus> on);
   /// Whatever its values say, this candidate does not keep its limits.
   void reject(std::size_t index);
 
@@ -72,6 +81,7 @@ class EvaluationSession {
   void call_evaluator(Pending& candidate) const;
   void commit(Pending& candidate, const std::string& phase);
   void judge_again();
+  [[nodiscard]] Judgement judged(std::size_t index, const Evaluation& evaluation) const;
 
   const Problem& problem_;
   const Evaluator& evaluator_;
@@ -83,6 +93,7 @@ class EvaluationSession {
   std::size_t limit_;
   std::vector<double> shifts_;  // [constraints]
   std::vector<std::size_t> rejected_;
+  std::optional<Focus> focus_;
   std::optional<std::size_t> best_;
   SearchStatistics statistics_;
   bool responses_known_ = false;

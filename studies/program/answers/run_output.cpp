@@ -10,6 +10,7 @@
 #include "core/replace_file.hpp"
 #include "studies/program/answers/field_export.hpp"
 #include "studies/program/answers/geometry_export.hpp"
+#include "studies/program/answers/run_front.hpp"
 #include "studies/program/answers/version.hpp"
 #include "studies/program/engine/engine.hpp"
 #include "studies/program/engine/settled_study.hpp"
@@ -114,6 +115,8 @@ WrittenRun write_run(const RunSite& site, const OptimizationResult& result, doub
   }
   WrittenRun written = record_of(site, result, seconds);
   report::RunRecord& record = written.record;
+  if (result.front) record.front = front_record(study.problem, result);
+  if (study.problem.front) write_front(site.directory, study, record);
   record.verifications = verifications;
   record.departures = departures;
   report::write_results(site.directory / "results.h5", record);

@@ -32,8 +32,8 @@ struct WrittenRun {
 };
 
 /// Writes what a run came to into its directory, finished or interrupted: best.toml and the exports the study asks for
-/// (when there is a feasible design), results.h5 and report.html. Each file whole or not at all. The start and the best
-/// design are recorded as evaluations with bars and the wear history have them.
+/// (when there is a feasible design), results.h5 and report.html, and of a front its points. Each file whole or not at
+/// all. The start and the best design are recorded as evaluations with bars and the wear history have them.
 WrittenRun write_run(const RunSite& site, const optimizer::OptimizationResult& result, double seconds,
                      const std::vector<report::VerificationRecord>& verifications,
                      const std::vector<report::DepartureRecord>& departures);

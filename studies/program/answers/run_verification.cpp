@@ -88,6 +88,14 @@ std::vector<std::size_t> best_designs(const optimizer::Problem& problem, const o
   });
   // The best was looked at more closely than the others.
   if (result.best && count > 0) chosen.push_back(*result.best);
+  if (result.front) {
+    for (std::size_t i = 0; i < problem.objective.size() && static_cast<int>(chosen.size()) < count; ++i) {
+      const std::size_t end = *std::ranges::min_element(
+          result.front->points, {}, [&](std::size_t point) { return all[point].judgement.terms[i]; });
+      if (std::ranges::find(chosen, end) == chosen.end()) chosen.push_back(end);
+    }
+    return chosen;
+  }
   for (const std::size_t i : order) {
     if (static_cast<int>(chosen.size()) >= count) break;
     if (std::none_of(chosen.begin(), chosen.end(),

@@ -11,7 +11,7 @@
 namespace dovetail::studies {
 
 /// Indices of the best feasible designs, best first. Neighbours within 10 % of every variable's range of a better one
-/// count as the same design: an algorithm ends among many of them.
+/// count as the same design: an algorithm ends among many of them. Of a front its compromise and its ends.
 [[nodiscard]] std::vector<std::size_t> best_designs(const optimizer::Problem& problem,
                                                     const optimizer::OptimizationResult& result, int count);
 

@@ -14,6 +14,7 @@
 #include "optimizer/search/run.hpp"
 #include "optimizer/workers/forked_pool.hpp"
 #include "studies/program/answers/run_departures.hpp"
+#include "studies/program/answers/run_front.hpp"
 #include "studies/program/answers/run_output.hpp"
 #include "studies/program/answers/run_verification.hpp"
 #include "studies/program/answers/version.hpp"
@@ -98,8 +99,12 @@ std::string conclusion(const Study& study, const OptimizationResult& result, con
   const auto objective = [&](const report::EvaluationRecord& of) {
     return with_bar(of.objective, judgement_bars(record.problem, of.responses, of.error_estimates).objective);
   };
-  text += fmt::format("best objective {} (evaluation {}), start {}\n", objective(record.evaluations[*record.best]),
-                      *result.best + 1, objective(record.evaluations.front()));
+  if (record.front)
+    text +=
+        front_words(record) + fmt::format("compromise, nearest to the best of each: evaluation {}\n", *result.best + 1);
+  else
+    text += fmt::format("best objective {} (evaluation {}), start {}\n", objective(record.evaluations[*record.best]),
+                        *result.best + 1, objective(record.evaluations.front()));
   for (const auto& [key, value] : variable_values(study, result.evaluations[*result.best]))
     text += fmt::format("  {} = {:.6g}\n", key, value);
   return text + limits_kept(record) + fmt::format("written to {}\n", directory.string());
@@ -213,7 +218,7 @@ OptimizationResult searched(const RunSite& site, bool resume, const std::string&
   };
   optimizer::Journal journal = opened("journal.jsonl"), finer_journal = opened("finer.jsonl");
   replace_file(site.directory / "study.toml", site.study.text);
-  RunProgress progress(site.err, error_is_terminal(), site.study.optimizer.max_evaluations);
+  RunProgress progress(site.err, error_is_terminal(), site.study.optimizer.max_evaluations, site.study.problem.front);
   optimizer::RunHooks hooks{.journal = &journal,
                             .progress = [&](const optimizer::Progress& at) { progress(at); },
                             .stop = &interrupt.flag(),
@@ -253,7 +258,8 @@ int run_study(const RunOptions& options, const Streams& streams, const RunEngine
   const RunEngine engine = pool ? at_work(study, alone, *pool) : alone;
   const RunSite site{.study = study, .engine = engine, .directory = directory, .err = streams.err, .pool = pool.get()};
   const OrderlyInterrupt interrupt;
-  const OptimizationResult result = searched(site, options.resume, fingerprint_of(study), interrupt);
+  OptimizationResult result = searched(site, options.resume, fingerprint_of(study), interrupt);
+  add_front_bars(site, fingerprint_of(study), interrupt, result);
 
   // What is handed over may ask for more than the search.
   const bool settles = result.best && !interrupt.requested();

@@ -46,7 +46,7 @@ int run_check(const CheckOptions& options, const Streams& streams) {
     return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
   };
   streams.out << fmt::format("{}: valid; {}, {}, {}{}\n", options.study, counted(problem.space.size(), "variable"),
-                             counted(problem.objective.size(), "objective"),
+                             counted(problem.objective.size(), "objective") + (problem.front ? " for a front" : ""),
                              counted(problem.constraints.size(), "constraint"),
                              problem.cases.empty() ? "" : ", " + counted(problem.cases.size(), "case"));
   return kDone;

@@ -1,6 +1,7 @@
 #include "studies/program/commands/progress.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -8,8 +9,8 @@
 
 namespace dovetail::studies {
 
-RunProgress::RunProgress(std::ostream& stream, bool terminal, int evaluations)
-    : stream_(stream), terminal_(terminal), evaluations_(evaluations) {}
+RunProgress::RunProgress(std::ostream& stream, bool terminal, int evaluations, bool front)
+    : stream_(stream), terminal_(terminal), evaluations_(evaluations), front_(front) {}
 
 RunProgress::~RunProgress() {
   if (open_) stream_ << std::endl;
@@ -17,6 +18,7 @@ RunProgress::~RunProgress() {
 
 void RunProgress::operator()(const optimizer::Progress& progress) {
   if (!progress.candidate.replayed) ++computed_;
+  feasible_ += progress.candidate.evaluation.feasible ? 1 : 0;
   if (progress.best == progress.index) {
     best_ = progress.candidate.judgement.objective;
     has_best_ = true;
@@ -43,13 +45,18 @@ std::string RunProgress::line(const optimizer::Progress& progress, double second
   const int done = static_cast<int>(progress.index) + 1;
   std::string here = "not computed";
   if (candidate.judgement.computed)
-    here = fmt::format("{:.4g}{}", candidate.judgement.objective, candidate.judgement.feasible ? "" : ", not feasible");
+    here = fmt::format("{}{}",
+                       front_ ? fmt::format("{:.4g}", fmt::join(candidate.judgement.terms, ", "))
+                              : fmt::format("{:.4g}", candidate.judgement.objective),
+                       candidate.judgement.feasible ? "" : ", not feasible");
   else if (!candidate.evaluation.converged())
     here = candidate.evaluation.status;
-  const std::string best = has_best_ ? fmt::format("{:.4g} (feasible)", best_) : std::string("none feasible yet");
+  const std::string best = front_      ? fmt::format("{} feasible", feasible_)
+                           : has_best_ ? fmt::format("best {:.4g} (feasible)", best_)
+                                       : std::string("best none feasible yet");
   const std::string count =
       fmt::format("evaluation {}/{}{}", done, evaluations_, candidate.replayed ? " (stored)" : "");
-  std::string text = fmt::format("{}: {}; best {}; {:.0f} s", count, here, best, seconds);
+  std::string text = fmt::format("{}: {}; {}; {:.0f} s", count, here, best, seconds);
   if (computed_ > 0 && done < evaluations_)
     text += fmt::format(", about {:.0f} s to go", std::ceil(seconds / computed_ * (evaluations_ - done)));
   return text;

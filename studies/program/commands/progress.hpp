@@ -12,7 +12,8 @@ namespace dovetail::studies {
 /// that is renewed on a terminal, plain lines elsewhere.
 class RunProgress {
  public:
-  RunProgress(std::ostream& stream, bool terminal, int evaluations);
+  /// @param front  several objectives are wanted, each for itself
+  RunProgress(std::ostream& stream, bool terminal, int evaluations, bool front = false);
   /// Ends the renewed line.
   ~RunProgress();
   RunProgress(const RunProgress&) = delete;
@@ -34,6 +35,8 @@ class RunProgress {
   int evaluations_;
   int computed_ = 0;
   bool open_ = false;
+  bool front_;
+  int feasible_ = 0;
   double best_ = 0;
   bool has_best_ = false;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();

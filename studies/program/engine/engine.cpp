@@ -144,7 +144,9 @@ RunEngine study_engine(const Study& study) {
       const optimizer::LoadCase& departure = optimizer::usual_departures()[static_cast<std::size_t>(piece.number)];
       return evaluated(*evaluator, optimizer::in_case(scene, departure), purpose).evaluation;
     }
-    return evaluator->evaluate(scene, purpose).evaluation;
+    optimizer::Purpose asked = purpose;
+    asked.bars = asked.history = piece.what == Piece::What::barred;
+    return evaluator->evaluate(scene, asked).evaluation;
   };
   engine.rules = [design_at](std::span<const double> x) { return optimizer::feasibility_of(design_at(x)).rules; };
   const auto whole = [piece = engine.piece, cases, missions, design_at](Piece::What what, std::span<const double> x,
@@ -158,6 +160,7 @@ RunEngine study_engine(const Study& study) {
   };
   engine.evaluate = [whole](std::span<const double> x) { return whole(Piece::What::evaluate, x, 0); };
   engine.finer = [whole](std::span<const double> x, int level) { return whole(Piece::What::finer, x, level); };
+  engine.barred = [whole](std::span<const double> x) { return whole(Piece::What::barred, x, 0); };
   engine.departed = [whole](std::span<const double> x, int number) { return whole(Piece::What::departed, x, number); };
   engine.start = [evaluator, scene = optimizer::in_first_case(start_scene(study), cases), purpose] {
     optimizer::Purpose with_bars = purpose;

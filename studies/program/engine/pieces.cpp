@@ -160,13 +160,16 @@ RunEngine at_work(const Study& study, const RunEngine& engine, optimizer::Worker
     result.finer = [&study, &pool](std::span<const double> x, int level) {
       return run_design(study, Piece::What::finer, x, level, pool);
     };
-  result.many = [&study, &pool](const std::vector<std::vector<double>>& points,
-                                const std::function<bool(std::size_t, Evaluation)>& told) {
-    std::vector<Piece> designs;
-    for (const std::vector<double>& x : points)
-      designs.push_back({.what = Piece::What::evaluate, .x = x, .load = 0, .number = 0});
-    run_designs(study, designs, pool, told);
+  const auto many = [&study, &pool](Piece::What what) -> optimizer::BatchEvaluator {
+    return [&study, &pool, what](const std::vector<std::vector<double>>& points,
+                                 const std::function<bool(std::size_t, Evaluation)>& told) {
+      std::vector<Piece> designs;
+      for (const std::vector<double>& x : points) designs.push_back({.what = what, .x = x, .load = 0, .number = 0});
+      run_designs(study, designs, pool, told);
+    };
   };
+  result.many = many(Piece::What::evaluate);
+  if (engine.barred) result.barred_at_once = many(Piece::What::barred);
   if (engine.departed)
     result.departed_at_once = [&study, &pool](const std::vector<Departed>& designs,
                                               const std::function<bool(std::size_t, Evaluation)>& told) {

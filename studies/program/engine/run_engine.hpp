@@ -31,6 +31,7 @@ struct Piece {
   enum class What {
     evaluate,  ///< as a candidate
     finer,     ///< the same on a finer mesh, `number` levels
+    barred,    ///< as a candidate, with bars and what a wear history decides
     departed,  ///< where something is other than the study says: the departure of that number
     verify,    ///< by its wear history and at finer settings
   };
@@ -39,9 +40,10 @@ struct Piece {
   std::size_t load = 0;   ///< place of the case, 0 without cases; after them those of the missions
   int number = 0;
 };
-constexpr EnumNames<Piece::What, 4> enum_names(Piece::What) {
+constexpr EnumNames<Piece::What, 5> enum_names(Piece::What) {
   return {{{Piece::What::evaluate, "evaluate"},
            {Piece::What::finer, "finer"},
+           {Piece::What::barred, "barred"},
            {Piece::What::departed, "departed"},
            {Piece::What::verify, "verify"}}};
 }
@@ -72,12 +74,15 @@ struct RunEngine {
       verify = {};
   /// The design where something is other than the study says, as a candidate is computed; empty: nobody asks.
   std::function<optimizer::Evaluation(std::span<const double> x, int departure)> departed = {};
+  /// The design as a candidate, with bars and what a wear history decides; empty: there are none.
+  optimizer::Evaluator barred = {};
   /// Any piece but a verification; empty: candidates are evaluated whole.
   std::function<optimizer::Evaluation(const Piece&)> piece = {};
   /// The geometric rules of a design, kept or not; empty: there are none.
   std::function<std::vector<geometry::Rule>(std::span<const double> x)> rules = {};
   /// Of many designs at once, see BatchEvaluator; empty: one after the other.
   optimizer::BatchEvaluator many = {};
+  optimizer::BatchEvaluator barred_at_once = {};
   std::function<void(const std::vector<Departed>&, const std::function<bool(std::size_t, optimizer::Evaluation)>& told)>
       departed_at_once = {};
 };

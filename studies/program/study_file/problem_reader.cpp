@@ -215,10 +215,14 @@ void read_aim(SectionReader& section, ObjectiveTerm& term, Problems& problems) {
   if (text && aim->text == "max") term.weight = -term.weight;
 }
 
+/// Several objectives with weights are a sum; without, each is wanted for itself.
+/// @param front  set to which of these
 std::vector<ObjectiveTerm> read_objective(SectionReader& root, const std::vector<optimizer::LoadCase>& cases,
-                                          bool several, bool accurate, Problems& problems) {
+                                          bool several, bool accurate, bool& front, Problems& problems) {
   std::vector<ObjectiveTerm> terms;
   const auto tables = entries(root, "objective", problems);
+  const auto weighted = std::ranges::count_if(tables, [](const auto& table) { return table.first->find("weight"); });
+  front = tables.size() > 1 && weighted == 0;
   for (const auto& [node, path] : tables) {
     SectionReader section(node, path, problems);
     ObjectiveTerm term;
@@ -226,15 +230,22 @@ std::vector<ObjectiveTerm> read_objective(SectionReader& root, const std::vector
     term.weight = section.number("weight", kAnyNumber).value_or(1);
     const std::optional<double> scale = section.number("scale", kPositive);
     term.scale = scale.value_or(0);
+    term.reference = section.number("reference", kAnyNumber);
     read_aim(section, term, problems);
     term.over = read_over(section, cases, several, problems);
     term.accuracy = read_accuracy(section, accurate, problems);
     section.finish();
     if (term.weight == 0)
       problems.add(*node->find("weight"), section.path("weight"), "must not be 0: the term would have no effect");
-    if (tables.size() > 1 && !node->find("scale"))
+    if (weighted > 0 && !node->find("weight"))
+      problems.missing(node, section.path("weight"),
+                       "is missing; of several objectives all have a weight, for their sum, or none, for a front");
+    if (term.reference && !front)
+      problems.add(*node->find("reference"), section.path("reference"),
+                   "has a meaning where several objectives without weight make a front");
+    if (tables.size() > 1 && weighted > 0 && !node->find("scale"))
       problems.missing(node, section.path("scale"),
-                       "is missing; with several objectives each needs the size of response that counts as 1");
+                       "is missing; in a sum of several objectives each needs the size of response that counts as 1");
     terms.push_back(std::move(term));
   }
   return terms;
@@ -306,7 +317,7 @@ optimizer::Problem read_problem(SectionReader& root, const optimizer::Scene& sce
   problem.cases = read_cases(root, scene, variables, problems);
   const std::vector<optimizer::LoadCase> named = problem.cases;
   problem.cases = read_samples(root, scene, variables, problem.cases, problem.quantile, problems);
-  problem.objective = read_objective(root, named, !problem.cases.empty(), accurate, problems);
+  problem.objective = read_objective(root, named, !problem.cases.empty(), accurate, problem.front, problems);
   problem.constraints = read_constraints(root, named, !problem.cases.empty(), accurate, problems);
   refuse_missions(root, scene, problem, problems);
   const bool varies = root.node() && root.node()->find("variable");

@@ -150,6 +150,10 @@ Study read_study(const Document& document) {
   optimizer.finish();
 
   study.problem = read_problem(root, study.scene, study.optimizer, problems);
+  // A study without objectives can be evaluated, whatever would search.
+  if (!study.problem.objective.empty())
+    for (const Violation& found : optimizer::contradictions(study.optimizer, study.problem.front))
+      if (const Node* value = document.root.at(found.key)) problems.add(*value, found.key, found.allowed);
   read_exports(root, study, problems);
   root.finish();
   problems.raise();

@@ -133,8 +133,10 @@ upper = 9.5
 # "scene.speed_rpm" = 10500
 # "loading.tip_force_n" = 3
 
-# What is wanted: the least sum of weight * response / scale over all [[objective]]; `aim` may be "min" (if not given),
-# "max", "zero" or a number to come near to. Objectives and limits count the worst case unless they say
+# What is wanted. One [[objective]] is minimised. Of several with a `weight` the sum of weight * response / scale is. Of
+# several without weight a front is found, the designs that no other beats in all of them; `reference` says beyond
+# which value of the response a design counts nothing for its hypervolume (if not given the worst feasible one of start
+# and scan). `aim` may be "min" (if not given), "max", "zero" or a number to come near to. Objectives and limits count the worst case unless they say
 # over = "mean", "sum" or the name of one.
 # The responses, SI units:
 )" + response_list() +

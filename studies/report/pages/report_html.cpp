@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/replace_file.hpp"
@@ -13,6 +14,7 @@
 #include "studies/report/texts.hpp"
 #include "studies/report/words/html.hpp"
 #include "studies/report/words/report_words.hpp"
+#include "studies/report/words/units.hpp"
 #include "wear/follow.hpp"
 
 namespace dovetail::report {
@@ -46,6 +48,7 @@ void add_opening(const RunRecord& record, Blanks& blanks) {
   const std::vector<std::string> held = holding(record);
   blanks["name"] = record.title.empty() ? record.name : record.title;
   blanks["headline"] = headline(record);
+  blanks["best"] = record.front ? "compromise on this front" : "best design";
   blanks["held"] = listed(held);
   blanks["free"] = when(held.empty() && record.best);
   blanks["without_bar"] = listed(without_bar(record));
@@ -88,12 +91,27 @@ void add_verification(const RunRecord& record, Blanks& blanks) {
   blanks["verification"] = verification_table(record) + figures_html(plots);
 }
 
+void add_front(const RunRecord& record, Blanks& blanks) {
+  for (const char* name : {"front", "front_table", "hypervolume"}) blanks[name];
+  if (!record.front) return;
+  const FrontRecord& front = *record.front;
+  double box = 1;
+  for (std::size_t i = 0; i < front.columns(); ++i) box *= std::abs(front.reference[i] - front.ideal[i]);
+  for (const Figure& figure : front_plots(record)) blanks["front"] += figure_html(figure);
+  blanks["front_table"] = front_table(record);
+  if (box > 0)
+    blanks["hypervolume"] = fmt::format(
+        "{} ({}\u00a0% of the box between the best value of each objective and the "
+        "reference)",
+        significant(front.hypervolume, 5), significant(100 * front.hypervolume / box, 3));
+}
+
 void add_search(const RunRecord& record, Blanks& blanks) {
   blanks["problem"] = problem_list(record) + case_list(record);
   blanks["limits"] = limit_table(record);
   blanks["departures"] = departure_table(record);
   std::vector<Figure> plots = limit_plots(record);
-  plots.insert(plots.begin(), objective_plot(record));
+  plots.insert(plots.begin(), record.front ? hypervolume_plot(record) : objective_plot(record));
   blanks["search"] = record.evaluations.empty() ? "" : figures_html(plots);
   blanks["variables"] = variable_table(record) + evaluation_table(record);
 }
@@ -104,6 +122,7 @@ std::string report_html(const RunRecord& record) {
   Blanks blanks{{"provenance", provenance_section(record)}, {"wear", wear_words(record)}};
   add_opening(record, blanks);
   add_designs(designs_of(record), blanks);
+  add_front(record, blanks);
   add_verification(record, blanks);
   add_search(record, blanks);
   return page(blanks["name"].empty() ? "dovetail" : blanks["name"] + " \u2013 dovetail", "",

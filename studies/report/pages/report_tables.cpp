@@ -84,9 +84,11 @@ bool has_both(const EvaluationRecord* base, const EvaluationRecord* best) {
   return base && best && base != best;
 }
 
-void add_headings(const EvaluationRecord* base, const EvaluationRecord* best, Table& table) {
-  for (const char* heading : has_both(base, best) ? std::vector{"before (start)", "after (best)", "change"}
-                                                  : std::vector{best ? "best (the start)" : "start"})
+/// @param word  for the best one
+void add_headings(const EvaluationRecord* base, const EvaluationRecord* best, const std::string& word, Table& table) {
+  for (const std::string& heading : has_both(base, best)
+                                        ? std::vector<std::string>{"before (start)", "after (" + word + ")", "change"}
+                                        : std::vector<std::string>{best ? word + " (the start)" : "start"})
     table.columns.push_back({heading});
 }
 
@@ -114,7 +116,7 @@ std::string key_figures(const RunRecord& record) {
   const std::vector<std::string> names = names_of(base, best);
   if (names.empty()) return "<p>Neither the start nor any other design could be evaluated in full.</p>\n";
   Table table{.columns = {{""}}, .rows = {}, .style = both ? "figures pair" : "figures"};
-  add_headings(base, best, table);
+  add_headings(base, best, best_word(record), table);
   for (const std::string& name : names)
     table.rows.push_back(
         figures_row({titled(words(name), help_of(name))}, base, best, name, is_objective(record, name) ? "aim" : ""));
@@ -190,7 +192,7 @@ std::string case_table(const RunRecord& record) {
   const EvaluationRecord* best = best_of(record);
   if (record.problem.cases.empty() || (!base && !best)) return {};
   Table table{.columns = {{"case", true}, {"", true}}, .rows = {}};
-  add_headings(base, best, table);
+  add_headings(base, best, best_word(record), table);
   for (const std::string& name : optimizer::responses_of(record.problem))
     for (const Group& group : groups_of(record.problem)) {
       if (group.members.size() == 1) {
@@ -212,7 +214,8 @@ std::string case_table(const RunRecord& record) {
 
 std::string variable_table(const RunRecord& record) {
   const EvaluationRecord* best = best_of(record);
-  Table table{.columns = {{""}, {"unit"}, {"lower"}, {"upper"}, {"start"}, {"best"}, {""}, {"key", true}}, .rows = {}};
+  Table table{.columns = {{""}, {"unit"}, {"lower"}, {"upper"}, {"start"}, {best_word(record)}, {""}, {"key", true}},
+              .rows = {}};
   const std::vector<optimizer::DesignVariable>& variables = record.problem.space.variables();
   for (std::size_t i = 0; i < variables.size(); ++i) {
     const optimizer::DesignVariable& v = variables[i];
@@ -231,7 +234,12 @@ std::string problem_list(const RunRecord& record) {
   for (const optimizer::ObjectiveTerm& term : record.problem.objective) {
     text += fmt::format("<li>{} the {}", term.weight < 0 ? "Maximise" : "Minimise",
                         escape(term_words(record.problem, term)));
-    if (record.problem.objective.size() > 1) {
+    if (record.front) {
+      const double reference =
+          record.front->reference[static_cast<std::size_t>(&term - record.problem.objective.data())];
+      text += ", each for itself; beyond " + plain(reference, response_unit(term.response, reference)) +
+              " a design counts nothing for the hypervolume";
+    } else if (record.problem.objective.size() > 1 && !record.problem.front) {
       const Unit unit = response_unit(term.response, term.scale);
       text += fmt::format(", weight {}, scale {}", plain(std::abs(term.weight)), plain(term.scale, unit));
     }
@@ -294,7 +302,8 @@ std::string departure_table(const RunRecord& record) {
   const ObjectiveScale objective = objective_scale(record);
   const bool both = record.best != record.baseline;
   Table table{.columns = {{"", true}}, .rows = {}};
-  for (const char* whose : both ? std::vector{"start", "best"} : std::vector{"best"})
+  for (const std::string& whose :
+       both ? std::vector<std::string>{"start", best_word(record)} : std::vector{best_word(record)})
     table.columns.insert(table.columns.end(),
                          {{PlotAxis{.label = whose, .unit = objective.unit}.title()}, {"its limits", true}});
   std::size_t holds = 0, better = 0, all = 0;
@@ -320,7 +329,9 @@ std::string departure_table(const RunRecord& record) {
     table.rows.push_back(std::move(row));
   }
   std::string text = fmt::format("The best design keeps its limits in {} of {} of these", holds, all);
-  if (both) text += fmt::format(" and is better than the start in {}", better);
+  if (both)
+    text += record.front ? fmt::format(" and has a better {} than the start in {}", escape(objective.label), better)
+                         : fmt::format(" and is better than the start in {}", better);
   return "<p>" + text + ". The " + escape(objective.label) +
          " of each is computed by itself, without error bars.</p>\n" + table_html(table);
 }
@@ -334,6 +345,13 @@ std::string evaluation_table(const RunRecord& record) {
                           {PlotAxis{.label = objective.label, .unit = objective.unit}.title()}},
               .rows = {},
               .named_rows = false};
+  const std::size_t others = record.front ? record.front->columns() : 1;
+  std::vector<Unit> units;
+  for (std::size_t k = 1; k < others; ++k) {
+    const optimizer::ObjectiveTerm& term = record.problem.objective[k];
+    units.push_back(response_unit(term.response, record.front->reference[k]));
+    table.columns.push_back({PlotAxis{.label = term_words(record.problem, term), .unit = units.back().symbol}.title()});
+  }
   for (const std::string& name : constraint_names(record.problem))
     table.columns.push_back({constraint_words(record.problem, name)});
   for (const optimizer::DesignVariable& v : variables)
@@ -346,6 +364,9 @@ std::string evaluation_table(const RunRecord& record) {
             .style = record.best == i ? "aim"
                      : e.feasible     ? ""
                                       : "soft"};
+    for (std::size_t k = 1; k < others; ++k)
+      row.cells.emplace_back(
+          significant(shown_term(record.problem, record.problem.objective[k], e).value / units[k - 1].si, 4));
     for (const double c : e.constraints) row.cells.emplace_back(significant(c, 3));
     for (std::size_t k = 0; k < std::min(variables.size(), e.x.size()); ++k)
       row.cells.emplace_back(variable_value(variables[k], e.x[k]));

@@ -17,6 +17,9 @@ namespace dovetail::report {
 /// What the cases are; empty without.
 [[nodiscard]] std::string case_list(const RunRecord& record);
 
+/// Points of a front: those with bars, all of them collapsed; empty without a front.
+[[nodiscard]] std::string front_table(const RunRecord& record);
+
 /// Design variables with bounds, start, best and whether at a bound.
 [[nodiscard]] std::string variable_table(const RunRecord& record);
 

@@ -49,6 +49,10 @@ struct Comparison {
 
 /// Objective over evaluations: feasible, infeasible and best so far.
 [[nodiscard]] Plot objective_plot(const RunRecord& record);
+/// The first objective of a front against every other one, with what a point is when pointed at; none without a front.
+[[nodiscard]] std::vector<Figure> front_plots(const RunRecord& record);
+/// How the hypervolume grew over the search, by what it came to.
+[[nodiscard]] Plot hypervolume_plot(const RunRecord& record);
 /// One plot for each response that has limits: its value over evaluations with the limits as lines.
 [[nodiscard]] std::vector<Figure> limit_plots(const RunRecord& record);
 

@@ -17,10 +17,11 @@ namespace {
 struct CandidateMarks {
   Series broken{.name = "breaks a limit", .role = Role::bad, .stroke = Stroke::none, .mark = Mark::cross};
   Series feasible{.name = "feasible", .stroke = Stroke::none, .mark = Mark::circle};
-  Series best{.name = "best", .stroke = Stroke::none, .mark = Mark::star};
+  Series best{.name = {}, .stroke = Stroke::none, .mark = Mark::star};
 
   void add(const RunRecord& record, std::size_t i, double shown, const std::string& unit) {
     const EvaluationRecord& e = record.evaluations[i];
+    best.name = best_word(record);
     Series& group = record.best == i ? best : e.feasible ? feasible : broken;
     group.add(static_cast<double>(i + 1), shown);
     group.titles.push_back(fmt::format("candidate {} ({}): {}{}{}", i + 1, e.phase, significant(shown),

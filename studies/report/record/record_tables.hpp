@@ -44,7 +44,8 @@ inline constexpr auto kFields<ObjectiveTerm> = std::tuple{RecordField{"response"
                                                           RecordField{"absolute", &ObjectiveTerm::absolute},
                                                           RecordField{"accuracy", &ObjectiveTerm::accuracy, true},
                                                           RecordField{"target", &ObjectiveTerm::target, true},
-                                                          RecordField{"over", &ObjectiveTerm::over, true}};
+                                                          RecordField{"over", &ObjectiveTerm::over, true},
+                                                          RecordField{"reference", &ObjectiveTerm::reference, true}};
 
 template <>
 inline constexpr auto kFields<ResponseConstraint> =
@@ -83,8 +84,8 @@ inline constexpr auto kFields<fem::Region> = std::tuple{
 
 using report::ContactRecord, report::ResponseCurve, report::NodalDiameterRecord, report::FilletRecord,
     report::HistoryRecord, report::FieldRecord, report::DesignRecord, report::EvaluationRecord,
-    report::VerificationRecord, report::FinerRecord, report::DepartureRecord, report::Provenance, report::RunRecord,
-    report::TableField;
+    report::VerificationRecord, report::FinerRecord, report::DepartureRecord, report::FrontRecord, report::Provenance,
+    report::RunRecord, report::TableField;
 
 template <>
 inline constexpr auto kFields<ContactRecord> =
@@ -223,6 +224,17 @@ inline constexpr auto kFields<FinerRecord> = std::tuple{
     RecordField{"evaluation", &FinerRecord::evaluation}, RecordField{"flank_elements", &FinerRecord::flank_elements},
     RecordField{"status", &FinerRecord::status}, RecordField{"constraints", &FinerRecord::constraints}};
 
+template <>
+inline constexpr auto kFields<FrontRecord> = std::tuple{
+    RecordField{"objectives", &FrontRecord::objectives},
+    RecordField{"evaluation", &FrontRecord::evaluation},
+    TableField<FrontRecord>{"values", &FrontRecord::values, [](const FrontRecord& record) { return record.columns(); }},
+    TableField<FrontRecord>{"bars", &FrontRecord::bars, [](const FrontRecord& record) { return record.columns(); }},
+    RecordField{"ideal", &FrontRecord::ideal},
+    RecordField{"reference", &FrontRecord::reference},
+    RecordField{"hypervolume", &FrontRecord::hypervolume},
+    RecordField{"compromise", &FrontRecord::compromise}};
+
 /// Besides the study's text.
 template <>
 inline constexpr auto kFields<Provenance> = std::tuple{
@@ -248,6 +260,7 @@ inline constexpr auto kFields<RunRecord> = std::tuple{RecordField{"name", &RunRe
                                                       RecordField{"baseline", &RunRecord::baseline_design},
                                                       RecordField{"verifications", &RunRecord::verifications, true},
                                                       RecordField{"finer", &RunRecord::finer, true},
-                                                      RecordField{"departures", &RunRecord::departures, true}};
+                                                      RecordField{"departures", &RunRecord::departures, true},
+                                                      RecordField{"front", &RunRecord::front}};
 
 }  // namespace dovetail::optimizer

@@ -106,6 +106,9 @@ void Archive::exchange(const std::string& group, const std::string& name, optimi
   std::vector<optimizer::DesignVariable> variables = problem.space.variables();
   exchange(own, "variables", variables);
   exchange(own, "objective", problem.objective);
+  std::int64_t front = problem.front ? 1 : 0;
+  if (out_ || has_attribute(own, "front")) exchange(own, "front", front);
+  problem.front = front != 0;
   exchange(own, "constraints", problem.constraints);
   if (out_ || file_.exists(in(own, "cases"))) exchange(own, "cases", problem.cases);
   if (out_ || has_attribute(own, "quantile")) exchange(own, "quantile", problem.quantile);

@@ -78,6 +78,16 @@ void Archive::require_consistent(const std::string& /*group*/, const RunRecord& 
     require_index("/verifications, evaluation", v.evaluation, "must be the index of an evaluation");
   for (const DepartureRecord& departure : record.departures)
     require_index("/departures, evaluation", departure.evaluation, "must be the index of an evaluation");
+  if (record.front) {
+    const FrontRecord& front = *record.front;
+    for (const std::int64_t point : front.evaluation)
+      require_index("/front/evaluation", point, "must be the index of an evaluation");
+    for (const Numbers* table : {&front.values, &front.bars})
+      require_size("/front", table->size(), front.columns() * front.evaluation.size());
+    for (const Numbers* list : {&front.ideal, &front.reference}) require_size("/front", list->size(), front.columns());
+    if (front.compromise < 0 || front.compromise >= static_cast<std::int64_t>(front.evaluation.size()))
+      refuse("/front, compromise", std::to_string(front.compromise), "must be the index of a point");
+  }
   for (const FinerRecord& check : record.finer)
     require_index("/finer, evaluation", check.evaluation, "must be the index of an evaluation");
 }

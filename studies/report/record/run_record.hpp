@@ -131,6 +131,26 @@ struct VerificationRecord {
 [[nodiscard]] std::vector<std::size_t> worst_line(const std::vector<std::int64_t>& flanks, const Numbers& across,
                                                   const Numbers& values, std::int64_t flank);
 
+/// What several objectives came to that were wanted each for itself; see optimizer::Front. Values are those of the
+/// search, of the responses that the objectives name, in SI and as they are, also where more is better.
+struct FrontRecord {
+  std::vector<std::string> objectives;   ///< [O] responses
+  std::vector<std::int64_t> evaluation;  ///< [P] index of the candidate of every point
+  Numbers values;                        ///< [P, O] row by row
+  Numbers bars;                          ///< [P, O] NaN where none were asked, or there are none
+  Numbers ideal, reference;              ///< [O]
+  double hypervolume = 0;                ///< in the product of the units
+  std::int64_t compromise = 0;           ///< index of a point
+
+  [[nodiscard]] std::size_t columns() const { return objectives.size(); }
+  [[nodiscard]] double value(std::size_t point, std::size_t objective) const {
+    return values[point * columns() + objective];
+  }
+  [[nodiscard]] double bar(std::size_t point, std::size_t objective) const {
+    return bars[point * columns() + objective];
+  }
+};
+
 /// With what the results were made.
 struct Provenance {
   std::string program_version;
@@ -174,6 +194,7 @@ struct RunRecord {
   std::vector<VerificationRecord> verifications;  ///< of the best designs, best first
   std::vector<FinerRecord> finer;                 ///< in the order asked for; the best design is among the last
   std::vector<DepartureRecord> departures;        ///< of the start and the best design
+  std::optional<FrontRecord> front;               ///< of which `best` is the compromise
   Provenance provenance;
   std::string wear_law;  ///< its name; empty in older records: the law that is used by default
 };

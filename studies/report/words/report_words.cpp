@@ -38,14 +38,6 @@ std::string verb(double from, double to) {
   return to < from ? "fell" : to > from ? "rose" : "stayed";
 }
 
-/// What a term of the objective is about, over the cases that it counts and in the response's unit.
-optimizer::Barred shown_term(const optimizer::Problem& problem, const optimizer::ObjectiveTerm& term,
-                             const EvaluationRecord& evaluation) {
-  const auto [value, bar] = term_value(problem, term, evaluation.responses, evaluation.error_estimates);
-  const double by = (term.scale > 0 ? term.scale : 1) / term.weight;
-  return {.value = by * value, .bar = std::abs(by) * bar};
-}
-
 /// "from 0.31 to 0.02 mm^3 (-94 %)"
 std::string from_to(const std::string& response, double from, double to) {
   const Unit unit = response_unit(response, std::max(std::abs(from), std::abs(to)));
@@ -159,6 +151,17 @@ std::string over_words(const optimizer::Problem& problem, std::string_view over)
   return "";
 }
 
+optimizer::Barred shown_term(const optimizer::Problem& problem, const optimizer::ObjectiveTerm& term,
+                             const EvaluationRecord& evaluation) {
+  const auto [value, bar] = term_value(problem, term, evaluation.responses, evaluation.error_estimates);
+  const double by = (term.scale > 0 ? term.scale : 1) / term.weight;
+  return {.value = by * value, .bar = std::abs(by) * bar};
+}
+
+std::string best_word(const RunRecord& record) {
+  return record.front ? "compromise" : "best";
+}
+
 std::string term_words(const optimizer::Problem& problem, const optimizer::ObjectiveTerm& term) {
   std::string text = words(term.response);
   if (term.absolute && term.target == 0) text = "size of the " + text;
@@ -171,11 +174,12 @@ std::string objective_words(const optimizer::Problem& problem) {
   std::vector<std::string> parts;
   for (const optimizer::ObjectiveTerm& term : problem.objective) parts.push_back(term_words(problem, term));
   if (parts.empty()) return "objective";
+  if (problem.front) return "front of " + listed(parts);
   return parts.size() == 1 ? parts.front() : "weighted sum of " + listed(parts);
 }
 
 ObjectiveScale objective_scale(const RunRecord& record) {
-  if (record.problem.objective.size() != 1) return {};
+  if (record.problem.objective.empty() || (record.problem.objective.size() > 1 && !record.problem.front)) return {};
   const optimizer::ObjectiveTerm& term = record.problem.objective.front();
   const double si = (term.scale > 0 ? term.scale : 1) / (term.weight != 0 ? term.weight : 1);
   double largest = 0;
@@ -186,6 +190,37 @@ ObjectiveScale objective_scale(const RunRecord& record) {
 }
 
 namespace {
+
+/// "an asymptotic wear volume of 0.18 mm^3", or the value alone.
+std::string objective_of(const RunRecord& record, std::size_t i, double value, bool named) {
+  const optimizer::ObjectiveTerm& term = record.problem.objective[i];
+  const Unit unit = response_unit(term.response, std::max(std::abs(value), std::abs(record.front->reference[i])));
+  const std::string text = significant(value / unit.si, 3) + (unit.symbol.empty() ? "" : "\u00a0" + unit.symbol);
+  if (!named) return text;
+  const std::string name = term_words(record.problem, term);
+  return (std::string_view("aeiou").find(name.front()) == std::string_view::npos ? "a " : "an ") + name + " of " + text;
+}
+
+/// From the one end of the front to the other, and where the start lies.
+std::string front_headline(const RunRecord& record) {
+  const FrontRecord& front = *record.front;
+  const std::size_t points = front.evaluation.size();
+  const auto design = [&](bool named, const auto& value) {
+    std::vector<std::string> all;
+    for (std::size_t i = 0; i < front.columns(); ++i) all.push_back(objective_of(record, i, value(i), named));
+    return listed(all);
+  };
+  const auto point = [&](std::size_t at) { return [&front, at](std::size_t i) { return front.value(at, i); }; };
+  if (points == 1) return "One design beats all others in every objective, with " + design(true, point(0)) + ".";
+  std::string text = fmt::format("{} designs that no other beats, from {} to {}.", points, design(true, point(0)),
+                                 design(false, point(points - 1)));
+  const EvaluationRecord* base = baseline_of(record);
+  if (base == nullptr || !std::isfinite(base->objective)) return text;
+  const auto start = [&](std::size_t i) {
+    return shown_term(record.problem, record.problem.objective[i], *base).value;
+  };
+  return text + " The start has " + design(false, start) + (base->feasible ? "." : ", and breaks a limit.");
+}
 
 /// What speaks against the best design: what the closer look at it came to, and its verification.
 std::string refutation(const RunRecord& record) {
@@ -221,6 +256,7 @@ std::string headline(const RunRecord& record) {
     return text;
   }
   const std::string doubt = refutation(record);
+  if (record.front) return doubt + front_headline(record);
   if (record.best == record.baseline)
     return doubt + "No candidate was better than the start: it stays the best feasible design, with " +
            objective_value(record, *best) + ".";

@@ -23,10 +23,17 @@ namespace dovetail::report {
 /// What a term of the objective is about: "size of the resonance drift in its worst case".
 [[nodiscard]] std::string term_words(const optimizer::Problem& problem, const optimizer::ObjectiveTerm& term);
 
+/// What a candidate's term comes to, in the unit of its response and as it is where more is better.
+[[nodiscard]] optimizer::Barred shown_term(const optimizer::Problem& problem, const optimizer::ObjectiveTerm& term,
+                                           const EvaluationRecord& evaluation);
+
+/// "best", of a front "compromise".
+[[nodiscard]] std::string best_word(const RunRecord& record);
+
 /// The objective in words: "asymptotic wear volume" or "weighted sum of ...".
 [[nodiscard]] std::string objective_words(const optimizer::Problem& problem);
 
-/// The objective in the unit of its response, or as it is when it has several terms.
+/// The objective in the unit of its response, or as it is when it is a sum; of a front the first one.
 struct ObjectiveScale {
   double factor = 1;  ///< shown = factor * objective
   std::string unit;

@@ -56,9 +56,11 @@ inline BatchEvaluator in_batches(const Evaluator& evaluator, std::size_t size) {
   };
 }
 
+/// Those that search for one objective.
 inline std::vector<Algorithm> all_algorithms() {
   std::vector<Algorithm> all;
-  for (const auto& entry : enum_names(Algorithm{})) all.push_back(entry.value);
+  for (const auto& entry : enum_names(Algorithm{}))
+    if (entry.value != Algorithm::nsga2) all.push_back(entry.value);
   return all;
 }
 

@@ -152,6 +152,28 @@ expect 0 export o --format matrix-market -o best_model.toml
 expect 0 backbone s.toml --over force --from 1 --to 2 --points 2 --json -; is_json
 expect 0 evaluate s.toml --harmonics auto --samples auto --accuracy 0.01 --json -; is_json
 
+# Every point of a front is a study of its own that evaluates to what is said of it.
+sed -e '/^weight = 1$/d' -e 's/^algorithm = .*/algorithm = "nsga2"/' -e 's/^population = .*/population = 8/' \
+  -e 's/^max_evaluations = .*/max_evaluations = 16/' -e 's/^verify = .*/verify = 0/' -e 's/^finer_meshes = .*/finer_meshes = 0/' \
+  -e 's/^departures = .*/departures = false/' -e 's/^front_points = .*/front_points = 3/' s.toml > front.toml
+printf '[[objective]]\nresponse = "peak_amplitude_m"\n' >> front.toml
+expect 0 check front.toml; grep -q "2 objectives for a front" out || fail "check does not say that it is a front"
+expect 0 run front.toml -o front --jobs 2
+expect 0 evaluate front/front/point_01.toml --no-bars --no-history --json -; is_json; cp out point.json
+expect 0 export front/front/point_01.toml --format dxf -o point.dxf
+grep -q "<h2>Front</h2>" front/report.html || fail "the report shows no front"
+if command -v python3 > /dev/null; then
+  python3 - <<'PYTHON' || fail "front.csv does not say what its points evaluate to"
+import csv, json
+rows, point = list(csv.DictReader(open("front/front.csv"))), json.load(open("point.json"))
+wear, amplitude = ([float(row[name]) for row in rows] for name in ("asymptotic_wear_volume_m3", "peak_amplitude_m"))
+assert wear == sorted(wear) and amplitude == sorted(amplitude, reverse=True) and len(rows) > 1, rows
+assert rows[0]["study"] == "front/point_01.toml" and float(rows[0]["peak_amplitude_m_bar"]) > 0
+for name in ("asymptotic_wear_volume_m3", "peak_amplitude_m"):
+    assert float(rows[0][name]) == point["responses"][name], (rows[0], point)
+PYTHON
+fi
+
 # A case of load is what the study would be with its keys.
 { cat s.toml; printf '\n[[case]]\nname = "a"\n[[case]]\nname = "b"\n"loading.tip_force_n" = 1.5\n'; } > cases.toml
 expect 0 evaluate cases.toml --no-bars --no-history --json cases.json

@@ -255,6 +255,40 @@ TEST(Report, SaysWhenTheStartStaysTheBest) {
   EXPECT_THAT(headline(record), HasSubstr("The start could not be evaluated (preload: stalled)"));
 }
 
+TEST(Report, ShowsAFront) {
+  const RunRecord record = sample_front();
+  const std::string page = report_html(record);
+  EXPECT_EQ(markup_error(page), "");
+  EXPECT_FALSE(has_nan(page));
+  EXPECT_EQ(
+      headline(record),
+      "2 designs that no other beats, from an asymptotic wear volume of 0.100\u00a0mm\u00b3 and a peak amplitude of "
+      "7.99\u00a0mm to 0.800\u00a0mm\u00b3 and 7.00\u00a0mm. The start has 0.800\u00a0mm\u00b3 and 7.00\u00a0mm.");
+  EXPECT_THAT(page, HasSubstr("<h2>Front</h2>"));
+  EXPECT_THAT(page, HasSubstr("after (compromise)"));
+  EXPECT_THAT(page, HasSubstr("beyond 0.9\u00a0mm\u00b3 a design counts nothing"));
+  // What a point says when it is pointed at.
+  EXPECT_THAT(page, HasSubstr("<title>compromise, point 1, candidate 4\nasymptotic wear volume 0.1000 \u00b1 "
+                              "0.0020\u00a0mm\u00b3\npeak amplitude 7.990 \u00b1 0.010\u00a0mm\nflank mismatch 11.25"));
+  // The point without bars is in the list of all.
+  EXPECT_THAT(page, HasSubstr("All 2 points"));
+  EXPECT_THAT(report_html(sample_record()), Not(HasSubstr("<h2>Front</h2>")));
+}
+
+TEST(ReportPlots, ShowAFrontAndWhatItBeats) {
+  const RunRecord record = sample_front();
+  const std::vector<Figure> plots = front_plots(record);
+  ASSERT_EQ(plots.size(), 1U);
+  const Plot& plot = std::get<Plot>(plots[0]);
+  std::vector<std::string> names;
+  for (const Series& series : plot.series) names.push_back(series.name);
+  // The second candidate breaks its limit and lies beyond the reference, the third has no value.
+  EXPECT_THAT(names, testing::ElementsAre("", "front", "compromise"));
+  // Of the start, at (0.8, 7.0) of (0.9, 8.0), then of the last, at (0.1, 7.99): 0.1 x 1 and 0.7 x 0.01.
+  EXPECT_THAT(hypervolume_plot(record).series[0].y,
+              testing::Pointwise(testing::DoubleNear(1e-9), {100 / 1.07, 100 / 1.07, 100 / 1.07, 100.0}));
+}
+
 TEST(ReportPlots, MergeFlanksOnlyWhenTheyAreAlike) {
   DesignRecord design = sample_design(2);
   // Depths are the same on both sides, pressures differ by 10 %.

@@ -59,9 +59,9 @@ bool same(const optimizer::DesignVariable& a, const optimizer::DesignVariable& b
   return a1 == b1 && same(a2, b2) && same(a3, b3) && same(a4, b4) && a5 == b5;
 }
 bool same(const optimizer::ObjectiveTerm& a, const optimizer::ObjectiveTerm& b) {
-  const auto& [a1, a2, a3, a4, a5, a6, a7] = a;
-  const auto& [b1, b2, b3, b4, b5, b6, b7] = b;
-  return a1 == b1 && same(a2, b2) && same(a3, b3) && a4 == b4 && same(a5, b5) && same(a6, b6) && a7 == b7;
+  const auto& [a1, a2, a3, a4, a5, a6, a7, a8] = a;
+  const auto& [b1, b2, b3, b4, b5, b6, b7, b8] = b;
+  return a1 == b1 && same(a2, b2) && same(a3, b3) && a4 == b4 && same(a5, b5) && same(a6, b6) && a7 == b7 && a8 == b8;
 }
 bool same(const optimizer::ResponseConstraint& a, const optimizer::ResponseConstraint& b) {
   const auto& [a1, a2, a3, a4, a5, a6, a7] = a;
@@ -190,10 +190,19 @@ void expect_same(const VerificationRecord& a, const VerificationRecord& b) {
   EXPECT_TRUE(all_same(a24, b24) && all_same(a25, b25) && all_same(a26, b26) && all_same(a27, b27));
   EXPECT_TRUE(all_same(a28, b28));
 }
+void expect_same(const FrontRecord& a, const FrontRecord& b) {
+  const auto& [a1, a2, a3, a4, a5, a6, a7, a8] = a;
+  const auto& [b1, b2, b3, b4, b5, b6, b7, b8] = b;
+  EXPECT_EQ(a1, b1);
+  EXPECT_EQ(a2, b2);
+  EXPECT_TRUE(all_same(a3, b3) && all_same(a4, b4) && all_same(a5, b5) && all_same(a6, b6) && same(a7, b7));
+  EXPECT_EQ(a8, b8);
+}
 void expect_same(const RunRecord& a, const RunRecord& b) {
-  const auto& [a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15, a16, a17] = a;
-  const auto& [b1, b2, b3, b4, b5, b6, b7, b8, b9, b10, b11, b12, b13, b14, b15, b16, b17] = b;
+  const auto& [a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15, a16, a17, a18] = a;
+  const auto& [b1, b2, b3, b4, b5, b6, b7, b8, b9, b10, b11, b12, b13, b14, b15, b16, b17, b18] = b;
   EXPECT_TRUE(a1 == b1 && a2 == b2 && a3 == b3 && a4 == b4);
+  EXPECT_EQ(a6.front, b6.front);
   EXPECT_TRUE(same(a5, b5));
   EXPECT_TRUE(all_same(a6.space.variables(), b6.space.variables()));
   EXPECT_TRUE(all_same(a6.objective, b6.objective));
@@ -229,8 +238,10 @@ void expect_same(const RunRecord& a, const RunRecord& b) {
     EXPECT_EQ(a15[i].status, b15[i].status);
     EXPECT_TRUE(same(a15[i].objective, b15[i].objective) && all_same(a15[i].constraints, b15[i].constraints));
   }
-  expect_same(a16, b16);
-  EXPECT_EQ(a17, b17);
+  ASSERT_EQ(a16.has_value(), b16.has_value());
+  if (a16) expect_same(*a16, *b16);
+  expect_same(a17, b17);
+  EXPECT_EQ(a18, b18);
 }
 
 TEST_F(ResultsFile, ReadsBackEveryBit) {
@@ -250,6 +261,19 @@ TEST_F(ResultsFile, KeepsCases) {
   record.problem.quantile = 0.9;
   write_results(path(), record);
   expect_same(record, read_results(path()));
+}
+
+TEST_F(ResultsFile, KeepsAFrontAndRefusesOneThatCannotBe) {
+  const RunRecord record = sample_front();
+  write_results(path(), record);
+  expect_same(record, read_results(path()));
+  for (const auto& spoil :
+       {+[](FrontRecord& front) { front.evaluation[0] = 4; }, +[](FrontRecord& front) { front.compromise = 2; },
+        +[](FrontRecord& front) { front.bars.pop_back(); }, +[](FrontRecord& front) { front.ideal.pop_back(); }}) {
+    RunRecord wrong = record;
+    spoil(*wrong.front);
+    EXPECT_THROW(write_results(path(), wrong), InputError);
+  }
 }
 
 TEST_F(ResultsFile, KeepsARunWithoutAnything) {

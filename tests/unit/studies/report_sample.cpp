@@ -191,4 +191,20 @@ RunRecord sample_record() {
   return record;
 }
 
+RunRecord sample_front() {
+  RunRecord record = sample_record();
+  record.problem.front = true;
+  record.problem.objective = {{.response = "asymptotic_wear_volume_m3", .reference = 9e-10},
+                              {.response = "peak_amplitude_m"}};
+  record.front = FrontRecord{.objectives = {"asymptotic_wear_volume_m3", "peak_amplitude_m"},
+                             .evaluation = {3, 0},
+                             .values = {1e-10, 7.99e-3, 8e-10, 7e-3},
+                             .bars = {2e-12, 1e-5, kNaN, kNaN},
+                             .ideal = {1e-10, 7e-3},
+                             .reference = {9e-10, 8e-3},
+                             .hypervolume = 1.07e-13,
+                             .compromise = 0};
+  return record;
+}
+
 }  // namespace dovetail::report

@@ -101,6 +101,95 @@ std::string text_of(const fs::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
+/// Two bowls, of wear and of mass, with bars and a limit.
+RunEngineFactory two_bowls(int& barred) {
+  return [&barred](const Study&) {
+    RunEngine engine{.evaluate =
+                         [](std::span<const double> x) {
+                           optimizer::Evaluation e = bowl(x);
+                           e.responses["mass_kg"] = 0.1 + 0.01 * std::pow((x[0] - 20) / 30, 2);
+                           return e;
+                         },
+                     .describe = {}};
+    engine.barred = [&barred, evaluate = engine.evaluate](std::span<const double> x) {
+      ++barred;
+      optimizer::Evaluation e = evaluate(x);
+      e.error_estimates = {{"asymptotic_wear_volume_m3", 1e-12}, {"mass_kg", 1e-4}};
+      e.responses["mass_kg"] += 1e-5;  // what a closer look changes is within the bar
+      return e;
+    };
+    engine.piece = [evaluate = engine.evaluate, barred = engine.barred](const Piece& piece) {
+      return piece.what == Piece::What::barred ? barred(piece.x) : evaluate(piece.x);
+    };
+    return engine;
+  };
+}
+
+std::vector<std::vector<std::string>> table_of(const fs::path& csv) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream lines(text_of(csv));
+  for (std::string line; std::getline(lines, line);) {
+    rows.emplace_back();
+    std::istringstream cells(line + ",");
+    for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
+  }
+  return rows;
+}
+
+TEST_F(Run, HandsOverAFront) {
+  std::string text = replaced(text_of(study()), "weight = 1\n", "reference = 1.5e-10\n");
+  text = replaced(text, "algorithm = \"cobyla\"", "algorithm = \"nsga2\"");
+  text = replaced(text, "front_points = 12", "front_points = 4");
+  replace_file(study(),
+               replaced(text, "population = 0", "population = 8") + "\n[[objective]]\nresponse = \"mass_kg\"\n");
+  int barred = 0;
+  ASSERT_EQ(run(false, two_bowls(barred)), kDone) << err_.str();
+  EXPECT_THAT(out_.str(), testing::AllOf(HasSubstr("front of "), HasSubstr("asymptotic_wear_volume_m3 = 1.5e-10"),
+                                         HasSubstr("compromise, nearest to the best of each: evaluation ")));
+  const auto rows = table_of(results() / "front.csv");
+  const std::vector<std::string>& head = rows.front();
+  const auto column = [&](const std::string& name) {
+    const auto found = std::ranges::find(head, name);
+    EXPECT_NE(found, head.end()) << name;
+    return static_cast<std::size_t>(found - head.begin());
+  };
+  ASSERT_GT(rows.size(), 3U);
+  const std::size_t wear = column("asymptotic_wear_volume_m3"), mass = column("mass_kg"), bar = column("mass_kg_bar");
+  int with_bars = 0;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    ASSERT_EQ(rows[i].size(), head.size());
+    if (i > 1) {
+      EXPECT_GT(std::stod(rows[i][wear]), std::stod(rows[i - 1][wear]));
+      EXPECT_LT(std::stod(rows[i][mass]), std::stod(rows[i - 1][mass]));
+    }
+    if (!rows[i][bar].empty()) {
+      ++with_bars;
+      EXPECT_NEAR(std::stod(rows[i][bar]), 1.1e-4, 1e-9);
+    }
+    const Study point = load_study((results() / rows[i][column("study")]).string());
+    EXPECT_EQ(optimizer::parameter(point.scene, "geometry.flank_mismatch_um"),
+              std::stod(rows[i][column("geometry.flank_mismatch_um")]));
+  }
+  EXPECT_GE(with_bars, 4);
+  EXPECT_EQ(with_bars, barred);
+  const report::RunRecord record = report::read_results(results() / "results.h5");
+  ASSERT_TRUE(record.front);
+  EXPECT_EQ(record.front->evaluation.size(), rows.size() - 1);
+  EXPECT_EQ(record.front->reference[0], 1.5e-10);
+  EXPECT_EQ(record.front->evaluation[static_cast<std::size_t>(record.front->compromise)],
+            static_cast<std::int64_t>(record.best.value()));
+
+  // Nothing is computed again, nor different with more processes.
+  const std::string csv = text_of(results() / "front.csv"), said = out_.str();
+  ASSERT_EQ(run(true, two_bowls(barred)), kDone) << err_.str();
+  EXPECT_EQ(barred, with_bars);
+  EXPECT_EQ(text_of(results() / "front.csv"), csv);
+  fs::remove_all(results());
+  ASSERT_EQ(run(false, two_bowls(barred), 3), kDone) << err_.str();
+  EXPECT_EQ(out_.str(), said);
+  EXPECT_EQ(text_of(results() / "front.csv"), csv);
+}
+
 /// The bowl; it kills its process where the first variable is in a band.
 RunEngine deadly() {
   return {.evaluate =

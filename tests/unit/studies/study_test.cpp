@@ -340,6 +340,35 @@ TEST(Study, ObjectivesAreChecked) {
               HasSubstr("objective[0].scale: is missing"));
 }
 
+TEST(Study, SeveralObjectivesAreASumWithWeightsAndAFrontWithout) {
+  const std::string one = replaced(sample(), "weight = 1\n", ""), other = "\n[[objective]]\nresponse = \"mass_kg\"\n";
+  const optimizer::Problem front = read_study(parse_document(one + other + "reference = 0.2\n", "s.toml")).problem;
+  EXPECT_TRUE(front.front);
+  EXPECT_EQ(front.objective[1].reference, 0.2);
+  EXPECT_FALSE(read_study(parse_document(one, "s.toml")).problem.front);
+  const std::string sum = replaced(sample(), "weight = 1\n", "weight = 1\nscale = 1e-10\n");
+  EXPECT_FALSE(read_study(parse_document(sum + other + "weight = 2\nscale = 0.1\n", "s.toml")).problem.front);
+  EXPECT_THAT(complaints(sum + other + "scale = 0.1\n"), HasSubstr("objective[1].weight: is missing; of several"));
+  EXPECT_THAT(complaints(replaced(sample(), "weight = 1\n", "reference = 1e-9\n")),
+              HasSubstr("objective[0].reference = 1e-09: has a meaning where several objectives without weight"));
+}
+
+TEST(Study, AlgorithmsHaveToSuitTheObjectives) {
+  const auto with = [](const std::string& algorithm, int population) {
+    return replaced(replaced(sample(), "algorithm = \"cobyla\"", "algorithm = \"" + algorithm + "\""), "population = 0",
+                    "population = " + std::to_string(population));
+  };
+  const std::string other = "\n[[objective]]\nresponse = \"mass_kg\"\n";
+  EXPECT_EQ(complaints(with("de", 8)), "");
+  EXPECT_EQ(complaints(replaced(with("nsga2", 8), "weight = 1\n", "") + other), "");
+  EXPECT_THAT(complaints(with("nsga2", 0)),
+              HasSubstr("optimizer.algorithm = \"nsga2\": finds a front and needs several"));
+  EXPECT_THAT(complaints(replaced(with("nsga2", 10), "weight = 1\n", "") + other),
+              HasSubstr("optimizer.population = 10: must be a multiple of 4"));
+  EXPECT_THAT(complaints(with("de", 4)), HasSubstr("or >= 5"));
+  EXPECT_THAT(complaints(with("cobyla", 8)), HasSubstr("optimizer.population = 8: has a meaning with algorithm"));
+}
+
 TEST(Study, ConstraintsAreChecked) {
   const auto limit = [](const std::string& body) { return complaints(sample() + "\n[[constraint]]\n" + body); };
   EXPECT_THAT(limit("response = \"mass_kg\"\n"), HasSubstr("constraint[2]: needs an upper or a lower limit"));

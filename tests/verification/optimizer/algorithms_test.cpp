@@ -84,6 +84,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Expectation{Algorithm::direct_l, 3000, 5e-2, 1e-2},
                       Expectation{Algorithm::crs2, 3000, 1e-3, 1e-3}, Expectation{Algorithm::mma, 3000, 1e-5, 1e-2},
                       Expectation{Algorithm::slsqp, 1000, 1e-5, 2e-5}, Expectation{Algorithm::ipopt, 1000, 1e-5, 2e-5},
+                      Expectation{Algorithm::cmaes, 3000, 1e-3, 1e-6}, Expectation{Algorithm::de, 3000, 1e-3, 1e-4},
                       Expectation{Algorithm::scan, 1000, 0.5, 0.5}),
     [](const auto& parameter) { return std::string(to_string(parameter.param.algorithm)); });
 
