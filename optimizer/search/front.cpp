@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/options.hpp"
 #include "optimizer/search/pagmo_search.hpp"
 #include "optimizer/search/run.hpp"
 
@@ -12,8 +13,6 @@ namespace dovetail::optimizer {
 namespace {
 
 using Terms = std::vector<std::vector<double>>;
-
-constexpr double kInf = std::numeric_limits<double>::infinity();
 
 /// Whether `a` is nowhere worse and somewhere better than `b`, or the same and seen before.
 bool beats(const Candidate& a, const Candidate& b, bool before) {
@@ -26,7 +25,7 @@ bool beats(const Candidate& a, const Candidate& b, bool before) {
 }
 
 std::vector<double> worst_of(std::size_t count, const Terms& all) {
-  std::vector<double> worst(count, -kInf);
+  std::vector<double> worst(count, -kInfinity);
   for (const std::vector<double>& terms : all)
     for (std::size_t i = 0; i < count; ++i) worst[i] = std::max(worst[i], terms[i]);
   return worst;
@@ -74,7 +73,7 @@ Front front_of(const Problem& problem, std::span<const Candidate> candidates) {
   for (std::size_t i = 0; i < count; ++i)
     if (const auto& given = problem.objective[i].reference) front.reference[i] = as_term(problem.objective[i], *given);
   if (terms.empty()) return front;
-  front.ideal.assign(count, kInf);
+  front.ideal.assign(count, kInfinity);
   for (const std::vector<double>& one : terms)
     for (std::size_t i = 0; i < count; ++i) front.ideal[i] = std::min(front.ideal[i], one[i]);
   front.hypervolume = hypervolume(terms, front.reference);
@@ -99,7 +98,7 @@ std::vector<std::size_t> spread(const Terms& terms, std::size_t count) {
     std::size_t farthest = 0;
     double most = -1;
     for (std::size_t i = 0; i < relative.size(); ++i) {
-      double near = kInf;
+      double near = kInfinity;
       for (const std::size_t j : taken) near = std::min(near, distance(relative[i], relative[j]));
       if (near > most && std::ranges::find(taken, i) == taken.end()) {
         most = near;

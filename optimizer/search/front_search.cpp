@@ -4,14 +4,13 @@
 #include <limits>
 #include <string>
 
+#include "core/options.hpp"
 #include "optimizer/search/params.hpp"
 #include "optimizer/search/space_filling.hpp"
 
 namespace dovetail::optimizer {
 
 namespace {
-
-constexpr double kInf = std::numeric_limits<double>::infinity();
 
 /// Where the other objectives are limited, run by run: fractions of the way from their worst to their best value.
 std::vector<std::vector<double>> fractions(std::size_t runs, std::size_t others, int seed) {
@@ -24,7 +23,7 @@ std::vector<std::vector<double>> fractions(std::size_t runs, std::size_t others,
 
 /// Terms among which `counts` does.
 std::vector<double> weights_of(const EvaluationSession& session, std::size_t terms, std::size_t counts) {
-  std::vector<double> weights(terms, 0.0), least(terms, kInf), most(terms, -kInf);
+  std::vector<double> weights(terms, 0.0), least(terms, kInfinity), most(terms, -kInfinity);
   for (const Candidate& candidate : session.candidates())
     for (std::size_t i = 0; candidate.judgement.computed && i < terms; ++i) {
       least[i] = std::min(least[i], candidate.judgement.terms[i]);
@@ -55,7 +54,7 @@ SearchOutcome epsilon_constraint(EvaluationSession& session, const std::function
   std::vector<std::vector<double>> ends;
   for (std::size_t i = 0; i < terms; ++i) {
     run({.weights = weights_of(session, terms, i),
-         .most = std::vector<double>(terms, kInf),
+         .most = std::vector<double>(terms, kInfinity),
          .size = std::vector<double>(terms, 1.0)});
     if (!session.best())
       return {.status = Status::stalled, .message = name + ": found no candidate that keeps the limits"};
@@ -69,7 +68,8 @@ SearchOutcome epsilon_constraint(EvaluationSession& session, const std::function
   }
   const std::vector<double> weights = weights_of(session, terms, 0);
   for (const std::vector<double>& way : fractions(left, terms - 1, options.seed)) {
-    Focus focus{.weights = weights, .most = std::vector<double>(terms, kInf), .size = std::vector<double>(terms, 1.0)};
+    Focus focus{
+        .weights = weights, .most = std::vector<double>(terms, kInfinity), .size = std::vector<double>(terms, 1.0)};
     for (std::size_t i = 1; i < terms; ++i) {
       if (!(worst[i] > best[i])) continue;  // this objective is at its best wherever the others are
       focus.most[i] = worst[i] + way[i - 1] * (best[i] - worst[i]);
