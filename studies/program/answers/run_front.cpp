@@ -96,7 +96,8 @@ FrontRecord front_record(const optimizer::Problem& problem, const optimizer::Opt
   const optimizer::Front& front = *result.front;
   for (std::size_t i = 0; i < problem.objective.size(); ++i) {
     const optimizer::ObjectiveTerm& term = problem.objective[i];
-    record.objectives.push_back(term.response);
+    const bool by_worst = term.over == to_string(optimizer::Over::worst);
+    record.objectives.push_back(optimizer::of_case(term.response, by_worst ? "" : term.over));
     record.ideal.push_back(as_response(term, front.ideal[i]));
     record.reference.push_back(as_response(term, front.reference[i]));
   }
@@ -139,6 +140,7 @@ void write_front(const fs::path& directory, const Study& study, const report::Ru
   }
   const std::vector<std::string> keys = study.problem.space.keys(), limits = constraint_names(study.problem);
   std::string text = "point,evaluation,study";
+  for (const std::string& name : front.objectives) text += ",objective " + name + ",objective " + name + "_bar";
   for (const std::string& key : keys) text += "," + key;
   for (const std::string& name : responses) text += "," + name + (barred.contains(name) ? "," + name + "_bar" : "");
   for (const std::string& name : limits) text += ",constraint " + name;
@@ -151,6 +153,8 @@ void write_front(const fs::path& directory, const Study& study, const report::Ru
     const std::string file = point_file(point, points);
     replace_file(folder / file, with_values(document, study.problem.space.settings(at.x)));
     text += fmt::format("{},{},front/{}", point + 1, index + 1, file);
+    for (std::size_t i = 0; i < front.columns(); ++i)
+      text += "," + number(front.value(point, i)) + "," + number(front.bar(point, i));
     for (const double x : at.x) text += "," + number(x);
     for (const std::string& name : responses) {
       text += "," + number(value_in(at.responses, name));

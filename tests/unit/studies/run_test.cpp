@@ -167,9 +167,10 @@ TEST_F(Run, HandsOverAFront) {
       EXPECT_NEAR(std::stod(rows[i][bar]), 1.1e-4, 1e-9);
     }
     const Study point = load_study((results() / rows[i][column("study")]).string());
-    EXPECT_EQ(optimizer::parameter(point.scene, "geometry.flank_mismatch_um"),
-              std::stod(rows[i][column("geometry.flank_mismatch_um")]));
+    EXPECT_DOUBLE_EQ(optimizer::parameter(point.scene, "geometry.flank_mismatch_um"),
+                     std::stod(rows[i][column("geometry.flank_mismatch_um")]));
   }
+  EXPECT_EQ(rows[1][column("objective mass_kg")], rows[1][mass]);
   EXPECT_GE(with_bars, 4);
   EXPECT_EQ(with_bars, barred);
   const report::RunRecord record = report::read_results(results() / "results.h5");
