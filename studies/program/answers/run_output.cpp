@@ -25,7 +25,7 @@ using optimizer::OptimizationResult;
 using optimizer::Scene;
 
 std::map<std::string, double> variable_values(const Study& study, const optimizer::Candidate& candidate) {
-  return study.problem.space.settings(candidate.x);
+  return settings_at(study, candidate.x);
 }
 
 Scene scene_of(const Study& study, const optimizer::Candidate& candidate) {
@@ -95,6 +95,7 @@ WrittenRun record_of(const RunSite& site, OptimizationResult result, double seco
   record.provenance.program_version = version();
   record.provenance.study_file = study.file;
   record.provenance.settings = site.chosen;
+  for (const LinkedKey& linked : study.linked) record.provenance.linked[linked.key] = linked.value;
   record.provenance.study_text = study.text;
   record.best_design = std::move(best);
   record.baseline_design = std::move(baseline);

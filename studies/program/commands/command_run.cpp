@@ -191,8 +191,9 @@ std::string shortcoming(const Study& study, const OptimizationResult& result, co
 }
 
 std::string fingerprint_of(const Study& study) {
-  return optimizer::fingerprint(study.problem, study.optimizer,
-                                std::string("dovetail ") + version() + "\n" + physics_text(study.scene));
+  std::string physics = std::string("dovetail ") + version() + "\n" + physics_text(study.scene);
+  for (const auto& [key, value] : study.linked) physics += key + " follows: " + value + "\n";
+  return optimizer::fingerprint(study.problem, study.optimizer, physics);
 }
 
 /// On settings of start and best design that an accuracy chose; empty where they are those of the search.

@@ -28,7 +28,7 @@ using optimizer::SceneEvaluator;
 
 Scene scene_at(const Study& study, std::span<const double> x) {
   Scene scene = study.scene;
-  for (const auto& [key, value] : study.problem.space.settings(x)) optimizer::set_parameter(scene, key, value);
+  for (const auto& [key, value] : settings_at(study, x)) optimizer::set_parameter(scene, key, value);
   return scene;
 }
 

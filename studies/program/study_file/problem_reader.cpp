@@ -36,8 +36,9 @@ bool from_command_line(const Node* root, std::string_view key) {
   return node && !node->origin.empty();
 }
 
-/// Why that key cannot be a variable although it is a number; empty when it can.
-std::string conflict(const Node* root, const Parameter& parameter) {
+}  // namespace
+
+std::string conflict_of_variable(const Node* root, const Parameter& parameter) {
   if (parameter.kind != Parameter::Kind::real)
     return "cannot be varied: it is not a real number; evaluate the design with one value after the other (--set)";
   const std::string& key = parameter.key;
@@ -54,10 +55,12 @@ std::string conflict(const Node* root, const Parameter& parameter) {
   return {};
 }
 
+namespace {
+
 const Parameter* variable_parameter(const Node& value, const std::string& path, const Node* root, Problems& problems) {
   const Parameter* parameter = scene_key(value.text, value, path, problems);
   if (parameter == nullptr) return nullptr;
-  const std::string why = conflict(root, *parameter);
+  const std::string why = conflict_of_variable(root, *parameter);
   if (why.empty()) return parameter;
   problems.add(value, path, why);
   return nullptr;

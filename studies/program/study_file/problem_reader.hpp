@@ -12,6 +12,9 @@ namespace dovetail::studies {
 /// What is said of a number of a wear law that the scene does not use.
 [[nodiscard]] std::string left_aside_words(const optimizer::Scene& scene);
 
+/// Why a key that is a number cannot be a variable, or follow from some; empty when it can.
+[[nodiscard]] std::string conflict_of_variable(const Node* root, const optimizer::Parameter& parameter);
+
 /// Reads [[variable]], [[case]], [[objective]] and [[constraint]]. `scene` gives the start of a variable that names
 /// none; an accuracy of one response takes one of all, in `scene` or `options`. What is wrong goes to `problems`; the
 /// result is meaningful only when nothing was.

@@ -150,6 +150,12 @@ Study read_study(const Document& document) {
   optimizer.finish();
 
   study.problem = read_problem(root, study.scene, study.optimizer, problems);
+  if (problems.empty()) {
+    study.linked = read_linked(root, study.problem, study.scene, problems);
+    if (problems.empty() && !study.linked.empty()) report_contradictions(document, study.scene, problems);
+  } else {
+    static_cast<void>(root.take("linked"));
+  }
   // A study without objectives can be evaluated, whatever would search.
   if (!study.problem.objective.empty())
     for (const Violation& found : optimizer::contradictions(study.optimizer, study.problem.front))
@@ -163,7 +169,9 @@ Study read_study(const Document& document) {
   const auto shares = [](const optimizer::DesignVariable& v) {
     return optimizer::shares_matrices(v.key) && std::ranges::all_of(v.also, optimizer::shares_matrices);
   };
-  const bool one_mesh = !variables.empty() && std::ranges::all_of(variables, shares);
+  const bool one_mesh =
+      !variables.empty() && std::ranges::all_of(variables, shares) &&
+      std::ranges::all_of(study.linked, [](const LinkedKey& key) { return optimizer::shares_matrices(key.key); });
   bool alike = false;
   for (const optimizer::LoadCase& one : study.problem.cases)
     for (const optimizer::LoadCase& other : study.problem.cases)
@@ -177,6 +185,10 @@ Study load_study(const std::string& file, std::span<const Override> overrides) {
   Document document = load_document(file);
   apply_overrides(document, overrides);
   return read_study(document);
+}
+
+std::map<std::string, double> settings_at(const Study& study, std::span<const double> x) {
+  return with_linked(study.problem.space.settings(x), study.linked);
 }
 
 std::string physics_text(const optimizer::Scene& scene) {

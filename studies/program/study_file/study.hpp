@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <set>
 #include <span>
 #include <string>
@@ -10,6 +11,7 @@
 #include "optimizer/scene/scene.hpp"
 #include "studies/program/study_file/document.hpp"
 #include "studies/program/study_file/export.hpp"
+#include "studies/program/study_file/linked.hpp"
 
 namespace dovetail::studies {
 
@@ -20,8 +22,9 @@ struct Study {
   std::string name;   ///< folder of the results; the file's name (or its folder's for study.toml) unless given
   std::string title;  ///< for people
   optimizer::Scene scene;
-  std::set<std::string> given;  ///< keys of the scene that the file or the command line gives
-  optimizer::Problem problem;   ///< variables in the file's units; may be without variables and objective
+  std::set<std::string> given;    ///< keys of the scene that the file or the command line gives
+  optimizer::Problem problem;     ///< variables in the file's units; may be without variables and objective
+  std::vector<LinkedKey> linked;  ///< what follows from the variables; the scene has it at its own numbers
   optimizer::OptimizerOptions optimizer;
   std::vector<ExportFormat> exports;  ///< formats of the geometry a run writes
 };
@@ -38,6 +41,9 @@ struct Study {
 
 /// load_document, apply_overrides and read_study in one.
 [[nodiscard]] Study load_study(const std::string& file, std::span<const Override> overrides = {});
+
+/// What a point of the design space sets in the scene, and what follows from it: keys of the file and their numbers.
+[[nodiscard]] std::map<std::string, double> settings_at(const Study& study, std::span<const double> x);
 
 /// The text that fixes what an evaluation of this scene computes: every key and value, one per line.
 [[nodiscard]] std::string physics_text(const optimizer::Scene& scene);

@@ -123,6 +123,12 @@ key = "geometry.neck_width_mm"
 lower = 8
 upper = 9.5
 
+# Several keys may have one value: keys = ["...", "..."] in place of `key`. Or follow from the variables by a formula of
+# their keys, with '_' in place of '.': + - * / ^, sqrt, sin (of rad), min, max, a < b ? c : d, ...
+# [[linked]]
+# key = "geometry.shank_width_mm"
+# value = "geometry_neck_width_mm + 2.5"
+
 # Several loads: what is different in each, by the dotted keys in quotes, and its share of the blade's life. Without
 # cases there is the one load above.
 # [[case]]

@@ -226,6 +226,14 @@ std::string variable_table(const RunRecord& record) {
                            Html{bound.empty() ? "" : "<span class=\"flag\">at " + bound + " bound</span>"},
                            Html{"<code>" + escape(v.key) + "</code>"}}});
   }
+  const auto number = [](const std::optional<DesignRecord>& design, const std::string& key) -> std::string {
+    if (!design || !design->parameters.contains(key)) return "\u2013";
+    return plain(design->parameters.at(key), 5);
+  };
+  for (const auto& [key, formula] : record.provenance.linked)
+    table.rows.push_back({{key_words(key), key_unit(key), "", "", number(record.baseline_design, key),
+                           Html{"<b>" + number(record.best_design, key) + "</b>"},
+                           Html{"= <code>" + escape(formula) + "</code>"}, Html{"<code>" + escape(key) + "</code>"}}});
   return table_html(table);
 }
 

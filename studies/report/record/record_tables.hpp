@@ -237,11 +237,14 @@ inline constexpr auto kFields<FrontRecord> = std::tuple{
 
 /// Besides the study's text.
 template <>
-inline constexpr auto kFields<Provenance> = std::tuple{
-    RecordField{"library", &Provenance::libraries},      RecordField{"option", &Provenance::options},
-    RecordField{"setting", &Provenance::settings, true}, RecordField{"program_version", &Provenance::program_version},
-    RecordField{"date_utc", &Provenance::date_utc},      RecordField{"compiler", &Provenance::compiler},
-    RecordField{"study_file", &Provenance::study_file}};
+inline constexpr auto kFields<Provenance> = std::tuple{RecordField{"library", &Provenance::libraries},
+                                                       RecordField{"option", &Provenance::options},
+                                                       RecordField{"setting", &Provenance::settings, true},
+                                                       RecordField{"linked", &Provenance::linked, true},
+                                                       RecordField{"program_version", &Provenance::program_version},
+                                                       RecordField{"date_utc", &Provenance::date_utc},
+                                                       RecordField{"compiler", &Provenance::compiler},
+                                                       RecordField{"study_file", &Provenance::study_file}};
 
 template <>
 inline constexpr auto kFields<RunRecord> = std::tuple{RecordField{"name", &RunRecord::name},

@@ -157,10 +157,11 @@ struct Provenance {
   std::string program_version;
   std::string date_utc;  ///< ISO 8601, when the record was made
   std::string compiler;
-  std::map<std::string, std::string> libraries;  ///< name -> version
-  std::map<std::string, std::string> options;    ///< of the optimiser, key -> value as text
-  std::map<std::string, std::string> settings;   ///< chosen for an accuracy, key -> value as text
-  std::string study_file, study_text;            ///< name and verbatim content
+  std::map<std::string, std::string> libraries;    ///< name -> version
+  std::map<std::string, std::string> options;      ///< of the optimiser, key -> value as text
+  std::map<std::string, std::string> settings;     ///< chosen for an accuracy, key -> value as text
+  std::map<std::string, std::string> linked = {};  ///< key of the study file -> formula of the design variables
+  std::string study_file, study_text;              ///< name and verbatim content
 };
 
 /// How a candidate keeps its limits on a finer mesh; see optimizer::FinerCheck.

@@ -169,13 +169,14 @@ void expect_same(const DesignRecord& a, const DesignRecord& b) {
   EXPECT_EQ(a15, b15);
 }
 void expect_same(const Provenance& a, const Provenance& b) {
-  const auto& [a1, a2, a3, a4, a5, a6, a7, a8] = a;
-  const auto& [b1, b2, b3, b4, b5, b6, b7, b8] = b;
-  EXPECT_TRUE(a1 == b1 && a2 == b2 && a3 == b3 && a7 == b7);
+  const auto& [a1, a2, a3, a4, a5, a6, a7, a8, a9] = a;
+  const auto& [b1, b2, b3, b4, b5, b6, b7, b8, b9] = b;
+  EXPECT_TRUE(a1 == b1 && a2 == b2 && a3 == b3 && a8 == b8);
   EXPECT_EQ(a4, b4);
   EXPECT_EQ(a5, b5);
   EXPECT_EQ(a6, b6);
-  EXPECT_EQ(a8, b8);
+  EXPECT_EQ(a7, b7);
+  EXPECT_EQ(a9, b9);
 }
 void expect_same(const VerificationRecord& a, const VerificationRecord& b) {
   const auto& [a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15, a16, a17, a18, a19, a20, a21, a22, a23,

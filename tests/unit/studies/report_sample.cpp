@@ -186,6 +186,7 @@ RunRecord sample_record() {
                        .libraries = {{"Eigen", "3.4.0"}},
                        .options = {{"algorithm", "cobyla"}, {"note", ""}},
                        .settings = {{"solver.modes", "8, handed over with 12"}},
+                       .linked = {{"geometry.shank_width_mm", "geometry_neck_width_mm + 2.5"}},
                        .study_file = "study.toml",
                        .study_text = "# <script>alert('x')</script>\n[scene]\nname = \"\u00fc\"\n"};
   return record;

@@ -514,5 +514,47 @@ TEST(StudyVariables, MayHoldSeveralKeysAtOneValue) {
               HasSubstr("is already a variable"));
 }
 
+TEST(StudyLinks, FollowFromTheVariables) {
+  const Study study =
+      with("[[linked]]\nkey = \"geometry.shank_width_mm\"\nvalue = \"2 * geometry_neck_width_mm - sqrt(16)\"\n");
+  ASSERT_EQ(study.linked.size(), 1U);
+  // At the file's own numbers at once, and at those of every design.
+  const double neck = optimizer::parameter(study.scene, "geometry.neck_width_mm");
+  EXPECT_NEAR(optimizer::parameter(study.scene, "geometry.shank_width_mm"), 2 * neck - 4, 1e-12);
+  std::vector<double> x = study.problem.space.start();
+  const std::vector<std::string> keys = study.problem.space.keys();
+  const auto at = std::ranges::find(keys, "geometry.neck_width_mm") - keys.begin();
+  x[static_cast<std::size_t>(at)] = 8.25;
+  EXPECT_EQ(settings_at(study, x).at("geometry.shank_width_mm"), 12.5);
+  EXPECT_EQ(settings_at(study, x).at("geometry.neck_width_mm"), 8.25);
+}
+
+TEST(StudyLinks, WithoutAValueAreNone) {
+  const std::vector<LinkedKey> linked{{.key = "a", .value = "1 / scene_x"}, {.key = "b", .value = "nonsense("}};
+  const std::map<std::string, double> settings = with_linked({{"scene.x", 4}}, linked);
+  EXPECT_EQ(settings.at("a"), 0.25);
+  EXPECT_TRUE(std::isnan(settings.at("b")));
+}
+
+TEST(StudyLinks, WrongOnesAreRefused) {
+  const auto linked = [](const std::string& key, const std::string& value) {
+    return complaint("[[linked]]\nkey = \"" + key + "\"\nvalue = \"" + value + "\"\n");
+  };
+  const std::string width = "geometry.shank_width_mm";
+  EXPECT_EQ(linked(width, "geometry_neck_width_mm + 2"), "");
+  EXPECT_THAT(linked(width, "geometry_neck_width_mm +"), HasSubstr("must be a formula of the design variables"));
+  EXPECT_THAT(linked(width, "geometry_neck + 2"), testing::AllOf(HasSubstr("linked[0].value = \"geometry_neck + 2\""),
+                                                                 HasSubstr("geometry_neck_width_mm")));
+  EXPECT_THAT(linked(width, "-1"), HasSubstr("comes to -1, but geometry.shank_width_mm must be"));
+  EXPECT_THAT(linked(width, "0 / 0"), HasSubstr("comes to"));
+  EXPECT_THAT(linked("geometry.neck_width_mm", "9"), HasSubstr("is a design variable"));
+  EXPECT_THAT(linked("geometry.shank_widht_mm", "9"), HasSubstr("did you mean \"geometry.shank_width_mm\"?"));
+  EXPECT_THAT(linked("mesh.bulk_size_mm", "3"), HasSubstr("cannot be varied"));
+  EXPECT_THAT(complaint("[[linked]]\nkey = \"" + width + "\"\n"), HasSubstr("linked[0].value: is missing"));
+  const std::string once = "[[linked]]\nkey = \"" + width + "\"\nvalue = \"12\"\n";
+  EXPECT_THAT(complaint(once + once), HasSubstr("is linked already"));
+  EXPECT_THAT(complaint("[[case]]\nname = \"a\"\n\"" + width + "\" = 12\n" + once), HasSubstr("differs between cases"));
+}
+
 }  // namespace
 }  // namespace dovetail::studies
