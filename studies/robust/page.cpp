@@ -47,7 +47,8 @@ std::string with_bar(const optimizer::Barred& value, const report::Unit& unit) {
 std::string less(const Results& r, std::size_t other) {
   const optimizer::Barred one = worst_volume(r.study, r.designs.back().corners),
                           than = worst_volume(r.study, r.designs[other].corners);
-  std::string text = fmt::format("{:.0f} %", 100 * (1 - one.value / than.value));
+  const double part = 1 - one.value / than.value;
+  std::string text = fmt::format("{:.0f} % {}", 100 * std::abs(part), part < 0 ? "more" : "less");
   const double at_least = 1 - (one.value + one.bar) / (than.value - than.bar);
   if (at_least > 0 && than.value > than.bar) text += fmt::format(" (with all bars at least {:.0f} %)", 100 * at_least);
   return text;
@@ -62,10 +63,10 @@ bool all_met(const Results& r, const Design& design) {
 std::string lead(const Results& r) {
   const Design& robust = r.designs.back();
   if (!robust.corners.converged()) return "The robust optimum could not be computed in every case";
-  return fmt::format(
-      "In its worst case the robust optimum wears {} less than the start and {} less than the nominal optimum, {}",
-      less(r, 0), less(r, 1),
-      all_met(r, robust) ? fmt::format("with every limit met in every case with its bar and in {} samples besides",
+  return fmt::format("In its worst case the robust optimum wears {} than the start and {} than the nominal optimum, {}",
+                     less(r, 0), less(r, 1),
+                     all_met(r, robust)
+                         ? fmt::format("with every limit met in every case with its bar and in {} samples besides",
                                        r.samples.problem.cases.size())
                          : "but no design was found that meets every limit in every case: this is the best compromise");
 }
