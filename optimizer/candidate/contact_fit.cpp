@@ -7,7 +7,6 @@
 #include "optimizer/candidate/candidate_result.hpp"
 #include "optimizer/candidate/edge_search.hpp"
 #include "optimizer/candidate/load_on_grid.hpp"
-#include "optimizer/candidate/params.hpp"
 #include "paths/steady_state.hpp"
 #include "wear/asymptote/followed_asymptote.hpp"
 #include "wear/measures.hpp"
@@ -16,8 +15,6 @@
 namespace dovetail::optimizer {
 
 namespace {
-
-constexpr ContactFitParams kFit;
 
 FitStart start_of(const Scene& scene, const Computation& how, const CandidateModel& candidate) {
   if (how.from == nullptr || !how.from->unworn) return {};
@@ -63,14 +60,8 @@ class GridSearch {
       first().joint.options.budget = new_budget(scene_.solver, first().model(), options_.share_of_budget);
     release_.arbitration = rests_in_slip_ ? wear::Arbitration::unsettled : wear::Arbitration::never;
     // At the resonance of the first grid on all of them: it hardly moves, and edges move less.
-    if (!begun && found_roughly()) {
-      ++fit_.grids;
-      if (!lay_next()) return unsettled();
-      for (LoadOnGrid& load : loads_)
-        if (!load.find_resonance(load.peak.omega, load.unworn.displacement)) return unsettled();
-    } else if (!find_first_resonances()) {
-      return fit_;
-    }
+    for (LoadOnGrid& load : loads_)
+      if (!load.find_first_resonance()) return fit_;
     for (bool at_resonance = false;; ++fit_.grids) {
       if (!find_edges()) return unsettled();
       // A zone that the finer cells beside its edge make vanish is none.
@@ -87,7 +78,7 @@ class GridSearch {
         --fit_.grids;
       } else if (fit_.grids == options_.grids) {
         return best_grid(best_.grid < fit_.grids);
-      } else if (!lay_next() || !find_unworn()) {
+      } else if (!lay_next()) {
         return unsettled();
       }
     }
@@ -128,30 +119,6 @@ class GridSearch {
     }
     lay(flanks);
     return begun;
-  }
-
-  /// Edges on the first grid with fewer harmonics.
-  [[nodiscard]] bool found_roughly() {
-    const int all = scene_.solver.harmonics;
-    const bool knows_better = first().load->start.unworn.displacement.size() > 0;
-    if (all < kFit.many_harmonics || knows_better || rests_in_slip_ || follows_) return false;
-    const auto with_harmonics = [this](int harmonics) {
-      for (LoadOnGrid& load : loads_) load.joint.options.harmonics = harmonics;
-    };
-    with_harmonics((all / 2) | 1);  // even ones hardly move of flanks under pressure
-    const bool found = find_first_resonances() && find_edges() && fit_.edges > 0;
-    with_harmonics(all);
-    best_ = {};
-    if (!found) fit_ = {};
-    return found;
-  }
-
-  [[nodiscard]] bool find_first_resonances() {
-    return std::ranges::all_of(loads_, [](LoadOnGrid& load) { return load.find_first_resonance(); });
-  }
-
-  [[nodiscard]] bool find_unworn() {
-    return std::ranges::all_of(loads_, [](LoadOnGrid& load) { return load.find_unworn(); });
   }
 
   /// What the last grid says of the edges is not known: they may be anywhere near.
@@ -242,7 +209,7 @@ class GridSearch {
     return fit_;
   }
 
-  /// The next grid, and the states before as they are on it; false where there is none.
+  /// The next grid and the unworn state on it; false where there is none.
   [[nodiscard]] bool lay_next() {
     laid_ = search_.next(found_, laid_);
     std::vector<fem::FlankCells> flanks = cells().flanks;
@@ -251,8 +218,7 @@ class GridSearch {
     lay(flanks);
     fit_.unworn.clear();
     if (!converged()) return false;
-    for (LoadOnGrid& load : loads_) load.carry(before);
-    return true;
+    return std::ranges::all_of(loads_, [&](LoadOnGrid& load) { return load.find_unworn(before); });
   }
 
   void end_cells_at_edges(std::vector<fem::FlankCells>& flanks) {

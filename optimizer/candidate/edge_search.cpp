@@ -137,12 +137,10 @@ EdgeSearch::Places EdgeSearch::next(const Places& found, const Places& laid) {
   };
   Places places = found;
   for (std::size_t l = 0; l < found.size(); ++l) {
-    if (found[l].size() != laid[l].size()) continue;
-    const bool secant = laid_.size() == laid.size() && laid_[l].size() == laid[l].size();
+    if (laid_.size() != laid.size() || laid_[l].size() != laid[l].size() || found[l].size() != laid[l].size()) continue;
     for (std::size_t k = 0; k < found[l].size(); ++k) {
-      const double step = secant ? laid[l][k] - laid_[l][k] : 0;
-      double slope = kEdgeSearch.expected;
-      if (step != 0) slope = (miss(found, laid, l, k) - miss(found_, laid_, l, k)) / step;
+      const double step = laid[l][k] - laid_[l][k];
+      const double slope = step == 0 ? 0 : (miss(found, laid, l, k) - miss(found_, laid_, l, k)) / step;
       if (slope < kEdgeSearch.flattest && slope > kEdgeSearch.steepest)
         places[l][k] = laid[l][k] - miss(found, laid, l, k) / slope;
     }

@@ -1,10 +1,7 @@
 #include "optimizer/candidate/load_on_grid.hpp"
 
-#include <algorithm>
-
 #include "optimizer/candidate/candidate_result.hpp"
 #include "optimizer/candidate/carried_over.hpp"
-#include "optimizer/candidate/params.hpp"
 #include "paths/steady_state.hpp"
 
 namespace dovetail::optimizer {
@@ -12,7 +9,6 @@ namespace dovetail::optimizer {
 bool LoadOnGrid::find_resonance(double start, const Eigen::MatrixXd& guess) {
   paths::ResonanceOptions options = resonance_options(scene());
   options.begins_near = guess.size() > 0;
-  options.frequency_tolerance = std::max(options.frequency_tolerance, ContactFitParams{}.frequency_tolerance);
   peak = paths::resonance(joint, start, options, guess);
   unworn = peak.state;
   return peak.status == Status::converged;
@@ -25,12 +21,8 @@ bool LoadOnGrid::find_first_resonance() {
   return find_resonance(near.omega, carried(near.displacement, strips)) || find_resonance(glued());
 }
 
-void LoadOnGrid::carry(const std::vector<fem::CellStrip>& before) {
-  unworn.displacement = carried(unworn.displacement, before);
-}
-
-bool LoadOnGrid::find_unworn() {
-  unworn = paths::steady_state(joint, peak.omega, Eigen::MatrixXd(unworn.displacement));
+bool LoadOnGrid::find_unworn(const std::vector<fem::CellStrip>& before) {
+  unworn = paths::steady_state(joint, peak.omega, carried(unworn.displacement, before));
   return unworn.status == Status::converged;
 }
 

@@ -23,10 +23,8 @@ struct LoadOnGrid {
   [[nodiscard]] bool find_resonance(double start, const Eigen::MatrixXd& guess = {});
   /// From where the load says, or from the glued joint.
   [[nodiscard]] bool find_first_resonance();
-  /// The displacement on the nodes there are now, as it was on those before.
-  void carry(const std::vector<fem::CellStrip>& before);
-  /// The unworn state that begins with it; false where there is none.
-  [[nodiscard]] bool find_unworn();
+  /// The unworn state on the nodes there are now, from that on those before.
+  [[nodiscard]] bool find_unworn(const std::vector<fem::CellStrip>& before);
 
  private:
   [[nodiscard]] Eigen::MatrixXd carried(const Eigen::MatrixXd& displacement,

@@ -19,19 +19,6 @@ struct EdgeSearchParams {
   /// Slopes of found - laid between which the secant is followed: -1 is that of edges that do not depend on the grid.
   /// Wider: an edge that was mistaken for another is sent far away.
   double flattest = -0.5, steepest = -4;
-  /// The slope where there is no secant yet. Those of sections of 16 to 48 edges are -0.7 to -1.35; with this one the
-  /// fewest grids are laid.
-  double expected = -1.1;
-};
-
-/// At which states edges are looked for.
-struct ContactFitParams {
-  /// Of the resonance, relative: a hundredth of the half width of a sharp peak. There the amplitude is known to its
-  /// square, which moves edges by less than anybody sees.
-  double frequency_tolerance = 1e-5;
-  /// From so many harmonics on half of them say on the first grid where edges are, to a tenth of an edge of the mesh:
-  /// nearer than that grid itself is to where they will be, at an eighth of the cost.
-  int many_harmonics = 5;
 };
 
 /// When rough flanks are too soft for nodes that stay matched.
@@ -52,9 +39,6 @@ struct StressParams {
 static_assert(CellGridParams{}.bit < 1, "a whole cell is not left over");
 static_assert(EdgeSearchParams{}.steepest < -1 && -1 < EdgeSearchParams{}.flattest,
               "the slope of edges that stay is followed");
-static_assert(EdgeSearchParams{}.steepest < EdgeSearchParams{}.expected &&
-                  EdgeSearchParams{}.expected < EdgeSearchParams{}.flattest,
-              "the slope that is expected is followed");
 static_assert(EdgeSearchParams{}.rounding < 1e-3 * EdgeSearchParams{}.narrowest, "what counts as one place is no zone");
 static_assert(AsperityParams{}.large < 1, "nodes leave the flank");
 static_assert(EdgeSearchParams{}.beyond < EdgeSearchParams{}.narrowest, "an edge goes on by less than a zone");

@@ -154,8 +154,8 @@ TEST(SectionEvaluation, EnergyBalanceConvergesWithHarmonicsAndSamples) {
     ASSERT_EQ(state.status, Status::converged);
     defect.push_back(std::abs(state.input_energy - state.damping_energy - state.friction_energy) / state.input_energy);
   }
-  // It changes its sign on the way: 9 harmonics may happen to be nearer than 27.
-  for (const std::size_t finer : {1, 2}) EXPECT_LT(defect[finer], 0.1 * defect[0]);
+  EXPECT_LT(defect[1], defect[0]);
+  EXPECT_LT(defect[2], 0.5 * defect[1]);
 }
 
 TEST(SectionEvaluation, DirectAsymptoteAgreesWithTheHistory) {
@@ -286,7 +286,7 @@ TEST(SectionEvaluation, NodesOfAConfirmingHistoryAreInTheBar) {
   const double volume = settled.evaluation.responses.at(name), bar = settled.evaluation.error_estimates.at(name);
   EXPECT_GT(settled.evaluation.error_sources.at(name).at("history"), 0.05 * volume);
   EXPECT_LT(bar, 0.5 * volume);
-  for (const double ended : {0.675e-9, 0.705e-9}) EXPECT_LT(std::abs(volume - ended), bar) << volume;
+  for (const double ended : {0.619e-9, 0.705e-9}) EXPECT_LT(std::abs(volume - ended), bar) << volume;
 }
 
 TEST(SectionEvaluation, WearsByEnergyAsByArchardAndLessBeyondAThreshold) {
@@ -318,10 +318,10 @@ TEST(SectionEvaluation, RoughFlanksAreSofterAndRigidInTheLimit) {
     EXPECT_TRUE(found.converged()) << found.status;
     return std::pair{found.responses.at("resonance_hz"), found.responses.at("blade_fillet_stress_pa")};
   };
-  const auto rigid = resonance(0), soft = resonance(1e13), stiff = resonance(1e14), stiffer = resonance(1e15);
+  const auto rigid = resonance(0), soft = resonance(1e13), stiff = resonance(1e15), stiffer = resonance(1e16);
   EXPECT_LT(soft.first, 0.999 * rigid.first);
-  // What is left falls with the compliance, as long as it is more than the edges of worn zones leave open.
-  EXPECT_NEAR((rigid.first - stiff.first) / (rigid.first - stiffer.first), 10, 2);
+  // What is left falls with the compliance.
+  EXPECT_NEAR((rigid.first - stiff.first) / (rigid.first - stiffer.first), 10, 1);
   EXPECT_NEAR(stiffer.second, rigid.second, 1e-2 * rigid.second);
 }
 
