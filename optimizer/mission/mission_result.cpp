@@ -19,7 +19,7 @@ namespace dovetail::optimizer {
 
 namespace {
 
-std::string named(const Response& response) {
+std::string response_name(const Response& response) {
   return std::string(response.name);
 }
 
@@ -143,8 +143,8 @@ class MissionStages {
 
   void answer(const wear::Mission& mission) {
     Evaluation& evaluation = result_.evaluation;
-    evaluation.responses[named(kMissionVolume)] = mission.worn_volume;
-    evaluation.responses[named(kMissionDepth)] = mission.largest_depth;
+    evaluation.responses[response_name(kMissionVolume)] = mission.worn_volume;
+    evaluation.responses[response_name(kMissionDepth)] = mission.largest_depth;
     for (std::size_t k = 0; k < loads_.size(); ++k)
       evaluation.responses[of_case(kMissionDrift.name, loads_[k].name)] =
           result_.worn[k].omega / result_.unworn[k].omega - 1;

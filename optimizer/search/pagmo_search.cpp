@@ -97,10 +97,11 @@ SearchOutcome too_few(Algorithm algorithm) {
 
 /// Fitness of a front: the objectives of who keeps the limits. Of anybody else every one is far beyond those, by what
 /// is broken, which is constrained domination [Deb 2002]: less broken is better, and any broken limit worse than none.
-std::vector<double> front_fitness(const Judgement& judgement, const std::vector<double>& scale) {
+std::vector<double> front_fitness(const Candidate& candidate, const std::vector<double>& scale) {
+  const Judgement& judgement = candidate.judgement;
   constexpr double kBeyond = 1e6;
   std::vector<double> fitness(scale.size());
-  const double violation = judgement.computed || judgement.rules
+  const double violation = judgement.computed || candidate.evaluation.infeasible()
                                ? std::min(judgement.violation, SubstituteParams{}.most_violation)
                                : 2 * SubstituteParams{}.most_violation;  // failed: nothing is known
   for (std::size_t i = 0; i < scale.size(); ++i)
@@ -184,11 +185,11 @@ SearchOutcome nsga2_search(EvaluationSession& session, std::uint64_t seed) {
   const AtOnce values = [&](const Points& points) {
     Points fitness;
     for (const std::size_t index : session.evaluate_all(points, std::string(to_string(Algorithm::nsga2))))
-      fitness.push_back(front_fitness(session[index].judgement, scale));
+      fitness.push_back(front_fitness(session[index], scale));
     return fitness;
   };
   Points fitness;
-  for (const Candidate& candidate : session.candidates()) fitness.push_back(front_fitness(candidate.judgement, scale));
+  for (const Candidate& candidate : session.candidates()) fitness.push_back(front_fitness(candidate, scale));
   Questions questions;
   pagmo::population population(CubeProblem{&questions, &values, variables, scale.size()}, 0, short_seed(seed));
   for (const auto index : pagmo::select_best_N_mo(fitness, count))

@@ -186,7 +186,7 @@ SearchOutcome front_search(EvaluationSession& session, FinerLimits& finer) {
   bool held = !finer.active();
   for (int look = 0; !held && session.best() && look < CorrectionParams{}.looks; ++look)
     held = finer.holds(front_in(session).compromise);
-  if (!held)
+  if (!held && session.best())
     outcome.message =
         describe(outcome.status, outcome.message) +
         "; points that looked like a compromise break limits on finer meshes, and the one there is now was "
@@ -208,7 +208,7 @@ OptimizationResult result_of(EvaluationSession& session, Status status, const st
   result.statistics = session.statistics();
   result.evaluations.assign(session.candidates().begin(), session.candidates().end());
   if (!result.best) result.message += "; no candidate meets every constraint";
-  result.message += tie_words(session);
+  if (!result.front) result.message += tie_words(session);
   return result;
 }
 

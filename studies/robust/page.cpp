@@ -47,6 +47,7 @@ std::string with_bar(const optimizer::Barred& value, const report::Unit& unit) {
 std::string less(const Results& r, std::size_t other) {
   const optimizer::Barred one = worst_volume(r.study, r.designs.back().corners),
                           than = worst_volume(r.study, r.designs[other].corners);
+  if (!(than.value > 0)) return one.value > 0 ? "more than the other, which does not wear" : "as little: nothing";
   const double part = 1 - one.value / than.value;
   std::string text = fmt::format("{:.0f} % {}", 100 * std::abs(part), part < 0 ? "more" : "less");
   const double at_least = 1 - (one.value + one.bar) / (than.value - than.bar);

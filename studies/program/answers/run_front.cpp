@@ -53,6 +53,10 @@ void add_front_bars(const RunSite& site, const std::string& fingerprint, const O
   std::vector<std::size_t> places;
   // The search takes the direct worn state; what a history makes of it is within the bar.
   const auto take = [&](std::size_t index, const Evaluation& barred) {
+    if (!barred.converged()) {  // parts of bars are none
+      site.err << fmt::format("dovetail: no error bars of evaluation {}: {}\n", index + 1, barred.status) << std::flush;
+      return;
+    }
     Evaluation& own = result.evaluations[index].evaluation;
     own.error_estimates = barred.error_estimates;
     for (auto& [name, bar] : own.error_estimates) {
@@ -88,7 +92,7 @@ void add_front_bars(const RunSite& site, const std::string& fingerprint, const O
     site.engine.barred_at_once(asked, told);
   else
     for (std::size_t i = 0; i < asked.size(); ++i)
-      if (!told(i, site.engine.barred(asked[i]))) break;
+      if (!told(i, optimizer::evaluated_or_refused([&] { return site.engine.barred(asked[i]); }))) break;
 }
 
 FrontRecord front_record(const optimizer::Problem& problem, const optimizer::OptimizationResult& result) {
@@ -151,7 +155,7 @@ void write_front(const fs::path& directory, const Study& study, const report::Ru
     const auto index = static_cast<std::size_t>(front.evaluation[point]);
     const EvaluationRecord& at = record.evaluations[index];
     const std::string file = point_file(point, points);
-    replace_file(folder / file, with_values(document, study.problem.space.settings(at.x)));
+    replace_file(folder / file, with_values(document, settings_at(study, at.x)));
     text += fmt::format("{},{},front/{}", point + 1, index + 1, file);
     for (std::size_t i = 0; i < front.columns(); ++i)
       text += "," + number(front.value(point, i)) + "," + number(front.bar(point, i));

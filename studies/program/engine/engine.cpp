@@ -80,7 +80,8 @@ optimizer::Evaluation mission_piece(const SceneEvaluator& evaluator, optimizer::
     for (optimizer::MissionLoads::Load& load : loads.all)
       load.scene = optimizer::in_case(std::move(load.scene),
                                       optimizer::usual_departures()[static_cast<std::size_t>(piece.number)]);
-  return evaluator.evaluate_mission(loads, optimizer::kSearch);
+  const bool closely = piece.what == Piece::What::barred;
+  return evaluator.evaluate_mission(loads, {.bars = closely, .history = closely});
 }
 
 /// Designs with bars and what the wear history decides. The best one is verified and then described: it is computed

@@ -24,7 +24,19 @@ double formula_value(const std::string& formula, const std::map<std::string, dou
   mu::Parser parser;
   for (const auto& [key, number] : numbers) parser.DefineConst(name_in_formula(key), number);
   parser.SetExpr(formula);
-  return parser.Eval();
+  const double value = parser.Eval();
+  // Of several values muParser gives the last: "2,5 + a" would be 5 + a.
+  if (parser.GetNumResults() != 1)
+    throw mu::Parser::exception_type("a comma parts the arguments of a function; decimals have a point");
+  return value;
+}
+
+/// The middle of the ranges, where the mesh of reference is made.
+std::map<std::string, double> middle_of(const optimizer::DesignSpace& space) {
+  std::vector<double> middle;
+  for (const optimizer::DesignVariable& variable : space.variables())
+    middle.push_back(variable.lower + (variable.upper - variable.lower) / 2);
+  return space.settings(middle);
 }
 
 /// What the formula may be of.
@@ -70,6 +82,7 @@ std::vector<LinkedKey> read_linked(SectionReader& root, const optimizer::Problem
                                    Problems& problems) {
   std::vector<LinkedKey> linked;
   std::map<std::string, double> variables;
+  const std::map<std::string, double> in_the_middle = middle_of(problem.space);
   for (const auto& [key, start] : problem.space.settings(problem.space.start()))
     variables[key] = optimizer::parameter(scene, key);
   for (const auto& [node, path] : entries(root, "linked", problems)) {
@@ -85,12 +98,17 @@ std::vector<LinkedKey> read_linked(SectionReader& root, const optimizer::Problem
     }
     const Node& formula = *node->find("value");
     try {
-      const double number = formula_value(*value, variables);
-      if (parameter->range.contains(number))
-        optimizer::set_parameter(scene, *key, number);
-      else
+      const double number = formula_value(*value, variables), middle = formula_value(*value, in_the_middle);
+      const auto refuse = [&](double wrong, const std::string& where) {
         problems.add(formula, section.path("value"),
-                     "comes to " + shortest(number) + ", but " + *key + " " + parameter->range.phrase());
+                     "comes to " + shortest(wrong) + where + ", but " + *key + " " + parameter->range.phrase());
+      };
+      if (!parameter->range.contains(number))
+        refuse(number, "");
+      else if (!parameter->range.contains(middle))
+        refuse(middle, " in the middle of the variables' ranges, where the mesh of all designs is made");
+      else
+        optimizer::set_parameter(scene, *key, number);
     } catch (const mu::Parser::exception_type& error) {
       problems.add(formula, section.path("value"),
                    "must be a formula of " + known_names(variables) + ": " + error.GetMsg());

@@ -240,6 +240,14 @@ std::vector<ObjectiveTerm> read_objective(SectionReader& root, const std::vector
     section.finish();
     if (term.weight == 0)
       problems.add(*node->find("weight"), section.path("weight"), "must not be 0: the term would have no effect");
+    if (front && scale)
+      problems.add(*node->find("scale"), section.path("scale"),
+                   "has a meaning in a sum of objectives, where all have a weight; without weights they make a front");
+    const auto same = [&](const ObjectiveTerm& other) {
+      return other.response == term.response && other.over == term.over && other.target == term.target;
+    };
+    if (front && std::ranges::any_of(terms, same))
+      problems.add(*node->find("response"), section.path("response"), "is an objective of the front already");
     if (weighted > 0 && !node->find("weight"))
       problems.missing(node, section.path("weight"),
                        "is missing; of several objectives all have a weight, for their sum, or none, for a front");
@@ -299,14 +307,22 @@ void refuse_missions(SectionReader& root, const optimizer::Scene& scene, const o
                      Problems& problems) {
   const std::vector<std::string> names = optimizer::responses_of(problem);
   const bool followed = scene.loading.follow != wear::Follow::fixed;
-  if (!optimizer::of_a_mission(names) || (!followed && !optimizer::missions_of(problem.cases, true).empty())) return;
+  if (!optimizer::of_a_mission(names)) return;
+  const bool refused = followed || optimizer::missions_of(problem.cases, true).empty();
+  const bool sampled = std::ranges::any_of(problem.cases, [](const auto& load) { return !load.sample_of.empty(); });
   for (const char* table : {"objective", "constraint"})
     for (const auto& [node, path] : entries(root, table, problems)) {
       const Node* name = node->find("response");
       if (name == nullptr || !optimizer::of_a_mission({name->text})) continue;
-      problems.add(*name, path + ".response",
-                   followed ? "is of flanks that wear at held frequencies: needs loading.follow = \"fixed\""
-                            : "is of cases that act on the same flanks: none of them may change the geometry");
+      if (refused)
+        problems.add(*name, path + ".response",
+                     followed ? "is of flanks that wear at held frequencies: needs loading.follow = \"fixed\""
+                              : "is of cases that act on the same flanks: none of them may change the geometry");
+      const Node* over = node->find("over");
+      if (over && over->text != "worst" && (!sampled || over->text == "sum"))
+        problems.add(*over, path + ".over",
+                     "must be \"worst\" or not be given: what all cases wear off together is one "
+                     "number of them all");
     }
 }
 

@@ -38,8 +38,10 @@ inline Evaluation broken(double violation) {
   return e;
 }
 
+/// Of what fails after it was meshed the rules are known, and kept.
 inline Evaluation failed() {
   Evaluation e;
+  e.constraints["rule:wall"] = -1;
   e.status = failed_at("steady_state", Status::iteration_limit);
   return e;
 }

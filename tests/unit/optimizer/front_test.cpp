@@ -117,6 +117,18 @@ OptimizerOptions front_options(Algorithm algorithm) {
   return options;
 }
 
+// Most designs fail, some break the limit, few keep it.
+TEST(Front, IsLookedForWhereLimitsBreakRatherThanWhereDesignsFail) {
+  const Evaluator evaluator = [](std::span<const double> x) { return x[0] < 0.6 ? two_bowls_at(x) : failed(); };
+  OptimizerOptions options = front_options(Algorithm::nsga2);
+  options.max_evaluations = 150;
+  const OptimizationResult result = run_optimization(two_bowls(), evaluator, options);
+  const auto late = result.evaluations.end() - 60;
+  EXPECT_LT(std::count_if(late, result.evaluations.end(), [](const Candidate& c) { return !c.judgement.computed; }),
+            20);
+  EXPECT_TRUE(result.front);
+}
+
 class FrontBy : public ScratchFile, public testing::WithParamInterface<Algorithm> {};
 
 TEST_P(FrontBy, IsTheSameBitsForAnyNumberAtOnceAndWhereverTheRunWasKilled) {

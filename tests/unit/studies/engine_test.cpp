@@ -189,5 +189,20 @@ TEST(Cases, AreWhatTheStudyWouldBeWithTheirKeys) {
             e.responses.at("peak_amplitude_m@fast"));
 }
 
+// What points of a front are looked at with, missions too.
+TEST(Missions, HaveBarsWhereTheyAreAskedFor) {
+  studies::Study study;
+  study.scene.mesh = {.flank_elements = 8, .fillet_fraction = 0.4, .bulk_size = 6e-3, .aerofoil_elements = 8};
+  study.scene.solver.harmonics = 1;
+  study.problem.objective = {{.response = "mission_wear_volume_m3"}};
+  study.problem.cases = {{.name = "plain", .changes = {}}, {.name = "hard", .changes = {{"loading.tip_force_n", 3}}}};
+  const studies::RunEngine engine = studies::study_engine(study);
+  const Evaluation searched = engine.evaluate({}), barred = engine.barred({});
+  ASSERT_EQ(searched.status, "converged");
+  ASSERT_EQ(barred.status, "converged");
+  EXPECT_FALSE(searched.error_estimates.contains("mission_wear_volume_m3"));
+  EXPECT_GT(barred.error_estimates.at("mission_wear_volume_m3"), 0);
+}
+
 }  // namespace
 }  // namespace dovetail::optimizer

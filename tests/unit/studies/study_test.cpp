@@ -351,6 +351,8 @@ TEST(Study, SeveralObjectivesAreASumWithWeightsAndAFrontWithout) {
   EXPECT_THAT(complaints(sum + other + "scale = 0.1\n"), HasSubstr("objective[1].weight: is missing; of several"));
   EXPECT_THAT(complaints(replaced(sample(), "weight = 1\n", "reference = 1e-9\n")),
               HasSubstr("objective[0].reference = 1e-09: has a meaning where several objectives without weight"));
+  EXPECT_THAT(complaints(one + other + "scale = 0.1\n"), HasSubstr("objective[1].scale = 0.1: has a meaning in a sum"));
+  EXPECT_THAT(complaints(one + other + other), HasSubstr("is an objective of the front already"));
 }
 
 TEST(Study, AlgorithmsHaveToSuitTheObjectives) {
@@ -469,6 +471,8 @@ TEST(StudyCases, ActTogetherOnFlanksOfOneShapeAtHeldFrequencies) {
   EXPECT_EQ(complaint(limit), "");
   EXPECT_THAT(complaint(cases + "\"geometry.platform_width_mm\" = 29\n" + limit),
               HasSubstr("none of them may change the geometry"));
+  EXPECT_THAT(complaint(cases + "\"loading.tip_force_n\" = 1\n" + limit + "over = \"sum\"\n"),
+              HasSubstr("one number of them all"));
 }
 
 /// The sample with another objective.
@@ -547,6 +551,9 @@ TEST(StudyLinks, WrongOnesAreRefused) {
                                                                  HasSubstr("geometry_neck_width_mm")));
   EXPECT_THAT(linked(width, "-1"), HasSubstr("comes to -1, but geometry.shank_width_mm must be"));
   EXPECT_THAT(linked(width, "0 / 0"), HasSubstr("comes to"));
+  EXPECT_THAT(linked(width, "2,5 + geometry_neck_width_mm"), HasSubstr("decimals have a point"));
+  EXPECT_EQ(linked(width, "max(9, geometry_neck_width_mm)"), "");
+  EXPECT_THAT(linked(width, "10 + 0 * sqrt(8.5001 - geometry_neck_width_mm)"), HasSubstr("in the middle of the"));
   EXPECT_THAT(linked("geometry.neck_width_mm", "9"), HasSubstr("is a design variable"));
   EXPECT_THAT(linked("geometry.shank_widht_mm", "9"), HasSubstr("did you mean \"geometry.shank_width_mm\"?"));
   EXPECT_THAT(linked("mesh.bulk_size_mm", "3"), HasSubstr("cannot be varied"));
