@@ -22,7 +22,8 @@ std::vector<std::string> run(const ready_study::Call& call) {
   robust::write(call.folder, results);
   std::vector<std::string> failures;
   for (const robust::Design& design : results.designs)
-    if (!design.corners.converged()) failures.push_back(design.name + ": " + design.corners.status);
+    for (const auto* of : {&design.corners, &design.samples})
+      if (!of->converged()) failures.push_back(design.name + ": " + of->status);
   return failures;
 }
 

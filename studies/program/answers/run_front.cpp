@@ -178,6 +178,7 @@ std::string front_words(const report::RunRecord& record) {
                                  front.hypervolume);
   for (std::size_t i = 0; i < front.columns(); ++i)
     text += fmt::format("{} {} = {:.4g}", i == 0 ? "" : ",", front.objectives[i], front.reference[i]);
+  if (front.hypervolume == 0) text += ", which no point beats in all objectives: give a reference";
   text += "\n";
   for (std::size_t i = 0; i < front.columns(); ++i) {
     double least = kInfinity, most = -kInfinity;

@@ -83,9 +83,8 @@ std::vector<std::size_t> best_designs(const optimizer::Problem& problem, const o
   std::vector<std::size_t> order, chosen;
   for (std::size_t i = 0; i < all.size(); ++i)
     if (all[i].judgement.feasible) order.push_back(i);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return all[a].judgement.objective < all[b].judgement.objective;
-  });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return optimizer::better(all[a].judgement, all[b].judgement); });
   // The best was looked at more closely than the others.
   if (result.best && count > 0) chosen.push_back(*result.best);
   if (result.front) {

@@ -95,6 +95,9 @@ std::string conclusion(const Study& study, const OptimizationResult& result, con
       "{}: {} evaluations, {} of them stored before; {} feasible, {} break a limit or a rule, {} failed; {}\n",
       study.name, all, counts.replayed, feasible, all - feasible - failed, failed,
       result.message.empty() ? std::string(to_string(result.status)) : result.message);
+  if (counts.unused_records > 0)
+    text += fmt::format("{} stored evaluations were not asked for again: this search took another way\n",
+                        counts.unused_records);
   if (!result.best) return text;
   const auto objective = [&](const report::EvaluationRecord& of) {
     return with_bar(of.objective, judgement_bars(record.problem, of.responses, of.error_estimates).objective);

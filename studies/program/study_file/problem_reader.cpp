@@ -240,6 +240,10 @@ std::vector<ObjectiveTerm> read_objective(SectionReader& root, const std::vector
     section.finish();
     if (term.weight == 0)
       problems.add(*node->find("weight"), section.path("weight"), "must not be 0: the term would have no effect");
+    if (term.reference &&
+        (term.over == to_string(optimizer::Over::deviation) || term.over == to_string(optimizer::Over::sum)))
+      problems.add(*node->find("reference"), section.path("reference"),
+                   "is a value of the response, which a " + term.over + " over cases is not: leave it out");
     if (front && scale)
       problems.add(*node->find("scale"), section.path("scale"),
                    "has a meaning in a sum of objectives, where all have a weight; without weights they make a front");
