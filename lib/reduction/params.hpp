@@ -50,7 +50,6 @@ struct ChangeParams {
   /// Entry, over the largest, up to which it does not act on fields of contact forces. Larger: less work; what is left
   /// out is that part of a change whose square is left out anyway.
   double negligible = 3e-4;
-  int fields_at_once = 64;  ///< where they are solved for: more hardly make back-solves cheaper
 };
 
 /// What models from files must keep.

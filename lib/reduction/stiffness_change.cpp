@@ -44,18 +44,6 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> on_rows(const Sparse& matrix, const
   return result;
 }
 
-/// Some rows of displacements to unit forces on the trace, of all a part at a time.
-Eigen::MatrixXd forced_on(const std::vector<int>& rows, const ResidualFlexibility& structure) {
-  const Eigen::Index nt = structure.on_contact().rows(), m = structure.basis().vectors.cols();
-  Eigen::MatrixXd x(static_cast<Eigen::Index>(rows.size()), nt);
-  for (Eigen::Index first = 0; first < nt; first += ChangeParams{}.fields_at_once) {
-    const Eigen::Index count = std::min<Eigen::Index>(ChangeParams{}.fields_at_once, nt - first);
-    const Eigen::MatrixXd forces = Eigen::MatrixXd::Identity(nt, nt).middleCols(first, count);
-    x.middleCols(first, count) = structure.field(Eigen::MatrixXd::Zero(m, count), forces)(rows, Eigen::all);
-  }
-  return x;
-}
-
 }  // namespace
 
 StiffnessChange stiffness_change(const ResidualFlexibility& structure, Sparse change, const Eigen::MatrixXd& forced) {
@@ -68,10 +56,7 @@ StiffnessChange stiffness_change(const ResidualFlexibility& structure, Sparse ch
   // Fields of contact forces decay: of them the rows count where the change is not negligible.
   const std::vector<int> rows = rows_that_count(result.whole);
   result.on_rows = on_rows(result.whole, rows);
-  if (forced.size() > 0)
-    result.fields = forced(rows, Eigen::all).transpose();
-  else
-    result.fields = forced_on(rows, structure).transpose();
+  result.fields = forced(rows, Eigen::all).transpose();
   result.of_basis = on_phi(rows, Eigen::all);
   return result;
 }

@@ -51,11 +51,9 @@ Eigen::SparseMatrix<double> geometric_stiffness(const Scene& scene, const fem::S
                                        fem::quadrature_stress(sector.mesh, materials(scene), displacement));
 }
 
-/// Displacements to unit forces on the trace, unless they are too large to be kept.
+/// Displacements to unit forces on the trace.
 Eigen::MatrixXd forced(const reduction::ResidualFlexibility& structure) {
-  const Eigen::Index n = structure.basis().vectors.rows(), m = structure.basis().vectors.cols();
-  const Eigen::Index trace = structure.on_contact().rows();
-  if (static_cast<double>(n) * static_cast<double>(trace) > MatricesParams{}.largest_fields) return {};
+  const Eigen::Index m = structure.basis().vectors.cols(), trace = structure.on_contact().rows();
   return structure.field(Eigen::MatrixXd::Zero(m, trace), Eigen::MatrixXd::Identity(trace, trace));
 }
 
@@ -208,6 +206,12 @@ Eigen::SparseMatrix<double> DesignMatrices::stiffness() const {
   return shared->stiffness + change;
 }
 
+Prestress prestress_of(const Scene& scene, const fem::SectorMesh& sector) {
+  const double unknowns = static_cast<double>(sector.mesh.nodes.size());
+  const double forces = static_cast<double>(fem::contact_surface(sector).position.size());
+  return unknowns * forces > MatricesParams{}.largest_fields ? Prestress::own : scene.solver.prestress;
+}
+
 DesignMatrices of_design(const Scene& scene, const fem::SectorMesh& sector, const fem::ContactCells& cells,
                          std::shared_ptr<const Matrices> shared) {
   DesignMatrices result;
@@ -224,8 +228,10 @@ DesignMatrices of_design(const Scene& scene, const fem::SectorMesh& sector, cons
   return result;
 }
 
-DesignMatrices MatricesStore::matrices(const Scene& scene, const fem::SectorMesh& sector,
+DesignMatrices MatricesStore::matrices(const Scene& asked, const fem::SectorMesh& sector,
                                        const fem::ContactCells& cells, std::map<std::string, double>& timings_s) {
+  Scene scene = asked;
+  scene.solver.prestress = prestress_of(asked, sector);
   std::shared_ptr<const Matrices> same = shared(scene, sector, cells, timings_s);
   Stopwatch watch;
   DesignMatrices result = of_design(scene, sector, cells, std::move(same));

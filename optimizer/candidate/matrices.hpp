@@ -36,7 +36,7 @@ struct Matrices {
   // To add what the preload of another design changes:
   reduction::StaticCondensation at_rest;  ///< of K; its factors are kept for designs that share the matrices alone
   Eigen::VectorXd preloaded;              ///< displacement of all nodes
-  Eigen::MatrixXd forced;                 ///< to unit forces on the trace [n, nt]; empty where it is too large
+  Eigen::MatrixXd forced;                 ///< to unit forces on the trace [n, nt]
 };
 
 /// What the preload that stresses the matrices acts on.
@@ -89,6 +89,10 @@ struct DesignMatrices {
   [[nodiscard]] Eigen::SparseMatrix<double> stiffness() const;
 };
 
+/// Whether designs are computed with shared matrices: as the scene asks, unless what would be kept of them is too
+/// large.
+[[nodiscard]] Prestress prestress_of(const Scene& scene, const fem::SectorMesh& sector);
+
 /// Those of a design from the ones that it shares: with its tip force, and what its own preload changes.
 [[nodiscard]] DesignMatrices of_design(const Scene& scene, const fem::SectorMesh& sector,
                                        const fem::ContactCells& cells, std::shared_ptr<const Matrices> shared);
@@ -117,7 +121,7 @@ class MatricesStore {
   /// @param sector  with its trace
   /// @param cells  the grid of contact nodes to begin with
   /// @param timings_s  of its stages, unless they were there already, are added
-  [[nodiscard]] DesignMatrices matrices(const Scene& scene, const fem::SectorMesh& sector,
+  [[nodiscard]] DesignMatrices matrices(const Scene& asked, const fem::SectorMesh& sector,
                                         const fem::ContactCells& cells, std::map<std::string, double>& timings_s);
 
  private:

@@ -28,7 +28,7 @@ struct AsperityParams {
 
 /// What is kept of matrices for designs that share them.
 struct MatricesParams {
-  double largest_fields = 1e8;  ///< numbers: 800 MB. Without them every grid of a sector costs back-solves of its own
+  double largest_fields = 1e8;  ///< numbers: 800 MB. Larger ones take longer than matrices of its own for each design
 };
 
 /// At which instants a stress is looked at.

@@ -129,7 +129,7 @@ class MissionBars {
     ask(bases, "modes", kOther.modes_factor, [](Scene& each, Computation&) {
       each.solver.modes = std::max(2 * each.solver.modes, each.solver.modes + kOther.more_modes);
     });
-    if (scene().solver.prestress == Prestress::shared)
+    if (result_.models.front().matrices.change.size() > 0)
       ask(bases, "prestress", 1, [](Scene& each, Computation&) { each.solver.prestress = Prestress::own; });
     if (!scene().kind->coarse_answers) bases.erase(bases.begin(), bases.end() - 1);
     ask(bases, "harmonics", factors.harmonics, [](Scene& each, Computation&) {

@@ -228,11 +228,8 @@ TEST_P(AtSpeed, AChangeOfTheStiffnessIsTakenToFirstOrder) {
     const Eigen::Index m = trace.structure->basis().vectors.cols(), nt = full.contact_size();
     const Eigen::MatrixXd forced =
         trace.structure->field(Eigen::MatrixXd::Zero(m, nt), Eigen::MatrixXd::Identity(nt, nt));
-    changed.change = std::make_shared<StiffnessChange>(stiffness_change(*trace.structure, size * change, {}));
-    const Reduction by_solves = reduce(changed, same, trace.contact, 1e-3);
     changed.change = std::make_shared<StiffnessChange>(stiffness_change(*trace.structure, size * change, forced));
     const Reduction found = reduce(changed, same, trace.contact, 1e-3);
-    EXPECT_LT((found.model.stiffness - by_solves.model.stiffness).norm(), 1e-12 * found.model.stiffness.norm());
     FullModel exact = full;
     exact.stiffness = full.stiffness + size * change;
     // Compliance of the contact at a frequency, and the field of contact forces.

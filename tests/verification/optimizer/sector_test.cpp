@@ -9,9 +9,11 @@
 #include <vector>
 
 #include "fem/diameter_frequencies.hpp"
+#include "fem/flank_trace.hpp"
 #include "geometry/solid/solid_family.hpp"
 #include "optimizer/bars/other_meshes.hpp"
 #include "optimizer/bars/params.hpp"
+#include "optimizer/candidate/matrices.hpp"
 #include "optimizer/evaluator.hpp"
 #include "optimizer/responses/computed.hpp"
 #include "tests/verification/optimizer/sector_joint.hpp"
@@ -40,6 +42,22 @@ double standing_frequency(const fem::SectorMesh& sector, const std::vector<fem::
   return fem::nodal_diameter_frequencies(sector, full.stiffness, full.mass, fem::BoreSupport::tangential,
                                          {.modes = {.count = 1}}, diameters)
       .frequency(0, 0);
+}
+
+// What designs would share of a sector with fine flanks is too large to be kept.
+TEST(Sector, SharesMatricesWhereWhatIsKeptOfThemFits) {
+  Scene scene = joint(kSector);
+  const auto prestress = [&scene] {
+    return prestress_of(
+        scene, fem::with_trace(geometry::mesh_solid(scene.geometry, scene.solid, scene.mesh, scene.solid_mesh).sector));
+  };
+  EXPECT_EQ(prestress(), Prestress::own);
+  scene.solver.prestress = Prestress::shared;
+  EXPECT_EQ(prestress(), Prestress::shared);
+  scene.mesh.flank_elements = 20;
+  scene.solid_mesh.contact_slot_elements = 14;
+  scene.solid_mesh.slot_elements = 14;
+  EXPECT_EQ(prestress(), Prestress::own);
 }
 
 TEST(SectorAgainstSection, FrequencyAtRestLiesBetweenPlaneStressAndPlaneStrain) {
