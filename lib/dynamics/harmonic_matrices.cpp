@@ -87,6 +87,14 @@ MatrixXcd HarmonicMatrices::rows(int h, Index first, Index count) const {
   return result;
 }
 
+MatrixXd HarmonicMatrices::mean() const {
+  if (!base_) return matrix(0).real();
+  MatrixXd result = *base_;
+  numerics::add_product(numerics::product(*coupling_, MatrixXd(inner_[0].real())), MatrixXd(coupling_->transpose()),
+                        result);
+  return result;
+}
+
 MatrixXd HarmonicMatrices::apply(const MatrixXd& x, bool conjugated) const {
   if (base_)
     // K is symmetric, and its columns stand together.

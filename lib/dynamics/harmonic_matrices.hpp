@@ -42,7 +42,7 @@ class HarmonicMatrices {
   /// Z_h; its rows first .. first + count; and Z_0.
   [[nodiscard]] Eigen::MatrixXcd matrix(int h) const { return rows(h, 0, size()); }
   [[nodiscard]] Eigen::MatrixXcd rows(int h, Eigen::Index first, Eigen::Index count) const;
-  [[nodiscard]] Eigen::MatrixXd mean() const { return matrix(0).real(); }
+  [[nodiscard]] Eigen::MatrixXd mean() const;
   /// All of them applied to real coefficients X [n (2H+1), c], as apply_harmonics does. The transpose of this real
   /// operator is that of the conjugates.
   [[nodiscard]] Eigen::MatrixXd apply(const Eigen::MatrixXd& x, bool conjugated = false) const;

@@ -14,8 +14,10 @@ namespace {
 constexpr contact::PenaltyParams kPenalty;
 constexpr PreloadParams kPreload;
 
-// The contact problem of harmonic 0 at one load level, with the slip of the level before.
-Attempt solve_level(const Joint& joint, double scale, const Eigen::MatrixXd& start) {
+// The contact problem of harmonic 0 at one load level, with the slip of the level before, whose factors serve as long
+// as few nodes change what they do.
+Attempt solve_level(const Joint& joint, double scale, const Eigen::MatrixXd& start,
+                    const std::shared_ptr<const Tangent>& before) {
   const auto system =
       std::make_shared<const dynamics::HarmonicSystem>(dynamics::harmonic_system(*joint.model, 0, 0, scale));
   Attempt level;
@@ -23,14 +25,14 @@ Attempt solve_level(const Joint& joint, double scale, const Eigen::MatrixXd& sta
   if (level.status != Status::converged) return level;
   const Problem problem(joint, system);
   const auto attempt = [&](const Problem& at, const Eigen::MatrixXd& from) {
-    const int before = level.iterations;
+    const int so_far = level.iterations;
     if (spent(joint.options.budget)) {
       level.status = Status::budget_spent;
       return false;
     }
     level = solve(std::make_shared<const Problem>(at), from.size() > 0 ? from : at.closed_start(), Method::newton,
-                  joint.options.max_iterations);
-    level.iterations += before;
+                  joint.options.max_iterations, before);
+    level.iterations += so_far;
     return level.status == Status::converged;
   };
   for (const double ratio : kPenalty.cascade) {
@@ -70,14 +72,19 @@ Preload quasi_static(const std::shared_ptr<const dynamics::CondensedModel>& mode
   Preload preload;
   preload.slip_origin = contact.slip_origin;
   Point point;
+  std::shared_ptr<const Tangent> tangent;
   // An interference fit presses before any load does. Without one there is nothing to solve at load zero.
   const bool pressed = nodes > 0 && contact.gap.minCoeff() < 0;
   double reached = 0, step = 1.0 / options.steps;
+  Eigen::MatrixXd rate;  // of the displacement with the load, over the last step
   bool at_zero = pressed;
   while (at_zero || reached < 1) {
     double scale = at_zero ? 0 : reached + step;
     if (scale > 1 - kPreload.whole) scale = 1;
-    Attempt level = solve_level(joint, scale, point.displacement);
+    // As long as no node changes what it does displacements are linear in the load.
+    const Eigen::MatrixXd start =
+        rate.size() > 0 ? Eigen::MatrixXd(point.displacement + (scale - reached) * rate) : point.displacement;
+    Attempt level = solve_level(joint, scale, start, tangent);
     preload.iterations += level.iterations;
     preload.status = within(options.budget, level.status);
     if (preload.status == Status::budget_spent) return preload;
@@ -89,9 +96,15 @@ Preload quasi_static(const std::shared_ptr<const dynamics::CondensedModel>& mode
       if (step * options.steps < std::ldexp(1.0, -options.halvings)) return preload;
       continue;
     }
+    if (scale > reached) {
+      const Eigen::MatrixXd unloaded = Eigen::MatrixXd::Zero(nodes * d, 1);
+      const Eigen::MatrixXd& before = point.displacement.size() > 0 ? point.displacement : unloaded;
+      rate = (level.point.displacement - before) / (scale - reached);
+    }
     reached = scale;
     step = std::min(2 * step, 1.0 / options.steps);
     point = std::move(level.point);
+    tangent = std::move(level.tangent);
     for (Eigen::Index i = 0; i < nodes; ++i)
       joint.condition.slip_origin.row(i) = point.nodes[static_cast<std::size_t>(i)].slip_end.head(d - 1).transpose();
   }

@@ -70,11 +70,11 @@ PreloadedContact stressed(const Scene& scene, const fem::ContactCells& cells, do
 MatricesStages::MatricesStages(const Scene& scene, const fem::SectorMesh& sector, const fem::ContactCells& cells,
                                const PreloadedContact& by, const KeptPatterns& patterns)
     : scene_(scene), sector_(sector), cells_(cells), by_(by), order_(patterns.order) {
-  matrices_.assembler = patterns.assembler;
+  matrices_->assembler = patterns.assembler;
 }
 
 reduction::FullModel MatricesStages::full_model(Eigen::SparseMatrix<double> stiffness) const {
-  const fem::SectorSystem& system = matrices_.system;
+  const fem::SectorSystem& system = matrices_->system;
   const double speed = scene_.loading.speed;
   reduction::FullModel full;
   full.stiffness.swap(stiffness);
@@ -90,46 +90,47 @@ reduction::FullModel MatricesStages::full_model(Eigen::SparseMatrix<double> stif
 }
 
 void MatricesStages::go_on_from(const Matrices& same) {
-  matrices_.assembler = same.assembler;
-  matrices_.system = same.system;
-  matrices_.stiffness = same.stiffness;
-  matrices_.trace.structure = same.trace.structure;  // for its factor
-  matrices_.at_rest = same.at_rest;
-  matrices_.preloaded = same.preloaded;
+  matrices_->assembler = same.assembler;
+  matrices_->system = same.system;
+  matrices_->stiffness = same.stiffness;
+  matrices_->trace.structure = same.trace.structure;  // for its factor
+  matrices_->at_rest = same.at_rest;
+  matrices_->preloaded = same.preloaded;
 }
 
 void MatricesStages::assemble() {
-  matrices_.system = fem::build_sector_system(sector_, materials(scene_), *matrices_.assembler);
+  matrices_->system = fem::build_sector_system(sector_, materials(scene_), *matrices_->assembler);
 }
 
 void MatricesStages::add_prestress() {
-  matrices_.at_rest = reduction::condense_statically(full_model(matrices_.system.stiffness));
-  const Status prestress = preloaded(scene_, cells_, by_, matrices_, matrices_.preloaded);
+  matrices_->at_rest = reduction::condense_statically(full_model(matrices_->system.stiffness));
+  const Status prestress = preloaded(scene_, cells_, by_, *matrices_, matrices_->preloaded);
   if (prestress != Status::converged) {
-    matrices_.status = failed_at("prestress", prestress);
+    matrices_->status = failed_at("prestress", prestress);
     return;
   }
-  matrices_.stiffness = fem::stiffness_at_speed(
-      matrices_.system.full, geometric_stiffness(scene_, sector_, *matrices_.assembler, matrices_.preloaded),
+  matrices_->stiffness = fem::stiffness_at_speed(
+      matrices_->system.full, geometric_stiffness(scene_, sector_, *matrices_->assembler, matrices_->preloaded),
       scene_.loading.speed);
-  if (scene_.solver.prestress == Prestress::own) matrices_.at_rest = {};
+  if (scene_.solver.prestress == Prestress::own) matrices_->at_rest = {};
 }
 
 void MatricesStages::reduce() {
   // Of the same stiffness, where other modes of it were asked for before.
-  const reduction::Factor factor = matrices_.trace.structure ? matrices_.trace.structure->factor() : nullptr;
-  matrices_.trace =
-      reduction::trace_model(full_model(fem::constrain(matrices_.stiffness, matrices_.system.constraints)),
+  const reduction::Factor factor = matrices_->trace.structure ? matrices_->trace.structure->factor() : nullptr;
+  matrices_->trace =
+      reduction::trace_model(full_model(fem::constrain(matrices_->stiffness, matrices_->system.constraints)),
                              {.modes = scene_.solver.modes}, factor);
-  if (matrices_.trace.status != Status::converged)
-    matrices_.status = failed_at("reduction", matrices_.trace.status) + " " + matrices_.trace.message;
+  if (matrices_->trace.status != Status::converged)
+    matrices_->status = failed_at("reduction", matrices_->trace.status) + " " + matrices_->trace.message;
   else if (scene_.solver.prestress == Prestress::shared)
-    matrices_.forced = forced(*matrices_.trace.structure);
+    matrices_->forced = forced(*matrices_->trace.structure);
 }
 
 namespace {
 
-Matrices computed(MatricesStages stages, const Matrices* same, std::map<std::string, double>& timings_s) {
+std::shared_ptr<const Matrices> computed(MatricesStages stages, const Matrices* same,
+                                         std::map<std::string, double>& timings_s) {
   Stopwatch watch;
   if (same != nullptr) {
     stages.go_on_from(*same);
@@ -137,12 +138,12 @@ Matrices computed(MatricesStages stages, const Matrices* same, std::map<std::str
     stages.assemble();
     timings_s["assembly"] = watch.lap();
     stages.add_prestress();
-    if (outcome_of(stages.matrices().status) != Outcome::converged) return std::move(stages).matrices();
+    if (outcome_of(stages.matrices()->status) != Outcome::converged) return stages.matrices();
     timings_s["prestress"] = watch.lap();
   }
   stages.reduce();
   timings_s["reduction"] = watch.lap();
-  return std::move(stages).matrices();
+  return stages.matrices();
 }
 
 /// Takes the difference to the design's own preload into its matrices. Stress is linear in displacements, and the
@@ -260,8 +261,8 @@ std::shared_ptr<const Matrices> MatricesStore::shared(const Scene& scene, const 
     }
     last_.reset();  // before the next ones are there: both need not fit into memory, unless one goes on from the other
   }
-  auto result = std::make_shared<const Matrices>(
-      computed({scene, sector, cells, by, patterns(sector.mesh)}, same.get(), timings_s));
+  std::shared_ptr<const Matrices> result =
+      computed({scene, sector, cells, by, patterns(sector.mesh)}, same.get(), timings_s);
   const std::lock_guard lock(mutex_);
   of_ = std::move(asked);
   last_ = result;

@@ -63,8 +63,7 @@ class MatricesStages {
   void add_prestress();  ///< preload without geometric stiffness, and the stiffness that its stress leaves
   void reduce();         ///< to the trace
 
-  [[nodiscard]] const Matrices& matrices() const& { return matrices_; }
-  [[nodiscard]] Matrices matrices() && { return std::move(matrices_); }
+  [[nodiscard]] const std::shared_ptr<Matrices>& matrices() const { return matrices_; }
   /// What is reduced, with a stiffness in independent coordinates.
   [[nodiscard]] reduction::FullModel full_model(Eigen::SparseMatrix<double> stiffness) const;
 
@@ -74,7 +73,7 @@ class MatricesStages {
   const fem::ContactCells& cells_;
   const PreloadedContact& by_;
   std::shared_ptr<numerics::EliminationOrder> order_;
-  Matrices matrices_;
+  std::shared_ptr<Matrices> matrices_ = std::make_shared<Matrices>();
 };
 
 /// The matrices of a candidate, of its own or shared by designs that differ in the form of their flanks, friction, wear

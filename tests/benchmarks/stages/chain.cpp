@@ -45,11 +45,11 @@ Chain::Chain(const BenchmarkScene& of)
     : scene(of.design()), previous(previous_of(of, scene)), mesher(previous.kind->mesher(previous)) {}
 
 double Chain::trace_size() const {
-  return static_cast<double>(matrices->matrices().system.contact_size());
+  return static_cast<double>(matrices->matrices()->system.contact_size());
 }
 
 double Chain::contact_size() const {
-  return static_cast<double>(candidate.cells.count() * matrices->matrices().system.full.dimensions);
+  return static_cast<double>(candidate.cells.count() * matrices->matrices()->system.full.dimensions);
 }
 
 std::vector<Kernel> kernels(const Chain& chain) {

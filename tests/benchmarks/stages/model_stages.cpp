@@ -32,14 +32,13 @@ double assembled_bytes(const fem::SectorSystem& system) {
 
 /// The order of elimination is kept from design to design: found here, it is in no stage.
 void find_order(Chain& chain) {
-  const reduction::FullModel full = chain.matrices->full_model(chain.matrices->matrices().system.stiffness);
+  const reduction::FullModel full = chain.matrices->full_model(chain.matrices->matrices()->system.stiffness);
   (void)numerics::PartialCholesky().factorise(full.stiffness, full.contact_size(), chain.patterns.order.get());
 }
 
 void take_matrices(Chain& chain) {
   chain.candidate.matrices =
-      optimizer::of_design(chain.scene, chain.candidate.mesh.sector, chain.candidate.cells,
-                           std::make_shared<const optimizer::Matrices>(chain.matrices->matrices()));
+      optimizer::of_design(chain.scene, chain.candidate.mesh.sector, chain.candidate.cells, chain.matrices->matrices());
   require(chain.candidate.matrices.status == "converged", "matrices", chain.candidate.matrices.status);
 }
 
@@ -98,7 +97,7 @@ std::vector<Stage> matrices_stages(Chain& chain) {
                  {kDenseInverse, cube(chain.trace_size())}};
   };
   const auto full = [&] {
-    const optimizer::Matrices& made = chain.matrices->matrices();
+    const optimizer::Matrices& made = *chain.matrices->matrices();
     if (parts.full.stiffness.size() == 0)
       parts.full = chain.matrices->full_model(fem::constrain(made.stiffness, made.system.constraints));
   };
@@ -109,7 +108,7 @@ std::vector<Stage> matrices_stages(Chain& chain) {
   return {
       {{"assembly", [&] { chain.matrices->assemble(); }},
        [&] {
-         return Needs{{kTraffic, assembled_bytes(chain.matrices->matrices().system)}};
+         return Needs{{kTraffic, assembled_bytes(chain.matrices->matrices()->system)}};
        }},
       {{"prestress", [&] { chain.matrices->add_prestress(); }, [&] { find_order(chain); }},
        [] {
