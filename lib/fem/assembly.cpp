@@ -136,7 +136,7 @@ Assembler::Assembler(const Mesh& mesh) : connectivity_(mesh.connectivity), eleme
     }
   }
   outer[d * n] = next;
-  std::fill(pattern_.valuePtr(), pattern_.valuePtr() + next, 0.0);
+  std::fill(pattern_.valuePtr(), pattern_.valuePtr() + next, static_cast<signed char>(0));
 
   position_.reserve(mesh.connectivity.size() * static_cast<std::size_t>(mesh.nodes_per_element()));
   for (int e = 0; e < elements_; ++e)
@@ -157,7 +157,8 @@ bool Assembler::serves(const Mesh& mesh) const {
 FullMatrices Assembler::stiffness_and_mass(const Mesh& mesh, std::span<const Material> materials) const {
   assert(mesh.element_count() == elements_ && mesh.dimensions() * mesh.node_count() == pattern_.rows());
   check(mesh, materials);
-  FullMatrices full{mesh.dimensions(), pattern_, pattern_};
+  FullMatrices full{mesh.dimensions(), pattern_.cast<double>(), {}};
+  Eigen::SparseMatrix<double> on_pattern = full.stiffness;  // the mass
   with_element(mesh.kind, [&]<class Element>(Element) {
     std::vector<Elasticity<Element>> elasticities;
     for (const Region& region : mesh.regions)
@@ -177,16 +178,17 @@ FullMatrices Assembler::stiffness_and_mass(const Mesh& mesh, std::span<const Mat
                           .allowed = "must have a positive Jacobian determinant (the element is inverted)"});
       const Scatter<Element> scatter(mesh, e, position_, column_length_);
       scatter.add(stiffness, full.stiffness.valuePtr());
-      scatter.add(mass, full.mass.valuePtr());
+      scatter.add(mass, on_pattern.valuePtr());
     }
   });
+  full.mass = on_pattern.pruned();
   return full;
 }
 
 Eigen::SparseMatrix<double> Assembler::geometric_stiffness(const Mesh& mesh, const StressField& stress) const {
   assert(mesh.element_count() == elements_);
   assert(stress.rows() == stress_components(mesh.kind) && stress.cols() == quadrature_points(mesh.kind) * elements_);
-  Eigen::SparseMatrix<double> full = pattern_;
+  Eigen::SparseMatrix<double> full = pattern_.cast<double>();
   with_element(mesh.kind, [&]<class Element>(Element) {
     ScalarMatrix<Element> stiffness;
     for (int e = 0; e < elements_; ++e) {

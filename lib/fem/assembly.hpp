@@ -14,8 +14,9 @@ namespace dovetail::fem {
 /// (xx, yy, zz, xy, yz, zx) in space, the points of an element in a row.
 using StressField = Eigen::MatrixXd;
 
-/// Full matrices over all nodes, dof d i + c for component c of node i in d dimensions. They share one pattern
-/// (explicit zeros included), so their values may be combined and a symbolic factorisation reused.
+/// Full matrices over all nodes, dof d i + c for component c of node i in d dimensions. The stiffness holds explicit
+/// zeros where elements couple, so that a symbolic factorisation may be reused; the mass couples equal components only,
+/// and holds none.
 struct FullMatrices {
   int dimensions = 2;                     ///< d
   Eigen::SparseMatrix<double> stiffness;  ///< [d n, d n] N/m, both triangles
@@ -38,15 +39,13 @@ class Assembler {
   /// Stiffness due to an initial stress: u^T K_g u = integral of sigma_ij u_k,i u_k,j. N/m, the same pattern.
   [[nodiscard]] Eigen::SparseMatrix<double> geometric_stiffness(const Mesh& mesh, const StressField& stress) const;
 
-  [[nodiscard]] const Eigen::SparseMatrix<double>& pattern() const { return pattern_; }
-
  private:
   /// [elements, N, N] where the block of nodes (a, b) begins, b outer, in the first column of b; its next columns
   /// follow at distances of column_length_.
   std::vector<int> position_;
   std::vector<int> column_length_;  ///< [n]
   std::vector<int> connectivity_;
-  Eigen::SparseMatrix<double> pattern_;
+  Eigen::SparseMatrix<signed char> pattern_;  ///< zeros
   int elements_ = 0;
 };
 

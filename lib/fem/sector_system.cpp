@@ -53,7 +53,7 @@ SectorSystem build_sector_system(const SectorMesh& sector, std::span<const Mater
   system.full = assembler.stiffness_and_mass(sector.mesh, materials);
   system.constraints = real_constraints(sector, bore);
   system.stiffness = constrain(system.full.stiffness, system.constraints);
-  system.mass = constrain(system.full.mass.pruned(), system.constraints);
+  system.mass = constrain(system.full.mass, system.constraints);
   system.mass.prune(0.0);
   const Eigen::SparseMatrix<double>& t = system.constraints.transformation;
   system.centrifugal = t.transpose() * centrifugal_load(system.full.mass, sector.mesh);
@@ -70,18 +70,12 @@ SectorSystem build_sector_system(const SectorMesh& sector, std::span<const Mater
 Eigen::SparseMatrix<double> stiffness_at_speed(const FullMatrices& full, const Eigen::SparseMatrix<double>& geometric,
                                                double omega) {
   Eigen::SparseMatrix<double> result = full.stiffness;
-  const double square = omega * omega;
-  if (full.dimensions == 2) {
-    result.coeffs() += geometric.coeffs() - square * full.mass.coeffs();
-    return result;
-  }
-  for (Eigen::Index column = 0; column < result.cols(); ++column) {
-    const Eigen::Index first = result.outerIndexPtr()[column], count = result.outerIndexPtr()[column + 1] - first;
-    // Mass couples equal components only, so a column of z has nothing but what acts along the axis.
-    result.coeffs().segment(first, count) += geometric.coeffs().segment(first, count);
-    if (column % 3 != 2) result.coeffs().segment(first, count) -= square * full.mass.coeffs().segment(first, count);
-  }
-  return result;
+  result.coeffs() += geometric.coeffs();
+  // Mass couples equal components only: a column of z has nothing but what acts along the axis.
+  Eigen::VectorXd square = Eigen::VectorXd::Constant(result.cols(), omega * omega);
+  if (full.dimensions == 3)
+    for (Eigen::Index z = 2; z < square.size(); z += 3) square(z) = 0;
+  return result - full.mass * square.asDiagonal();
 }
 
 }  // namespace dovetail::fem

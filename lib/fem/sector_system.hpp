@@ -33,7 +33,7 @@ struct SectorSystem {
   Eigen::VectorXd tip;  ///< [m] T^T of a unit tangential (x) force at the tip node; also the output vector
   ContactSurface contact;
 
-  [[nodiscard]] Eigen::Index size() const { return stiffness.rows(); }
+  [[nodiscard]] Eigen::Index size() const { return constraints.size(); }
   [[nodiscard]] Eigen::Index internal_size() const { return constraints.internal_count; }
   [[nodiscard]] Eigen::Index contact_size() const { return constraints.contact_count; }
 };

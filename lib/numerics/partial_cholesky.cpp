@@ -79,7 +79,8 @@ struct PartialCholesky::Factor {
   }
   [[nodiscard]] const int* order() const { return static_cast<const int*>(factor->Perm); }
 
-  [[nodiscard]] Eigen::MatrixXd border_factor() const;
+  [[nodiscard]] Eigen::MatrixXd reversed_border() const;
+  void forget_border();
   void eliminate(Eigen::MatrixXd& x) const;
   void substitute(Eigen::MatrixXd& x) const;
 };
@@ -103,17 +104,27 @@ Status PartialCholesky::Factor::factorise(Sparse& lower, double& shift) {
   return Status::singular;
 }
 
-// The Cholesky factor of S + shift I.
-Eigen::MatrixXd PartialCholesky::Factor::border_factor() const {
+// The Cholesky factor of S + shift I with rows and columns in reverse order.
+Eigen::MatrixXd PartialCholesky::Factor::reversed_border() const {
   const auto border = static_cast<Eigen::Index>(factor->n) - interior;
+  const Eigen::Index last = static_cast<Eigen::Index>(factor->n) - 1;
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(border, border);
   for (int s = 0; s < supernodes(); ++s) {
     const Panel all = panel(s, true);
     for (int column = panel(s, false).columns; column < all.columns; ++column)
       for (int row = column; row < all.height; ++row)
-        result(all.rows[row] - interior, all.first + column - interior) = all.values[column * all.height + row];
+        result(last - all.rows[row], last - all.first - column) = all.values[column * all.height + row];
   }
   return result;
+}
+
+// Panels of the border stand last, and are as large as the border squared.
+void PartialCholesky::Factor::forget_border() {
+  int kept = 0;
+  while (kept < supernodes() && panel(kept, false).columns > 0) ++kept;
+  const auto size = static_cast<std::size_t>(static_cast<const int*>(factor->px)[kept]);
+  if (kept < supernodes() && size > 0)
+    factor->x = cholmod_realloc(size, sizeof(double), factor->x, &factor->xsize, &common);
 }
 
 void PartialCholesky::Factor::eliminate(Eigen::MatrixXd& x) const {
@@ -262,11 +273,14 @@ Status PartialCholesky::factorise(const Sparse& a, Eigen::Index border, Eliminat
   auto factor = std::make_unique<Factor>((order ? *order : own).of(lower, border)->factor, interior);
   const Status status = factor->factorise(lower, shift);
   if (status != Status::converged) return status;
-  // L L^T by LAPACK, which has U U^T: U is L in reverse order.
-  Eigen::MatrixXd upper = factor->border_factor().reverse();
+  Sparse().swap(lower);
+  // L L^T by LAPACK, which has U U^T: U is L in reverse order. In place: the border may be as large as the rest.
+  schur_ = factor->reversed_border();
+  factor->forget_border();
   const auto n = static_cast<lapack_int>(border);
-  if (n > 0) LAPACKE_dlauum_work(LAPACK_COL_MAJOR, 'U', n, upper.data(), n);
-  schur_ = Eigen::MatrixXd(upper.selfadjointView<Eigen::Upper>()).reverse();
+  if (n > 0) LAPACKE_dlauum_work(LAPACK_COL_MAJOR, 'U', n, schur_.data(), n);
+  schur_.triangularView<Eigen::StrictlyLower>() = schur_.transpose();
+  std::reverse(schur_.data(), schur_.data() + schur_.size());
   schur_.diagonal().array() -= shift;
   factor_ = std::move(factor);
   return schur_.allFinite() ? Status::converged : Status::not_finite;

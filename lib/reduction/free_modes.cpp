@@ -60,13 +60,14 @@ FloatingInverse::FloatingInverse(const numerics::PartialCholesky& stiffness, con
   // Negative and null directions are lifted out of the way for the inversion and put back with their own inverses.
   Eigen::VectorXd inverse = low.values.cwiseInverse();
   inverse.tail(low.values.size() - negative_).setZero();
-  const auto along = [&](const Eigen::VectorXd& values) -> Eigen::MatrixXd {
-    return numerics::product(Eigen::MatrixXd(low.vectors * values.asDiagonal()), low.vectors.transpose());
+  const auto add_along = [&](const Eigen::VectorXd& values) {
+    const Eigen::MatrixXd scaled = low.vectors * values.asDiagonal();
+    numerics::add_product(scaled, Eigen::MatrixXd(low.vectors.transpose()), schur_inverse_);
   };
-  schur_inverse_ += along(largest - low.values.array());
+  add_along(largest - low.values.array());
   status_ = numerics::invert_positive_definite(schur_inverse_);
   if (status_ != Status::converged) return;
-  if (low.values.size() > 0) schur_inverse_ += along(inverse.array() - 1 / largest);
+  if (low.values.size() > 0) add_along(inverse.array() - 1 / largest);
 
   Eigen::MatrixXd field = Eigen::MatrixXd::Zero(n, low.values.size() - negative_);
   field.bottomRows(contact) = low.vectors.rightCols(field.cols());

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -147,7 +148,8 @@ TraceModel trace_model(const FullModel& full, const ReductionOptions& options, c
   result.seconds_factorisation = lap(start);
   if (factorised != Status::converged)
     return failed(std::move(result), factorised, "the stiffness with the contact held is not positive definite");
-  const FloatingInverse inverse(*stiffness, mass);
+  std::optional<FloatingInverse> held(std::in_place, *stiffness, mass);
+  const FloatingInverse& inverse = *held;
   result.seconds_contact_solves = lap(start);
   if (inverse.status() != Status::converged)
     return failed(std::move(result), inverse.status(), "the stiffness could not be inverted on the contact");
@@ -167,6 +169,7 @@ TraceModel trace_model(const FullModel& full, const ReductionOptions& options, c
   if (basis.vectors.cols() < vectors.cols())
     return failed(std::move(result), Status::singular, "the kept modes and static responses are not independent");
   result.first_neglected_eigenvalue = modes.first_neglected;
+  held.reset();  // a matrix of the contact's size
 
   result.structure = std::make_shared<ResidualFlexibility>(stiffness, mass, std::move(basis), modes.soft());
   result.seconds_contact_solves += lap(start);

@@ -34,8 +34,13 @@ ResidualFlexibility::ResidualFlexibility(std::shared_ptr<const numerics::Partial
   Eigen::VectorXd softness = Eigen::VectorXd::Zero(m);
   softness.tail(m - low) = basis_.eigenvalues.tail(m - low).cwiseInverse();
   represented_ = softness.asDiagonal() * at_contact.transpose();
-  flexibility_ = constrained_ - numerics::product(at_contact, represented_);
-  flexibility_ = (0.5 * (flexibility_ + flexibility_.transpose())).eval();
+  flexibility_ = constrained_;
+  numerics::add_product(Eigen::MatrixXd(-at_contact), represented_, flexibility_);
+  // Symmetric but for rounding. In place: it is as large as the contact squared.
+  for (Eigen::Index column = 0; column < contact; ++column)
+    for (Eigen::Index row = column + 1; row < contact; ++row)
+      flexibility_(row, column) = flexibility_(column, row) =
+          0.5 * (flexibility_(row, column) + flexibility_(column, row));
   if (!flexibility_.allFinite()) status_ = Status::not_finite;
 }
 

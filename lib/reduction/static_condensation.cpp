@@ -47,14 +47,16 @@ StaticCondensation condense_statically(const FullModel& full) {
 
 StaticCondensation on_contact(const StaticCondensation& trace, const Eigen::SparseMatrix<double>& average,
                               ContactNodes contact) {
-  StaticCondensation result = trace;
+  StaticCondensation result;
+  result.status = trace.status;
   if (trace.status != Status::converged) return result;
   // min 1/2 v^T S v - f^T v with A v = u. A body that nothing holds makes S singular, but never S + s A^T A, which
   // changes the energy by 1/2 s u^T u alone: taken off again in the end.
   const Eigen::SparseMatrix<double> a = for_directions(average, contact.directions());
   const double scale = trace.model.stiffness.diagonal().mean();
-  const Eigen::MatrixXd held = trace.model.stiffness + scale * Eigen::MatrixXd(a.transpose() * a);
-  const numerics::DenseCholesky factor(held);
+  Eigen::MatrixXd held = trace.model.stiffness;
+  held += scale * Eigen::SparseMatrix<double>(a.transpose() * a);
+  const numerics::DenseCholesky factor(std::move(held));
   result.status = factor.status();
   if (result.status != Status::converged) return result;
   const Eigen::MatrixXd response = factor.solve(Eigen::MatrixXd(a.transpose()));
@@ -73,8 +75,9 @@ StaticCondensation on_contact(const StaticCondensation& trace, const Eigen::Spar
   model.cosine_force = numerics::product(trace.model.cosine_force, shape);
   model.sine_force = numerics::product(trace.model.sine_force, shape);
   model.output_vectors = numerics::product(trace.model.output_vectors, shape);
+  model.output_names = trace.model.output_names;
   const Eigen::VectorXd free = factor.solve(trace.model.static_force);
-  result.recovery.offset += trace.recovery.linear(free - shape * (a * free), Eigen::MatrixXd());
+  result.recovery.offset = trace.recovery.offset + trace.recovery.linear(free - shape * (a * free), Eigen::MatrixXd());
   using Columns = Recovery::Columns;
   result.recovery.linear = [of_trace = trace.recovery.linear, shape](const Columns& u, const Columns& lambda) {
     return of_trace(numerics::product(shape, u), lambda);

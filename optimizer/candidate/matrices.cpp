@@ -73,7 +73,7 @@ MatricesStages::MatricesStages(const Scene& scene, const fem::SectorMesh& sector
   matrices_->assembler = patterns.assembler;
 }
 
-reduction::FullModel MatricesStages::full_model(Eigen::SparseMatrix<double> stiffness) const {
+reduction::FullModel MatricesStages::full_model(Eigen::SparseMatrix<double>&& stiffness) const {
   const fem::SectorSystem& system = matrices_->system;
   const double speed = scene_.loading.speed;
   reduction::FullModel full;
@@ -103,16 +103,17 @@ void MatricesStages::assemble() {
 }
 
 void MatricesStages::add_prestress() {
-  matrices_->at_rest = reduction::condense_statically(full_model(matrices_->system.stiffness));
+  matrices_->at_rest = reduction::condense_statically(full_model(std::move(matrices_->system.stiffness)));
   const Status prestress = preloaded(scene_, cells_, by_, *matrices_, matrices_->preloaded);
   if (prestress != Status::converged) {
     matrices_->status = failed_at("prestress", prestress);
     return;
   }
+  if (scene_.solver.prestress == Prestress::own) matrices_->at_rest = {};
   matrices_->stiffness = fem::stiffness_at_speed(
       matrices_->system.full, geometric_stiffness(scene_, sector_, *matrices_->assembler, matrices_->preloaded),
       scene_.loading.speed);
-  if (scene_.solver.prestress == Prestress::own) matrices_->at_rest = {};
+  Eigen::SparseMatrix<double>().swap(matrices_->system.full.stiffness);  // nothing else needs it
 }
 
 void MatricesStages::reduce() {

@@ -30,7 +30,7 @@ struct KeptPatterns {
 struct Matrices {
   std::string status = status_of(Outcome::converged);
   std::shared_ptr<const fem::Assembler> assembler;
-  fem::SectorSystem system;               ///< on the trace
+  fem::SectorSystem system;               ///< on the trace; without what add_prestress() has used of it
   Eigen::SparseMatrix<double> stiffness;  ///< over all nodes, at speed: K + K_g - Omega^2 M
   reduction::TraceModel trace;            ///< of a tip force of 1 N
   // To add what the preload of another design changes:
@@ -65,7 +65,7 @@ class MatricesStages {
 
   [[nodiscard]] const std::shared_ptr<Matrices>& matrices() const { return matrices_; }
   /// What is reduced, with a stiffness in independent coordinates.
-  [[nodiscard]] reduction::FullModel full_model(Eigen::SparseMatrix<double> stiffness) const;
+  [[nodiscard]] reduction::FullModel full_model(Eigen::SparseMatrix<double>&& stiffness) const;
 
  private:
   const Scene& scene_;

@@ -32,7 +32,8 @@ double assembled_bytes(const fem::SectorSystem& system) {
 
 /// The order of elimination is kept from design to design: found here, it is in no stage.
 void find_order(Chain& chain) {
-  const reduction::FullModel full = chain.matrices->full_model(chain.matrices->matrices()->system.stiffness);
+  Eigen::SparseMatrix<double> stiffness = chain.matrices->matrices()->system.stiffness;
+  const reduction::FullModel full = chain.matrices->full_model(std::move(stiffness));
   (void)numerics::PartialCholesky().factorise(full.stiffness, full.contact_size(), chain.patterns.order.get());
 }
 
@@ -110,7 +111,12 @@ std::vector<Stage> matrices_stages(Chain& chain) {
        [&] {
          return Needs{{kTraffic, assembled_bytes(chain.matrices->matrices()->system)}};
        }},
-      {{"prestress", [&] { chain.matrices->add_prestress(); }, [&] { find_order(chain); }},
+      // It uses up what was assembled.
+      {{"prestress", [&] { chain.matrices->add_prestress(); },
+        [&] {
+          chain.matrices->assemble();
+          find_order(chain);
+        }},
        [] {
          return Needs{{kFactorisation, 1}, {kBackSolve, 2}};
        }},
