@@ -77,6 +77,7 @@ void add_commands(CLI::App& app, Chosen& chosen, const PoolFactory& pools) {
   add_command<ReduceOptions>(app, chosen, help::reduce(), run_reduce);
   add_command<CheckOptions>(app, chosen, help::check(), run_check);
   add_command<NewOptions>(app, chosen, help::create(), run_new);
+  add_command<MaterialsOptions>(app, chosen, help::materials(), run_materials);
   add_command<ResponseOptions>(app, chosen, help::response(), run_response);
   add_command<BackboneOptions>(app, chosen, help::backbone(), run_backbone);
   add_command<WearOptions>(app, chosen, help::wear(), run_wear);

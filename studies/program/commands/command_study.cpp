@@ -21,6 +21,7 @@
 #include "studies/program/commands/commands.hpp"
 #include "studies/program/engine/engine.hpp"
 #include "studies/program/engine/settled_study.hpp"
+#include "studies/program/study_file/materials.hpp"
 #include "studies/program/study_file/refusal.hpp"
 #include "studies/program/study_file/study_template.hpp"
 
@@ -41,7 +42,10 @@ int not_converged(const std::string& input, const std::string& what, const Strea
 int run_check(const CheckOptions& options, const Streams& streams) {
   const Study study = load_study(options.study, overrides(options.set));
   const optimizer::Problem& problem = study.problem;
-  for (const std::string& warning : warnings(study)) streams.err << options.study << ": warning: " << warning << "\n";
+  const std::vector<std::string> doubts = warnings(study);
+  for (const std::string& doubt : doubts)
+    streams.err << options.study << (options.strict ? ": " : ": warning: ") << doubt << "\n";
+  if (options.strict && !doubts.empty()) return kWrongInput;
   const auto counted = [](std::size_t count, const char* what) {
     return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
   };
@@ -60,6 +64,23 @@ int run_new(const NewOptions& options, const Streams& streams) {
     if (c == '"' || c == '\\' || static_cast<unsigned char>(c) < 0x20) c = ' ';
   replace_file(file, study_template(title));
   streams.out << fmt::format("{}: written; try `dovetail evaluate {}`\n", options.file, options.file);
+  return kDone;
+}
+
+int run_materials(const MaterialsOptions& options, const Streams& streams) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  std::string table = fmt::format("{:<22}{:>8}{:>8}{:>10}   at 20 C\n", "", "E GPa", "nu", "kg/m3");
+  for (const NamedMaterial& one : named_materials()) {
+    nlohmann::ordered_json entry{{"name", one.name}};
+    for (const Field<fem::Material>& field : option_table<fem::Material>())
+      entry[std::string(field.key)] = one.at_20_c.*std::get<double fem::Material::*>(field.member) / field.si_per_unit;
+    entry["source"] = one.source;
+    list.push_back(std::move(entry));
+    table += fmt::format("{:<22}{:>8.4g}{:>8.4g}{:>10.4g}   {}\n", one.name, one.at_20_c.youngs_modulus / 1e9,
+                         one.at_20_c.poisson_ratio, one.at_20_c.density, one.source);
+  }
+  if (options.json != "-") streams.out << table;
+  deliver_json(options.json, list.dump(2) + "\n", streams);
   return kDone;
 }
 

@@ -36,6 +36,7 @@ inline constexpr Range kFrequencies{.lower = 0, .upper = 1e9, .lower_open = true
 struct CheckOptions {
   std::string study;
   std::vector<std::string> set;  ///< KEY=VALUE, as given with --set
+  bool strict = false;           ///< warnings are errors
 };
 int run_check(const CheckOptions& options, const Streams& streams);
 
@@ -43,6 +44,11 @@ struct NewOptions {
   std::string file;
 };
 int run_new(const NewOptions& options, const Streams& streams);
+
+struct MaterialsOptions {
+  std::string json;  ///< file, "-" for standard output, empty for a table on standard output
+};
+int run_materials(const MaterialsOptions& options, const Streams& streams);
 
 struct EvaluateOptions {
   std::string study;
@@ -175,6 +181,8 @@ template <>
 std::span<const Option<CheckOptions>> command_options<CheckOptions>();
 template <>
 std::span<const Option<NewOptions>> command_options<NewOptions>();
+template <>
+std::span<const Option<MaterialsOptions>> command_options<MaterialsOptions>();
 template <>
 std::span<const Option<EvaluateOptions>> command_options<EvaluateOptions>();
 template <>

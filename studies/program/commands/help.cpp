@@ -47,6 +47,16 @@ CommandHelp create() {
   return {.name = "new", .what = "Write a commented study to start from"};
 }
 
+CommandHelp materials() {
+  return {
+      .name = "materials",
+      .what = "List the materials that a study may name",
+      .footer =
+          "A study names one as  material = \"Inconel 718\"  for blade and disk, or as grade in [material.blade] and\n"
+          "[material.disk], where numbers replace single values of it. JSON: [{\"name\", \"youngs_modulus_gpa\",\n"
+          "\"poisson_ratio\", \"density_kg_m3\", \"source\"}]."};
+}
+
 CommandHelp response() {
   return {
       .name = "response",

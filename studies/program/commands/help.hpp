@@ -32,6 +32,7 @@ inline constexpr const char* kFooter =
 [[nodiscard]] CommandHelp reduce();
 [[nodiscard]] CommandHelp check();
 [[nodiscard]] CommandHelp create();
+[[nodiscard]] CommandHelp materials();
 [[nodiscard]] CommandHelp response();
 [[nodiscard]] CommandHelp backbone();
 [[nodiscard]] CommandHelp wear();

@@ -22,7 +22,15 @@ Option<S> output_option(std::string S::*member, std::string_view type, const cha
 
 template <>
 std::span<const Option<CheckOptions>> command_options<CheckOptions>() {
-  static const std::vector<Option<CheckOptions>> table{study_option<CheckOptions>(), set_option<CheckOptions>()};
+  using C = CheckOptions;
+  static const std::vector<Option<C>> table{
+      study_option<C>(), set_option<C>(), {"--strict", &C::strict, {}, "Warnings count as errors: exit status 2"}};
+  return table;
+}
+
+template <>
+std::span<const Option<MaterialsOptions>> command_options<MaterialsOptions>() {
+  static const std::vector<Option<MaterialsOptions>> table{json_option<MaterialsOptions>()};
   return table;
 }
 

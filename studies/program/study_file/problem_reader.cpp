@@ -44,6 +44,10 @@ std::string conflict_of_variable(const Node* root, const Parameter& parameter) {
   const std::string& key = parameter.key;
   for (const char* section : {"mesh", "solver"})
     if (is_prefix_section(key, section)) return "cannot be varied: it is no property of a design";
+  if (const Node* material = root ? root->at("material") : nullptr;
+      material && material->kind == Node::Kind::text && is_prefix_section(key, "material"))
+    return "cannot be varied beside material = " + material->shown() +
+           "; give [material.blade] with grade = " + material->shown() + " instead";
   if (is_prefix_section(key, "material.blade")) {
     const std::string disk = "material.disk." + key.substr(key.rfind('.') + 1);
     if (!given(root, disk)) return "cannot be varied unless " + disk + " is given: the disk would follow the blade";

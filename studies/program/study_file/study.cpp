@@ -10,6 +10,7 @@
 #include "optimizer/responses/response_table.hpp"
 #include "optimizer/scene/scene_kind.hpp"
 #include "studies/program/study_file/export.hpp"
+#include "studies/program/study_file/materials.hpp"
 #include "studies/program/study_file/problem_reader.hpp"
 #include "studies/program/study_file/section_reader.hpp"
 
@@ -39,12 +40,15 @@ class SceneReader {
       : root_(root), scene_(scene), problems_(problems) {}
 
   void read() {
+    read_material();
     optimizer::visit_tables(scene_, [this]<class S>(std::string_view name, S& object, std::span<const Field<S>> table) {
       const std::string path(name);
       if constexpr (std::is_same_v<S, FlankParameters>)
         read_flank(path, object, table);
+      else if constexpr (std::is_same_v<S, fem::Material>)
+        read_body(path, object, table);
       else
-        section(path).fields(object, table, static_cast<void*>(&object) != &scene_.disk);
+        section(path).fields(object, table);
       if (static_cast<void*>(&object) == &scene_.blade) scene_.disk = scene_.blade;
     });
     for (auto& [path, reader] : sections_) reader.finish();
@@ -57,6 +61,32 @@ class SceneReader {
     const std::size_t dot = path.rfind('.');
     SectionReader& parent = dot == path.npos ? root_ : section(path.substr(0, dot));
     return sections_.emplace(path, SectionReader(parent.take(path.substr(dot + 1)), path, problems_)).first->second;
+  }
+
+  /// material = "NAME" says it of both bodies; a table has more to say.
+  void read_material() {
+    const Node* whole = root_.take("material");
+    if (whole == nullptr || whole->kind == Node::Kind::table) return;
+    set_material(*whole, "material", scene_.blade);
+    named_ = true;
+    sections_.emplace("material", SectionReader(nullptr, "material", problems_));
+  }
+
+  /// A named material may have single numbers of its own.
+  void read_body(const std::string& path, fem::Material& object, std::span<const Field<fem::Material>> table) {
+    const Node* grade = section(path).take("grade");
+    if (grade != nullptr) set_material(*grade, path + ".grade", object);
+    section(path).fields(object, table, !named_ && grade == nullptr && &object != &scene_.disk);
+  }
+
+  void set_material(const Node& name, const std::string& path, fem::Material& object) {
+    if (const NamedMaterial* found = name.kind == Node::Kind::text ? find_material(name.text) : nullptr) {
+      object = found->at_20_c;
+      return;
+    }
+    std::vector<std::string_view> names;
+    for (const NamedMaterial& one : named_materials()) names.push_back(one.name);
+    problems_.add(name, path, one_of(names) + "; for another material give its numbers in [material.blade]");
   }
 
   /// Keys of [geometry] set all flanks, those of its subsections one; required ones may stand in either.
@@ -84,6 +114,7 @@ class SceneReader {
   optimizer::Scene& scene_;
   Problems& problems_;
   std::map<std::string, SectionReader> sections_;
+  bool named_ = false;  // the material of both bodies
 };
 
 void read_exports(SectionReader& root, Study& study, Problems& problems) {
@@ -205,33 +236,6 @@ std::string physics_text(const optimizer::Scene& scene) {
               text += std::string(section) + "." + std::string(field.key) + " = " + *word + "\n";
       });
   return text;
-}
-
-std::vector<std::string> warnings(const Study& study) {
-  std::vector<std::string> result;
-  const auto leans_on = [&](const std::string& name, const char* what) {
-    const optimizer::Response* response = optimizer::find_response(name);
-    if (response == nullptr) return;
-    const bool limit = response->has_limit(study.scene);
-    if (response == &optimizer::kContactPressureMax && limit)
-      result.push_back(what + (" of " + name) +
-                       ": the pressure at the ends of the flanks changes by a fifth from mesh to mesh until "
-                       "mesh.flank_elements resolves it: look at its error bar, or take contact_pressure_mean_pa.");
-    if (!limit)
-      result.push_back(what + (" of " + name) +
-                       (study.scene.contact.normal_stiffness > 0
-                            ? ": at sharp ends of rough flanks in space it has no error bar; give "
-                            : ": at sharp ends of the flanks it grows without limit as the mesh becomes finer; give ") +
-                       "geometry.flank_edge_radius_mm or take contact_pressure_mean_pa.");
-  };
-  for (const optimizer::ObjectiveTerm& term : study.problem.objective) leans_on(term.response, "an objective");
-  for (const optimizer::ResponseConstraint& limit : study.problem.constraints) leans_on(limit.response, "a limit");
-  const double searched = study.scene.solver.accuracy, handed = study.optimizer.verify_accuracy;
-  if (searched > 0 && handed > searched)
-    result.push_back(
-        "optimizer.verify_accuracy asks for less at the best design than solver.accuracy does of the search: settings "
-        "are chosen for it all the same, coarser ones perhaps than those of the search.");
-  return result;
 }
 
 }  // namespace dovetail::studies

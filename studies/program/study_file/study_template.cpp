@@ -78,7 +78,8 @@ std::string scene_sections() {
   text += header("limits", "Rules every design has to keep besides fitting together.");
   text += lines(scene.limits, option_table<geometry::FeasibilityLimits>());
   text += header("material.blade",
-                 "Ti-6Al-4V, annealed. The disk's material is the blade's unless [material.disk] differs.");
+                 "Ti-6Al-4V, annealed. Instead of numbers, or before some of them: grade = \"NAME\" (see `dovetail "
+                 "materials`).\n# The disk's material is the blade's unless [material.disk] differs.");
   text += lines(scene.blade, option_table<fem::Material>());
   text += "\n[material.disk]\n" + lines(scene.disk, option_table<fem::Material>(), "# ");
   text += header("contact", "Friction and wear on the flanks.");
