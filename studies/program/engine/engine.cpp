@@ -194,9 +194,11 @@ RunEngine study_engine(const Study& study) {
   return engine;
 }
 
-report::DesignRecord describe_fields(const Study& study) {
-  return report::make_design_record(study.scene, scene_evaluator(study)->evaluate(study.scene),
-                                    {.curve_points = 0, .nodal_diameter_modes = 0, .history_steps = 0});
+report::DesignRecord describe_fields(const Study& study, bool history) {
+  report::DesignRecordOptions options{.curve_points = 0, .nodal_diameter_modes = 0, .history_profiles = 16};
+  if (!history) options.history_steps = 0;
+  const Scene scene = optimizer::in_first_case(study.scene, study.problem.cases);
+  return report::make_design_record(scene, scene_evaluator(study)->evaluate(scene, {.bars = false}), options);
 }
 
 bool is_hdf5_file(const std::string& file) {

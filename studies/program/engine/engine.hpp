@@ -43,8 +43,9 @@ inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();  //
 /// be meshed. Throws InputError when neither can.
 [[nodiscard]] std::shared_ptr<const optimizer::SceneEvaluator> scene_evaluator(const Study& study);
 
-/// The study's design with its fields and without curves.
-[[nodiscard]] report::DesignRecord describe_fields(const Study& study);
+/// The study's design, in its first case, with its fields and without curves.
+/// @param history  with its wear history, of which up to 16 states are kept
+[[nodiscard]] report::DesignRecord describe_fields(const Study& study, bool history = false);
 
 /// A reduced model to compute with, from a model file or from a study's candidate.
 struct LoadedModel {
