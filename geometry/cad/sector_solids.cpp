@@ -12,6 +12,8 @@
 #include <Poly_Triangulation.hxx>
 #include <STEPControl_Writer.hxx>
 #include <Standard_Failure.hxx>
+#include <StepBasic_Product.hxx>
+#include <StepData_StepModel.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
@@ -44,6 +46,17 @@ std::mutex& writers() {
   return mutex;
 }
 
+/// The modeller numbers them.
+void name_products(const StepData_StepModel& model) {
+  const char* name = "BLADE";
+  for (int i = 1; i <= model.NbEntities(); ++i)
+    if (const auto product = Handle(StepBasic_Product)::DownCast(model.Value(i)); !product.IsNull()) {
+      product->SetName(new TCollection_HAsciiString(name));
+      product->SetId(new TCollection_HAsciiString(name));
+      name = "DISK";
+    }
+}
+
 InputError unwritable(const std::filesystem::path& file) {
   return InputError({.file = {}, .key = file.string(), .value = {}, .allowed = "cannot be written completely"});
 }
@@ -70,11 +83,11 @@ void SectorSolids::write_step(const std::filesystem::path& file) const {
     STEPControl_Writer writer;
     // Curves in the parameters of surfaces would come as splines even on planes; readers find them again.
     Interface_Static::SetIVal("write.surfacecurve.mode", 0);
-    const auto add = [&](const char* name, const TopoDS_Shape& shape) {
-      Interface_Static::SetCVal("write.step.product.name", name);
+    const auto add = [&](const TopoDS_Shape& shape) {
       return writer.Transfer(shape, STEPControl_ManifoldSolidBrep) == IFSelect_RetDone;
     };
-    const bool whole = translated([&] { return add("BLADE", shapes_->blade) && add("DISK", shapes_->disk); });
+    const bool whole = translated([&] { return add(shapes_->blade) && add(shapes_->disk); });
+    name_products(*writer.Model());
     APIHeaderSection_MakeHeader header(writer.Model());
     header.SetName(new TCollection_HAsciiString(file.filename().c_str()));
     header.SetOriginatingSystem(new TCollection_HAsciiString("dovetail"));
