@@ -157,7 +157,11 @@ TopoDS_Solid one_solid(const TopoDS_Shape& shape, const std::string& what) {
     solids.Next();
     if (!solids.More() && BRepCheck_Analyzer(solid).IsValid()) return solid;
   }
-  throw InputError({.file = {}, .key = "geometry", .value = {}, .allowed = "makes no valid solid of the " + what});
+  throw InputError(
+      {.file = {},
+       .key = "geometry",
+       .value = {},
+       .allowed = "makes no valid solid of the " + what + ": does the design keep the rules of its geometry?"});
 }
 
 }  // namespace dovetail::geometry::occ

@@ -25,6 +25,7 @@
 #include "geometry/cad/sector_solids.hpp"
 #include "geometry/profile/flank_form.hpp"
 #include "geometry/profile/measures.hpp"
+#include "geometry/solid/aerofoil_form.hpp"
 #include "geometry/solid/slot_sweep.hpp"
 #include "geometry/solid/solid_measures.hpp"
 #include "tests/unit/geometry/random_design.hpp"
@@ -103,6 +104,15 @@ std::size_t count(const std::string& text, const std::string& word) {
   return times;
 }
 
+/// How far, m, a point is from the nearest face.
+double distance(const TopoDS_Shape& solid, const Vector3d& at) {
+  const TopoDS_Vertex vertex = BRepBuilderAPI_MakeVertex(gp_Pnt(1e3 * at.x(), 1e3 * at.y(), 1e3 * at.z()));
+  double nearest = 1;
+  for (TopExp_Explorer faces(solid, TopAbs_FACE); faces.More(); faces.Next())
+    nearest = std::min(nearest, 1e-3 * BRepExtrema_DistShapeShape(vertex, faces.Current()).Value());
+  return nearest;
+}
+
 TEST_F(Step, HasTheVolumesOfTheSectionAndItsRadii) {
   std::mt19937 generator(5);
   for (int trial = 0; trial < 4; ++trial) {
@@ -157,6 +167,15 @@ TEST_F(Step, SweepsASkewedSlot) {
   const double below = (area_by_parts(profile.blade) - area_by_parts(aerofoil(profile))) * p.slot_length;
   const double plate = (p.aerofoil_root_thickness + p.aerofoil_tip_thickness) / 2 * p.aerofoil_span * p.chord;
   EXPECT_NEAR(volume(solids[0]) / (below + plate), 1, 1e-9);
+  for (const double z : {-0.5 * p.slot_length, 0.3 * p.slot_length}) {
+    const Profile section = section_at(profile, p, solid, z);
+    for (const Edge& e : section.disk)
+      EXPECT_LT(distance(solids[1], {e.point(0.4).x(), e.point(0.4).y(), z}), 1e-10) << e.name;
+    for (const Edge& e : section.blade)
+      if (!e.name.starts_with("aerofoil") && e.name != "tip" && !e.name.starts_with("platform_top")) {
+        EXPECT_LT(distance(solids[0], {e.point(0.4).x(), e.point(0.4).y(), z}), 1e-10) << e.name;
+      }
+  }
   const std::set<double> found = radii(text());
   for (const Chain& chain : {profile.blade, profile.disk})
     for (const Edge& e : chain)
@@ -186,7 +205,15 @@ TEST_F(Step, LoftsATwistedAerofoil) {
     return (p.chord + s * (solid.tip_chord - p.chord)) * thickness * (2 + solid.edge_thickness_fraction) / 3;
   };
   const double above = (tip - foot) / 6 * (area(foot) + 4 * area((foot + tip) / 2) + area(tip));
-  EXPECT_NEAR(volume(solids[0]) / (below + above), 1, 1e-8);
+  EXPECT_NEAR(volume(solids[0]) / (below + above), 1, 1e-9);
+  const AerofoilForm form(profile, p, solid);
+  for (const double s : {0.05, 0.37, 0.8, 1.0})
+    for (const double eta : {-0.6, 0.25, 1.0})
+      for (const double side_sign : {-1.0, 1.0}) {
+        const Vector2d at =
+            form.chord_point(s, eta) + side_sign * side.point(s).x() * form.fullness(eta) * form.across(s);
+        EXPECT_LT(distance(solids[0], {at.x(), side.point(s).y(), at.y()}), 1e-10) << s << " " << eta;
+      }
   EXPECT_NEAR(volume(solids[1]) / solid_volumes(p, solid).disk, 1, 1e-9);
 }
 
@@ -206,15 +233,6 @@ SolidDesign worn_design(bool in_space) {
   design.worn[flank_index("right")].front().along = 0.2;
   design.worn[flank_index("right")].back().along = 0.8;
   return design;
-}
-
-/// How far, m, a point is from the nearest face.
-double distance(const TopoDS_Shape& solid, const Vector3d& at) {
-  const TopoDS_Vertex vertex = BRepBuilderAPI_MakeVertex(gp_Pnt(1e3 * at.x(), 1e3 * at.y(), 1e3 * at.z()));
-  double nearest = 1;
-  for (TopExp_Explorer faces(solid, TopAbs_FACE); faces.More(); faces.Next())
-    nearest = std::min(nearest, 1e-3 * BRepExtrema_DistShapeShape(vertex, faces.Current()).Value());
-  return nearest;
 }
 
 TEST_F(Step, DrawsWornFlanksAsSplinesThroughTheDepths) {
