@@ -90,6 +90,9 @@ void SectorSolids::write_step(const std::filesystem::path& file) const {
     name_products(*writer.Model());
     APIHeaderSection_MakeHeader header(writer.Model());
     header.SetName(new TCollection_HAsciiString(file.filename().c_str()));
+    header.SetDescriptionValue(1, new TCollection_HAsciiString("Blade and disk of one sector"));
+    header.SetAuthorValue(1, new TCollection_HAsciiString());
+    header.SetOrganizationValue(1, new TCollection_HAsciiString());
     header.SetOriginatingSystem(new TCollection_HAsciiString("dovetail"));
     if (!whole || writer.Write(place.c_str()) != IFSelect_RetDone) throw unwritable(file);
   });

@@ -8,6 +8,7 @@
 #include "core/replace_file.hpp"
 #include "geometry/exports/vtu.hpp"
 #include "studies/program/study_file/refusal.hpp"
+#include "studies/report/words/html.hpp"
 
 namespace dovetail::studies {
 namespace {
@@ -63,7 +64,8 @@ void export_history(const report::DesignRecord& design, const std::filesystem::p
         on_flanks("wear_depth_m", std::span(history.profile_depth_m).subspan(k * nodes, nodes), design.fields);
     geometry::write_vtu(file.parent_path() / name, design.fields.mesh, std::span(&depth, 1));
     text += fmt::format("<DataSet timestep=\"{}\" group=\"\" part=\"0\" file=\"{}\"/>\n",
-                        shortest(history.cycles[static_cast<std::size_t>(history.profile_states[k])]), name);
+                        shortest(history.cycles[static_cast<std::size_t>(history.profile_states[k])]),
+                        report::escape(name));
   }
   replace_file(file, text + "</Collection>\n</VTKFile>\n");
 }

@@ -100,9 +100,6 @@ void check_export(const ExportOptions& options, std::optional<ExportFormat> form
     refuse("--format", "must be inp with --nodal-diameter, --modes or --contact", options.format);
   if (options.worn && !(format && is_solid(*format)))
     refuse("--format", "must be step, iges or stl with --worn", options.format);
-  if (options.candidate && !format)
-    refuse("--candidate", "has no meaning with matrix-market: it takes a study file",
-           std::to_string(*options.candidate));
   if (options.candidate && format == ExportFormat::csv)
     refuse("--candidate", "has no meaning with csv: the table has all of them", std::to_string(*options.candidate));
   check_replaceable(options.file);
@@ -124,9 +121,10 @@ int run_import(const ImportOptions& options, const Streams& streams) {
 
 namespace {
 
-int export_model(const ExportOptions& options, const std::string& input, const Streams& streams) {
-  const LoadedModel loaded = load_model(input, options.set, {}, &streams.err);
-  if (!loaded.failure.empty()) return not_converged(input, "not converged: " + loaded.failure, streams);
+int export_model(const ExportOptions& options, const Exported& exported, const Streams& streams) {
+  const LoadedModel loaded = exported.of_run() ? load_model(exported.study(), &streams.err)
+                                               : load_model(options.input, options.set, {}, &streams.err);
+  if (!loaded.failure.empty()) return not_converged(options.input, "not converged: " + loaded.failure, streams);
   write_model_document(options.file, loaded.model, options.input);
   streams.out << options.file << ": written, with three matrices beside it\n";
   return kDone;
@@ -139,9 +137,7 @@ int run_export(const ExportOptions& options, const Streams& streams) {
   check_export(options, format);
   const Exported exported(options);
   const bool of_run = exported.of_run();
-  if (!format)
-    return export_model(options, of_run ? run_file(options.input, "best.toml", "best design").string() : options.input,
-                        streams);
+  if (!format) return export_model(options, exported, streams);
   if (!of_run && (is_hdf5_file(options.input) || is_model_document(load_document(options.input))))
     refuse(options.input, "is a reduced model: it has matrices (--format matrix-market), no geometry");
   if (format == ExportFormat::csv) {
@@ -152,7 +148,8 @@ int run_export(const ExportOptions& options, const Streams& streams) {
     (series ? export_history : export_fields)(exported.design(series), options.file);
   } else if (options.worn) {
     const report::DesignRecord design = exported.design(false);
-    if (design.contact.depth_m.empty()) refuse(options.input, "has no worn flanks: " + design.status);
+    if (design.contact.depth_m.empty() || design.status != "converged")
+      refuse(options.input, "has no worn flanks: its wear has not come to an end (" + design.status + ")");
     export_solids(exported.study().scene, *format, &design.contact, options.file);
   } else {
     export_geometry(exported.study().scene, *format, options.deck, options.file);

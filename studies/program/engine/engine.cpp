@@ -244,37 +244,6 @@ InputError infeasible(const std::string& file, const std::vector<std::string>& m
 
 namespace {
 
-LoadedModel from_study(const std::string& file, const std::vector<Override>& given, std::ostream* err,
-                       std::optional<wear::Follow> follow) {
-  Study study = load_study(file, given);
-  if (follow) study.scene.loading.follow = *follow;
-  if (err != nullptr && study.scene.solver.accuracy > 0)
-    *err << file
-         << ": warning: solver.accuracy chooses nothing here: mesh, modes, harmonics and samples are those of the file "
-            "(`dovetail evaluate` chooses and tells them).\n";
-  optimizer::CandidateModel candidate = scene_evaluator(study)->builder().build(study.scene);
-  if (candidate.infeasible()) throw infeasible(file, candidate.messages);
-  LoadedModel loaded;
-  loaded.joint.options = optimizer::steady_options(study.scene.solver);
-  loaded.follow = study.scene.loading.follow;
-  loaded.history_tolerance = study.scene.solver.history_tolerance;
-  if (!candidate.converged()) {
-    loaded.failure = candidate.status;
-    return loaded;
-  }
-  // The same contact nodes as an evaluation has, so that whatever is computed is of one model.
-  optimizer::fit_contact(study.scene, {}, candidate);
-  if (!candidate.converged()) {
-    loaded.failure = candidate.status;
-    return loaded;
-  }
-  loaded.model = candidate.model;
-  loaded.joint.model = candidate.condensed;
-  loaded.lines = optimizer::node_lines(candidate.cells);
-  loaded.glued_omega = candidate.glued_frequencies(study.scene.loading.mode - 1);
-  return loaded;
-}
-
 /// Before a model is read: options that do not fit are told whatever the file is like.
 steady::Options model_options(const std::string& file, const std::vector<std::string>& set,
                               const SolverChoice& solver) {
@@ -348,6 +317,35 @@ std::optional<reduction::ReducedModel> read_any_model(const std::string& input) 
   return read_model_document(document);
 }
 
+LoadedModel load_model(Study study, std::ostream* err, std::optional<wear::Follow> follow) {
+  if (follow) study.scene.loading.follow = *follow;
+  if (err != nullptr && study.scene.solver.accuracy > 0)
+    *err << study.file
+         << ": warning: solver.accuracy chooses nothing here: mesh, modes, harmonics and samples are those of the file "
+            "(`dovetail evaluate` chooses and tells them).\n";
+  optimizer::CandidateModel candidate = scene_evaluator(study)->builder().build(study.scene);
+  if (candidate.infeasible()) throw infeasible(study.file, candidate.messages);
+  LoadedModel loaded;
+  loaded.joint.options = optimizer::steady_options(study.scene.solver);
+  loaded.follow = study.scene.loading.follow;
+  loaded.history_tolerance = study.scene.solver.history_tolerance;
+  if (!candidate.converged()) {
+    loaded.failure = candidate.status;
+    return loaded;
+  }
+  // The same contact nodes as an evaluation has, so that whatever is computed is of one model.
+  optimizer::fit_contact(study.scene, {}, candidate);
+  if (!candidate.converged()) {
+    loaded.failure = candidate.status;
+    return loaded;
+  }
+  loaded.model = candidate.model;
+  loaded.joint.model = candidate.condensed;
+  loaded.lines = optimizer::node_lines(candidate.cells);
+  loaded.glued_omega = candidate.glued_frequencies(study.scene.loading.mode - 1);
+  return loaded;
+}
+
 LoadedModel load_model(const std::string& input, const std::vector<std::string>& set, const SolverChoice& solver,
                        std::ostream* err, std::optional<wear::Follow> follow) {
   if (is_hdf5_file(input)) {
@@ -355,7 +353,7 @@ LoadedModel load_model(const std::string& input, const std::vector<std::string>&
     return from_model(input, reduction::read_model(input), steady, solver);
   }
   const Document document = load_document(input);
-  if (!is_model_document(document)) return from_study(input, overrides(set, solver), err, follow);
+  if (!is_model_document(document)) return load_model(load_study(input, overrides(set, solver)), err, follow);
   const steady::Options steady = model_options(input, set, solver);
   return from_model(input, read_model_document(document), steady, solver);
 }

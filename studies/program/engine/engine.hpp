@@ -72,6 +72,9 @@ struct LoadedModel {
                                      const SolverChoice& solver, std::ostream* err = nullptr,
                                      std::optional<wear::Follow> follow = {});
 
+/// The same of a study that is read already.
+[[nodiscard]] LoadedModel load_model(Study study, std::ostream* err = nullptr, std::optional<wear::Follow> follow = {});
+
 /// Those given with --set, and the solver's options as overrides of the keys of [solver]. Throws InputError with all
 /// that are not KEY=VALUE, and for numbers that are neither whole nor auto.
 [[nodiscard]] std::vector<Override> overrides(const std::vector<std::string>& set, const SolverChoice& solver = {});

@@ -211,6 +211,8 @@ class Exports(unittest.TestCase):
         for number in (1, 2, 3):
             for file in ("c.step", "c.dxf", "c.vtu"):
                 self.export("o", file, "--candidate", number)
+        done = self.run_program("export", "o", "--format", "matrix-market", "--candidate", 2, "-o", "m.toml")
+        self.assertEqual(done.returncode, 0, done.stderr)
         self.export("o", "w.step", "--worn")
         self.assertTrue(bspline_points(step_text(self.path("w.step"))))
         for file in ("best.step", "best.iges", "best.stl"):
@@ -221,6 +223,7 @@ class Exports(unittest.TestCase):
                 ("must be 1 to 3: the run has no more", "o", "--format", "step", "--candidate", 4),
                 ("must be >= 1", "o", "--format", "step", "--candidate", 0),
                 ("only has a meaning with the directory of a run", "s.toml", "--format", "step", "--candidate", 1),
+                ("must be one of dxf", "s.toml", "--format", "stp"),
                 ("has no meaning with csv", "o", "--format", "csv", "--candidate", 1),
                 ("must be the directory of a run for csv", "s.toml", "--format", "csv"),
                 ("must be step, iges or stl with --worn", "s.toml", "--format", "dxf", "--worn"),
