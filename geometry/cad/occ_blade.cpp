@@ -34,7 +34,6 @@ class MovedFlank {
       return std::ranges::any_of(with_middles(depth_.along()), [&](double u) { return depth_.at(s, u).depth > 0; });
     });
   }
-  [[nodiscard]] bool changes() const { return !depth_.same_along_slot(); }
 
   [[nodiscard]] SplineNet net() const {
     std::vector<double> travelled = depth_.across();
@@ -57,7 +56,7 @@ class MovedFlank {
     const double s = at_start == from_root_ ? 1 : 0;
     const auto lost = [&](double u) { return across_ * depth_.at(s, u).depth; };
     if (std::ranges::all_of(with_middles(depth_.along()), [&](double u) { return lost(u) == 0; })) return {arc};
-    if (!changes()) {
+    if (depth_.same_along_slot()) {
       const Vector2d end = edge_.point(at_start ? 0 : 1) - lost(0.5) * normal_.head<2>();
       return {redrawn(arc, !at_start, end, lost(0.5))};
     }
@@ -91,18 +90,13 @@ class MovedFlank {
   double across_ = 1;
 };
 
-/// The blade's chain with the form and the wear of its flanks; whether it changes along the slot.
-struct BladeChain {
-  SweptChain chain;
-  bool changes = false;
-};
-
-BladeChain finished(const SolidDesign& design, const Profile& profile) {
+/// The blade's chain with the form and the wear of its flanks.
+SweptChain finished(const SolidDesign& design, const Profile& profile) {
   const bool nominal_along = design.solid.axial_crown == 0 && design.solid.axial_relief_depth == 0;
   const bool unworn = std::ranges::all_of(design.worn, [](const WornFlank& flank) { return flank.empty(); });
-  if (unworn && nominal_along && design.solid.skew_angle == 0) return {swept(finished_blade(design.profile))};
-  BladeChain blade{swept(profile.blade)};
-  const std::size_t count = blade.chain.size();
+  if (unworn && nominal_along && design.solid.skew_angle == 0) return swept(finished_blade(design.profile));
+  SweptChain blade = swept(profile.blade);
+  const std::size_t count = blade.size();
   for (std::size_t f = 0; f < kFlanks.size(); ++f) {
     const std::string name = "flank_" + std::string(kFlanks[f].name);
     const auto at =
@@ -110,10 +104,9 @@ BladeChain finished(const SolidDesign& design, const Profile& profile) {
     const MovedFlank flank(design, f, profile.blade[at]);
     if (!flank.moves()) continue;
     const std::size_t before = (at + count - 1) % count, after = (at + 1) % count;
-    blade.chain[at].net = flank.net();
-    blade.chain[before] = flank.beside(profile.blade[before], true);
-    blade.chain[after] = flank.beside(profile.blade[after], false);
-    blade.changes = blade.changes || flank.changes();
+    blade[at].net = flank.net();
+    blade[before] = flank.beside(profile.blade[before], true);
+    blade[after] = flank.beside(profile.blade[after], false);
   }
   return blade;
 }
@@ -215,12 +208,11 @@ class Aerofoil {
 }  // namespace
 
 TopoDS_Shape blade_shape(const SolidDesign& design, const Profile& profile) {
-  const BladeChain blade = finished(design, profile);
+  const SweptChain blade = finished(design, profile);
   const Vector3d along = design.profile.slot_length * slot_direction(design.solid);
   const double chord = design.profile.chord;
-  if (is_straight(design) && chord == design.profile.slot_length)
-    return sweep(blade.chain, -along / 2, along, blade.changes);
-  const TopoDS_Shape root = sweep(below_aerofoil(blade.chain), -along / 2, along, blade.changes);
+  if (is_straight(design) && chord == design.profile.slot_length) return sweep(blade, -along / 2, along);
+  const TopoDS_Shape root = sweep(below_aerofoil(blade), -along / 2, along);
   if (is_straight(design)) return joined(root, sweep(swept(aerofoil(profile)), {0, 0, -chord / 2}, {0, 0, chord}));
   return joined(root, Aerofoil(design, profile).shape());
 }

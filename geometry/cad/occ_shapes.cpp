@@ -21,6 +21,8 @@
 #include <TopoDS.hxx>
 #include <gp_Circ.hxx>
 
+#include <algorithm>
+
 #include "core/errors.hpp"
 #include "geometry/exports/millimetres.hpp"
 
@@ -113,9 +115,12 @@ TopoDS_Wire section_wire(const SweptChain& chain, const Eigen::Vector3d& offset,
   return wire;
 }
 
-TopoDS_Shape sweep(const SweptChain& chain, const Eigen::Vector3d& start, const Eigen::Vector3d& along, bool changes) {
+TopoDS_Shape sweep(const SweptChain& chain, const Eigen::Vector3d& start, const Eigen::Vector3d& along) {
   const TopoDS_Wire first = section_wire(chain, start);
-  if (!changes) return BRepPrimAPI_MakePrism(planar_face(first), vector(along));
+  // A net that is the same all along could be swept as a curve, too, but the modeller's volumes of swept splines are
+  // off by 1e-5: it does not look at their knots.
+  if (std::ranges::none_of(chain, [](const SweptEdge& e) { return e.net.has_value(); }))
+    return BRepPrimAPI_MakePrism(planar_face(first), vector(along));
   std::vector<TopoDS_Shape> faces{planar_face(first), planar_face(section_wire(chain, start + along, true))};
   TopExp_Explorer edge(first, TopAbs_EDGE);
   for (const SweptEdge& swept : chain) {

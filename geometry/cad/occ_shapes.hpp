@@ -35,10 +35,8 @@ struct SweptEdge {
 using SweptChain = std::vector<SweptEdge>;
 [[nodiscard]] SweptChain swept(const Chain& chain);
 
-/// A closed chain moved to `start` and swept by `along`, m; nets lie where they are.
-/// @param changes  whether a net changes along the sweep: then faces are sewn, else one face is swept
-[[nodiscard]] TopoDS_Shape sweep(const SweptChain& chain, const Eigen::Vector3d& start, const Eigen::Vector3d& along,
-                                 bool changes = false);
+/// The body that a closed chain, moved to `start`, makes on its way by `along`, m; nets lie where they are.
+[[nodiscard]] TopoDS_Shape sweep(const SweptChain& chain, const Eigen::Vector3d& start, const Eigen::Vector3d& along);
 
 /// A closed chain moved by `offset`.
 [[nodiscard]] TopoDS_Wire section_wire(const SweptChain& chain, const Eigen::Vector3d& offset, bool last = false);

@@ -23,6 +23,7 @@
 #include "core/errors.hpp"
 #include "geometry/cad/flank_depth.hpp"
 #include "geometry/cad/sector_solids.hpp"
+#include "geometry/profile/chain.hpp"
 #include "geometry/profile/flank_form.hpp"
 #include "geometry/profile/measures.hpp"
 #include "geometry/solid/aerofoil_form.hpp"
@@ -259,6 +260,35 @@ TEST_F(Step, DrawsWornFlanksAsSplinesThroughTheDepths) {
         EXPECT_LT(distance(solids[0], at), 1e-10) << s << " " << u;
       }
   }
+}
+
+TEST_F(Step, LosesWhatIsWornAndWhatFilletAndCornerLoseBesideIt) {
+  const SolidDesign design = worn_design(false);
+  SectorSolids(design).write_step(file_);
+  const std::vector<TopoDS_Shape> solids = read<STEPControl_Reader>();
+  ASSERT_EQ(solids.size(), 2u);
+  const std::size_t f = flank_index("right");
+  const FlankDepth depth(SolidFlankForm(design.profile.flanks[f], design.profile, {}), design.worn[f]);
+  Chain chain;
+  const Chain nominal = build_profile(design.profile).blade;
+  const Edge& flank = edge(nominal, "flank_right");  // from root to neck side
+  const auto worn = [&](double s) -> Vector2d {
+    return flank.point(1 - s) - depth.at(s, 0.5).depth * outward(flank, 0);
+  };
+  for (const Edge& e : nominal)
+    if (e.name == "flank_right") {
+      constexpr int kLines = 4000;  // a chord of a micrometre is 1e-11 m off these cubics
+      for (int i = kLines; i > 0; --i)
+        chain.push_back(line("worn", worn(i / double{kLines}), worn((i - 1) / double{kLines})));
+    } else if (e.name == "root_corner_right") {
+      chain.push_back(redrawn(e, false, worn(1), depth.at(1, 0.5).depth));
+    } else if (e.name == "neck_fillet_right") {
+      chain.push_back(redrawn(e, true, worn(0), depth.at(0, 0.5).depth));
+    } else {
+      chain.push_back(e);
+    }
+  EXPECT_NEAR(volume(solids[0]) / (area(chain) * design.profile.slot_length), 1, 1e-9);
+  EXPECT_LT(area(chain), area(nominal) * (1 - 1e-5)) << "that is seen";
 }
 
 TEST_F(Iges, HoldsTheSameSolids) {
