@@ -233,6 +233,8 @@ SolidDesign worn_design(bool in_space) {
   design.worn[flank_index("right")] = {line, other};
   design.worn[flank_index("right")].front().along = 0.2;
   design.worn[flank_index("right")].back().along = 0.8;
+  design.worn[flank_index("left")] = {other, line};
+  design.worn[flank_index("left")].back().along = 0.9;
   return design;
 }
 
@@ -243,22 +245,23 @@ TEST_F(Step, DrawsWornFlanksAsSplinesThroughTheDepths) {
     const std::vector<TopoDS_Shape> solids = read<STEPControl_Reader>();
     ASSERT_EQ(solids.size(), 2u);
     EXPECT_GT(count(text(), "B_SPLINE"), 0u);
-    const std::size_t f = flank_index("right");
-    const FlankDepth depth(SolidFlankForm(design.profile.flanks[f], design.profile, design.solid), design.worn[f]);
-    const Edge& flank = edge(build_profile(design.profile).blade, "flank_right");
-    const Vector2d along = flank.tangent(0);
-    const Vector3d normal = flank_frame(-along, false, design.solid.skew_angle).normal;
+    const Profile profile = build_profile(design.profile);
     const double skew = std::tan(design.solid.skew_angle);
-    for (const double u : {0.0, 0.2, 0.37, 0.5, 0.8, 1.0})
-      for (const double s : {0.0, 0.03, 0.1, 0.2, 0.5, 0.83, 0.97, 1.0}) {
-        const Vector2d nominal = flank.point(1 - s);
-        const double z = (u - 0.5) * design.profile.slot_length;
-        // Points are moved within the section's plane by what is `depth` along the normal.
-        const Vector3d in_plane = Vector3d(along.y(), -along.x(), 0);
-        const Vector3d at =
-            Vector3d(nominal.x() + z * skew, nominal.y(), z) - depth.at(s, u).depth / normal.dot(in_plane) * in_plane;
-        EXPECT_LT(distance(solids[0], at), 1e-10) << s << " " << u;
-      }
+    for (std::size_t f = 0; f < kFlanks.size(); ++f) {
+      const FlankDepth depth(SolidFlankForm(design.profile.flanks[f], design.profile, design.solid), design.worn[f]);
+      const Edge& flank = edge(profile.blade, "flank_" + std::string(kFlanks[f].name));
+      const double to_root = kFlanks[f].left ? 1 : -1;
+      const Vector2d in_plane = outward(flank, 0);
+      const Vector3d normal = flank_frame(to_root * flank.tangent(0), kFlanks[f].left, design.solid.skew_angle).normal;
+      for (const double u : {0.0, 0.2, 0.37, 0.5, 0.8, 1.0})
+        for (const double s : {0.0, 0.03, 0.1, 0.2, 0.5, 0.83, 0.97, 1.0}) {
+          const Vector2d nominal = flank.point(kFlanks[f].left ? s : 1 - s);
+          const double z = (u - 0.5) * design.profile.slot_length;
+          // Points are moved within the section's plane by what is `depth` along the normal.
+          const Vector2d at = nominal - depth.at(s, u).depth / normal.head<2>().dot(in_plane) * in_plane;
+          EXPECT_LT(distance(solids[0], {at.x() + z * skew, at.y(), z}), 1e-10) << kFlanks[f].name << s << " " << u;
+        }
+    }
   }
 }
 
