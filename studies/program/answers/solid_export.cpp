@@ -22,7 +22,7 @@ void wear_off(const report::ContactRecord& contact, geometry::SolidDesign& desig
     const std::size_t f = geometry::flank_index(contact.flank_names[static_cast<std::size_t>(contact.flank[i])]);
     const double place = contact.along_m[i] / design.profile.flanks[f].length;
     geometry::WornFlank& flank = design.worn[f];
-    if (flank.empty() || place < flank.back().places.back())
+    if (flank.empty() || place <= flank.back().places.back())
       flank.push_back({.along = contact.across_m.empty() ? 0.5 : 0.5 + contact.across_m[i] / slot});
     flank.back().places.push_back(place);
     flank.back().depth.push_back(std::max(0.0, contact.depth_m[i]));
