@@ -53,7 +53,7 @@ class Ring {
     const auto arc = [&](double z) {
       const double height = kPerMillimetre * z;
       const Handle(Geom2d_Line) across = new Geom2d_Line(gp_Pnt2d(0, height), gp_Dir2d(1, 0));
-      const TopoDS_Edge edge = BRepBuilderAPI_MakeEdge(across, surface, direction(1, z), direction(-1, z));
+      TopoDS_Edge edge = BRepBuilderAPI_MakeEdge(across, surface, direction(1, z), direction(-1, z));
       const gp_Ax2 axes(gp_Pnt(0, 0, height), gp_Dir(0, 0, 1), gp_Dir(1, 0, 0));
       BRep_Builder().UpdateEdge(edge, new Geom_Circle(axes, kPerMillimetre * radius), Precision::Confusion());
       return edge;

@@ -158,7 +158,7 @@ TopoDS_Shape without(const TopoDS_Shape& body, const TopoDS_Shape& tool) {
 TopoDS_Solid one_solid(const TopoDS_Shape& shape, const std::string& what) {
   TopExp_Explorer solids(shape, TopAbs_SOLID);
   if (solids.More()) {
-    const TopoDS_Solid solid = TopoDS::Solid(solids.Current());
+    TopoDS_Solid solid = TopoDS::Solid(solids.Current());
     solids.Next();
     if (!solids.More() && BRepCheck_Analyzer(solid).IsValid()) return solid;
   }
