@@ -22,3 +22,11 @@ pkg_check_modules(DXFLIB REQUIRED IMPORTED_TARGET dxflib)
 find_package(OpenMP REQUIRED COMPONENTS CXX)
 find_library(CHOLMOD_LIBRARY cholmod REQUIRED)
 find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
+# Its own package lists all of its libraries and no folder of headers; these are the ones that make and write solids.
+find_package(OpenCASCADE REQUIRED)
+if(NOT TARGET OpenCASCADE::Modelling)
+  add_library(OpenCASCADE::Modelling INTERFACE IMPORTED)
+  target_include_directories(OpenCASCADE::Modelling SYSTEM INTERFACE ${OpenCASCADE_INCLUDE_DIR})
+  target_link_libraries(OpenCASCADE::Modelling INTERFACE TKSTEP TKSTEPBase TKIGES TKXSBase TKMesh TKBO TKPrim TKTopAlgo
+    TKBRep TKGeomBase TKG3d TKG2d TKMath TKernel)
+endif()

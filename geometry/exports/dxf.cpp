@@ -6,10 +6,12 @@
 #include <fstream>
 #include <memory>
 #include <numbers>
+#include <sstream>
 #include <string>
 
 #include "core/errors.hpp"
 #include "core/replace_file.hpp"
+#include "geometry/exports/dxf_owners.hpp"
 #include "geometry/exports/millimetres.hpp"
 
 namespace dovetail::geometry {
@@ -76,12 +78,8 @@ void write_blocks(DL_Dxf& dxf, DL_WriterA& writer) {
 }
 
 /// The writer does not report a full disk; a complete file ends with this line.
-bool is_complete(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  std::string line, last;
-  while (std::getline(in, line))
-    if (!line.empty()) last = line;
-  return last == "EOF";
+bool is_complete(const std::string& text) {
+  return text.ends_with("EOF\n");
 }
 
 bool write_file(const std::filesystem::path& file, std::span<const Layer> layers) {
@@ -103,7 +101,11 @@ bool write_file(const std::filesystem::path& file, std::span<const Layer> layers
   dxf.writeObjectsEnd(*writer);
   writer->dxfEOF();
   writer->close();
-  return is_complete(file);
+  std::ostringstream written;
+  written << std::ifstream(file).rdbuf();
+  const std::string whole = with_owners(written.str());
+  std::ofstream again(file, std::ios::trunc);
+  return is_complete(whole) && again << whole << std::flush;
 }
 
 }  // namespace

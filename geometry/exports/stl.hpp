@@ -1,15 +1,16 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <array>
+#include <span>
 #include <string>
-#include <vector>
-
-#include "fem/mesh.hpp"
 
 namespace dovetail::geometry {
 
-/// The closed surfaces of bodies (0 blade, 1 disk) of a mesh of wedges as a binary STL file in mm, normals outwards.
-/// They go through all nodes, so their distance from the true surface is that of the mesh's half edges. Throws
-/// InputError when the mesh is plane.
-[[nodiscard]] std::string stl(const fem::Mesh& mesh, const std::vector<int>& bodies);
+/// Corners, counter-clockwise seen from outside, m.
+using Triangle = std::array<Eigen::Vector3d, 3>;
+
+/// A binary STL file in mm, normals outwards. Its numbers have single precision.
+[[nodiscard]] std::string stl(std::span<const Triangle> triangles);
 
 }  // namespace dovetail::geometry

@@ -31,16 +31,18 @@ std::string base64(const std::string& bytes) {
   return text;
 }
 
-/// Inline binary of VTK: the number of bytes as 64 bits, then the values, encoded in one piece.
+/// Inline binary of VTK: the number of bytes as 64 bits, then the values, encoded in one piece. What belongs to points
+/// or cells has as many as these, other arrays say how many they have.
 template <class T>
 std::string data_array(std::string_view type, const std::string& name, std::size_t components,
-                       const std::vector<T>& values) {
+                       const std::vector<T>& values, const std::string& count = {}) {
   const std::uint64_t size = values.size() * sizeof(T);
   std::string bytes(sizeof(size) + size, '\0');
   std::memcpy(bytes.data(), &size, sizeof(size));
   if (size > 0) std::memcpy(bytes.data() + sizeof(size), values.data(), size);
-  return fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">{}</DataArray>\n",
-                     type, name, components, base64(bytes));
+  return fmt::format(
+      "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"{} format=\"binary\">{}</DataArray>\n", type, name,
+      components, count, base64(bytes));
 }
 
 InputError refused(const std::string& field, const std::string& allowed) {
@@ -93,8 +95,8 @@ CellType cell_type(fem::ElementKind kind) {
 
 }  // namespace
 
-std::string vtu(const fem::Mesh& mesh, std::span<const MeshField> point_fields,
-                std::span<const MeshField> cell_fields) {
+std::string vtu(const fem::Mesh& mesh, std::span<const MeshField> point_fields, std::span<const MeshField> cell_fields,
+                const std::map<std::string, std::vector<double>>& constants) {
   require_fields(point_fields, mesh.node_count(), "nodes", {});
   require_fields(cell_fields, mesh.element_count(), "elements", {"region", "body"});
 
@@ -116,8 +118,14 @@ std::string vtu(const fem::Mesh& mesh, std::span<const MeshField> point_fields,
   std::string text =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
       "header_type=\"UInt64\">\n";
-  text += fmt::format("<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", mesh.node_count(),
-                      mesh.element_count());
+  text += "<UnstructuredGrid>\n";
+  if (!constants.empty()) {
+    text += "<FieldData>\n";
+    for (const auto& [name, values] : constants)
+      text += data_array("Float64", escaped(name), 1, values, fmt::format(" NumberOfTuples=\"{}\"", values.size()));
+    text += "</FieldData>\n";
+  }
+  text += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", mesh.node_count(), mesh.element_count());
   text += "<PointData>\n";
   for (const MeshField& field : point_fields) text += field_array(field);
   text +=
@@ -130,8 +138,8 @@ std::string vtu(const fem::Mesh& mesh, std::span<const MeshField> point_fields,
 }
 
 void write_vtu(const std::filesystem::path& file, const fem::Mesh& mesh, std::span<const MeshField> point_fields,
-               std::span<const MeshField> cell_fields) {
-  const std::string text = vtu(mesh, point_fields, cell_fields);
+               std::span<const MeshField> cell_fields, const std::map<std::string, std::vector<double>>& constants) {
+  const std::string text = vtu(mesh, point_fields, cell_fields, constants);
   replace_file(file, text);
 }
 

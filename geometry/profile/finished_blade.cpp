@@ -12,12 +12,6 @@ using Eigen::Vector2d;
 
 constexpr FinishedParams kFinished = {};
 
-/// Out of the material.
-Vector2d outward(const Edge& e, double fraction) {
-  const Vector2d tangent = e.tangent(fraction);
-  return {tangent.y(), -tangent.x()};
-}
-
 /// A blade flank with its form, travelled like the nominal edge.
 class FinishedFlank {
  public:
@@ -76,13 +70,6 @@ class FinishedFlank {
   bool from_root_;
 };
 
-/// The edge with one end moved into the material by `gap`, its middle by half of it.
-Edge redrawn(const Edge& e, bool at_start, const Vector2d& moved, double gap) {
-  if (gap == 0) return e;
-  return arc_through(e.name, at_start ? moved : e.start, e.point(0.5) - gap / 2 * outward(e, 0.5),
-                     at_start ? e.end : moved);
-}
-
 void finish(Chain& blade, const std::string& name, const FlankForm& form, bool from_root) {
   const auto at = std::find_if(blade.begin(), blade.end(), [&](const Edge& e) { return e.name == name; });
   const std::size_t index = static_cast<std::size_t>(at - blade.begin());
@@ -97,6 +84,17 @@ void finish(Chain& blade, const std::string& name, const FlankForm& form, bool f
 }
 
 }  // namespace
+
+Vector2d outward(const Edge& e, double fraction) {
+  const Vector2d tangent = e.tangent(fraction);
+  return {tangent.y(), -tangent.x()};
+}
+
+Edge redrawn(const Edge& e, bool at_start, const Vector2d& moved, double gap) {
+  if (gap == 0) return e;
+  return arc_through(e.name, at_start ? moved : e.start, e.point(0.5) - gap / 2 * outward(e, 0.5),
+                     at_start ? e.end : moved);
+}
 
 Chain finished_blade(const ProfileParameters& parameters) {
   Chain blade = build_profile(parameters).blade;

@@ -63,4 +63,14 @@ double FlankForm::gap(double s) const {
   return std::max(0.0, raw(s) - shift_);
 }
 
+double FlankForm::slope(double s) const {
+  const FlankParameters& p = parameters_;
+  double slope = p.mismatch + 4 * p.crown * (2 * s - 1);
+  for (const EndLoss& loss : end_losses(p)) {
+    if (s < loss.reach) slope -= 2 * loss.depth / loss.reach * (1 - s / loss.reach);
+    if (1 - s < loss.reach) slope += 2 * loss.depth / loss.reach * (1 - (1 - s) / loss.reach);
+  }
+  return slope;
+}
+
 }  // namespace dovetail::geometry

@@ -30,6 +30,8 @@ class FlankForm {
 
   /// Gap at s, m, >= 0.
   [[nodiscard]] double gap(double s) const;
+  /// dg/ds there, m.
+  [[nodiscard]] double slope(double s) const;
   /// Borders of the pieces on each of which g is one parabola: 0, the inner borders of reliefs and roundings in rising
   /// order, 1.
   [[nodiscard]] const std::array<double, 6>& pieces() const { return pieces_; }
@@ -49,5 +51,12 @@ class FlankForm {
 /// flank's end; so the chain stays closed, with a change of direction of about 2 gap/radius (0.01 for 10 um on
 /// 2 mm) at their ends. The number of flank edges depends on the form; without any form it is one line.
 [[nodiscard]] Chain finished_blade(const ProfileParameters& parameters);
+
+/// An edge beside a flank that lost `gap` at the end they share, drawn anew as above: through its far end, its middle
+/// moved into the material by gap/2, and `moved`, the flank's end.
+[[nodiscard]] Edge redrawn(const Edge& edge, bool at_start, const Eigen::Vector2d& moved, double gap);
+
+/// Unit normal of an edge of a closed chain, out of the material.
+[[nodiscard]] Eigen::Vector2d outward(const Edge& edge, double fraction);
 
 }  // namespace dovetail::geometry

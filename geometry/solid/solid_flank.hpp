@@ -22,6 +22,8 @@ class SolidFlankForm {
 
   /// Gap, m, >= 0.
   [[nodiscard]] double gap(double s, double u) const { return across_.gap(s) + along_.gap(u); }
+  [[nodiscard]] const FlankForm& across() const { return across_; }
+  [[nodiscard]] const FlankForm& along() const { return along_; }
 
  private:
   FlankForm across_, along_;

@@ -38,7 +38,7 @@ struct SceneKind {
   bool contact_grid;    ///< mesh.contact_flank_elements and mesh.contact_slot_elements count
   bool rough_peaks;     ///< the mesh is known to resolve the pressure at the ends of rough flanks
   bool coarse_answers;  ///< a coarser mesh says what harmonics, samples and penalties leave open
-  bool in_space;        ///< there is a closed surface to export, and responses converge as in space
+  bool in_space;        ///< responses converge as in space, and the aerofoil is one
   int finer_meshes = std::numeric_limits<int>::max();  ///< optimizer.finer_meshes by default, at most
 };
 

@@ -2,15 +2,14 @@
 
 #include <cassert>
 
-#include "core/replace_file.hpp"
 #include "geometry/exports/dxf.hpp"
 #include "geometry/exports/inp.hpp"
 #include "geometry/exports/layer.hpp"
-#include "geometry/exports/stl.hpp"
 #include "geometry/exports/svg.hpp"
 #include "geometry/solid/solid_family.hpp"
 #include "optimizer/candidate/candidate_model.hpp"
 #include "optimizer/scene/scene_kind.hpp"
+#include "studies/program/answers/solid_export.hpp"
 #include "studies/program/study_file/refusal.hpp"
 
 namespace dovetail::studies {
@@ -47,15 +46,16 @@ void export_geometry(const optimizer::Scene& scene, ExportFormat format, const D
       return geometry::write_dxf(file, geometry::section_layers(scene.geometry));
     case ExportFormat::svg:
       return geometry::write_svg(file, geometry::section_layers(scene.geometry));
+    case ExportFormat::step:
+    case ExportFormat::iges:
     case ExportFormat::stl:
-      if (!scene.kind->in_space)
-        refuse("scene.type", "must be sector for stl: a section has no surface in space",
-               std::string(scene.kind->name));
-      return replace_file(file, geometry::stl(meshed(scene).sector.mesh, {0, 1}));
+      return export_solids(scene, format, nullptr, file);
     case ExportFormat::inp:
       return export_deck(scene, deck, file);
     case ExportFormat::vtu:
-      assert(false && "fields are computed, see export_fields");
+    case ExportFormat::pvd:
+    case ExportFormat::csv:
+      assert(false && "computed, see field_export.hpp and candidate_table.hpp");
   }
 }
 

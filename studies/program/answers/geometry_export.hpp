@@ -18,10 +18,10 @@ struct DeckOptions {
   bool operator==(const DeckOptions&) const = default;
 };
 
-/// Writes a scene in a format without computed fields: the section as a drawing, the surfaces of blade and disk in
-/// space, or the finite elements with materials, speed and friction as an input deck of CalculiX
+/// Writes a scene in a format without computed fields: the section as a drawing, blade and disk as solids or their
+/// surfaces, unworn, or the finite elements with materials, speed and friction as an input deck of CalculiX
 /// (geometry/exports/inp.hpp). Throws InputError for a file that cannot be written, a design that cannot be meshed
-/// where the format needs a mesh, a section where it needs a solid, and options out of range.
+/// where the format needs a mesh or as a solid, and options out of range.
 void export_geometry(const optimizer::Scene& scene, ExportFormat format, const DeckOptions& deck,
                      const std::filesystem::path& file);
 

@@ -11,6 +11,7 @@
 
 #include "core/replace_file.hpp"
 #include "optimizer/journal/journal.hpp"
+#include "studies/program/answers/candidate_table.hpp"
 #include "studies/program/study_file/best_file.hpp"
 
 namespace dovetail::studies {
@@ -30,10 +31,6 @@ double as_response(const optimizer::ObjectiveTerm& term, double value) {
 std::string point_file(std::size_t point, std::size_t points) {
   const auto digits = std::max<std::size_t>(2, std::to_string(points).size());
   return fmt::format("point_{:0{}}.toml", point + 1, digits);
-}
-
-std::string number(double value) {
-  return std::isfinite(value) ? shortest(value) : "";
 }
 
 double value_in(const std::map<std::string, double>& values, const std::string& name) {
@@ -158,13 +155,13 @@ void write_front(const fs::path& directory, const Study& study, const report::Ru
     replace_file(folder / file, with_values(document, settings_at(study, at.x)));
     text += fmt::format("{},{},front/{}", point + 1, index + 1, file);
     for (std::size_t i = 0; i < front.columns(); ++i)
-      text += "," + number(front.value(point, i)) + "," + number(front.bar(point, i));
-    for (const double x : at.x) text += "," + number(x);
+      text += "," + table_number(front.value(point, i)) + "," + table_number(front.bar(point, i));
+    for (const double x : at.x) text += "," + table_number(x);
     for (const std::string& name : responses) {
-      text += "," + number(value_in(at.responses, name));
-      if (barred.contains(name)) text += "," + number(value_in(at.error_estimates, name));
+      text += "," + table_number(value_in(at.responses, name));
+      if (barred.contains(name)) text += "," + table_number(value_in(at.error_estimates, name));
     }
-    for (const double c : at.constraints) text += "," + number(c);
+    for (const double c : at.constraints) text += "," + table_number(c);
     text += "\n";
   }
   replace_file(directory / "front.csv", text);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/replace_file.hpp"
+#include "studies/program/answers/candidate_table.hpp"
 #include "studies/program/answers/field_export.hpp"
 #include "studies/program/answers/geometry_export.hpp"
 #include "studies/program/answers/run_front.hpp"
@@ -126,12 +127,16 @@ WrittenRun write_run(const RunSite& site, const OptimizationResult& result, doub
   const Scene best = scene_of(study, result.evaluations[*result.best]);
   for (const ExportFormat format : study.exports) {
     const std::filesystem::path file = site.directory / ("best." + std::string(to_string(format)));
-    if (format != ExportFormat::vtu)
+    const bool fields = record.best_design && record.best_design->fields.mesh.element_count() > 0;
+    if (format == ExportFormat::csv)
+      replace_file(site.directory / "candidates.csv", candidate_table(record));
+    else if (!has_fields(format))
       export_geometry(best, format, {}, file);
-    else if (record.best_design && record.best_design->fields.mesh.element_count() > 0)
-      export_fields(record.best_design->fields, file);
+    else if (!fields || (format == ExportFormat::pvd && !record.best_design->history))
+      site.err << "dovetail: " << file.string() << ": not written: the best design has no "
+               << (fields ? "wear history" : "fields") << "\n";
     else
-      site.err << "dovetail: " << file.string() << ": not written: the best design has no fields\n";
+      (format == ExportFormat::pvd ? export_history : export_fields)(*record.best_design, file);
   }
   return written;
 }

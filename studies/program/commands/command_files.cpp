@@ -8,11 +8,14 @@
 #include "core/replace_file.hpp"
 #include "optimizer/journal/journal.hpp"
 #include "reduction/model_file.hpp"
+#include "studies/program/answers/candidate_table.hpp"
 #include "studies/program/answers/field_export.hpp"
 #include "studies/program/answers/geometry_export.hpp"
+#include "studies/program/answers/solid_export.hpp"
 #include "studies/program/commands/commands.hpp"
 #include "studies/program/engine/engine.hpp"
 #include "studies/program/engine/model_toml.hpp"
+#include "studies/program/study_file/best_file.hpp"
 #include "studies/program/study_file/export.hpp"
 #include "studies/program/study_file/refusal.hpp"
 #include "studies/report/pages/report_html.hpp"
@@ -32,16 +35,74 @@ fs::path run_file(const std::string& directory, const std::string& name, const s
   return file;
 }
 
-report::FieldRecord fields_of(const ExportOptions& options, bool of_run) {
-  if (of_run) {
-    const report::RunRecord record = report::read_results(run_file(options.input, "results.h5", "results"));
-    if (record.best_design && record.best_design->fields.mesh.element_count() > 0) return record.best_design->fields;
-    refuse(options.input, "holds no fields of a best design");
+report::RunRecord results_of(const std::string& directory) {
+  return report::read_results(run_file(directory, "results.h5", "results"));
+}
+
+/// The study file of a candidate of a run, as best.toml is that of the best design.
+Document candidate_document(const std::string& directory, int number) {
+  const report::RunRecord record = results_of(directory);
+  const auto count = static_cast<int>(record.evaluations.size());
+  if (number > count)
+    refuse("--candidate", fmt::format("must be 1 to {}: the run has no more evaluations", count),
+           std::to_string(number));
+  const Document searched = parse_document(record.provenance.study_text, record.provenance.study_file);
+  const std::vector<double>& x = record.evaluations[static_cast<std::size_t>(number - 1)].x;
+  return parse_document(with_values(searched, settings_at(read_study(searched), x)),
+                        fmt::format("{}, candidate {}", directory, number));
+}
+
+/// What is to be exported: a study, or a design of a run.
+class Exported {
+ public:
+  explicit Exported(const ExportOptions& options) : options_(options), of_run_(fs::is_directory(options.input)) {
+    if (options.candidate && !of_run_)
+      refuse("--candidate", "only has a meaning with the directory of a run", std::to_string(*options.candidate));
   }
-  const Study study = load_study(options.input, overrides(options.set));
-  const report::DesignRecord design = describe_fields(study);
-  if (design.fields.mesh.element_count() > 0) return design.fields;
-  refuse(options.input, "the design has no fields: " + design.status);
+
+  [[nodiscard]] bool of_run() const { return of_run_; }
+
+  [[nodiscard]] Document document() const {
+    if (options_.candidate) return candidate_document(options_.input, *options_.candidate);
+    return load_document(of_run_ ? run_file(options_.input, "best.toml", "best design").string() : options_.input);
+  }
+
+  [[nodiscard]] Study study() const {
+    Document document = this->document();
+    apply_overrides(document, overrides(options_.set));
+    return read_study(document);
+  }
+
+  /// With fields and contact; what a run keeps of its best design is not computed again.
+  [[nodiscard]] report::DesignRecord design(bool history) const {
+    if (of_run_ && !options_.candidate && options_.set.empty()) {
+      const report::RunRecord record = results_of(options_.input);
+      if (record.best_design && record.best_design->fields.mesh.element_count() > 0) return *record.best_design;
+      refuse(options_.input, "holds no fields of a best design");
+    }
+    report::DesignRecord design = describe_fields(study(), history);
+    if (design.fields.mesh.element_count() > 0) return design;
+    refuse(options_.input, "the design has no fields: " + design.status);
+  }
+
+ private:
+  const ExportOptions& options_;
+  bool of_run_;
+};
+
+void check_export(const ExportOptions& options, std::optional<ExportFormat> format) {
+  if (!format && options.format != kMatrixMarket) {
+    std::vector<std::string_view> formats = names_of<ExportFormat>();
+    formats.push_back(kMatrixMarket);
+    refuse("--format", one_of(formats), options.format);
+  }
+  if (format != ExportFormat::inp && options.deck != DeckOptions{})
+    refuse("--format", "must be inp with --nodal-diameter, --modes or --contact", options.format);
+  if (options.worn && !(format && is_solid(*format)))
+    refuse("--format", "must be step, iges or stl with --worn", options.format);
+  if (options.candidate && format == ExportFormat::csv)
+    refuse("--candidate", "has no meaning with csv: the table has all of them", std::to_string(*options.candidate));
+  check_replaceable(options.file);
 }
 
 }  // namespace
@@ -60,9 +121,10 @@ int run_import(const ImportOptions& options, const Streams& streams) {
 
 namespace {
 
-int export_model(const ExportOptions& options, const std::string& input, const Streams& streams) {
-  const LoadedModel loaded = load_model(input, options.set, {}, &streams.err);
-  if (!loaded.failure.empty()) return not_converged(input, "not converged: " + loaded.failure, streams);
+int export_model(const ExportOptions& options, const Exported& exported, const Streams& streams) {
+  const LoadedModel loaded = exported.of_run() ? load_model(exported.study(), &streams.err)
+                                               : load_model(options.input, options.set, {}, &streams.err);
+  if (!loaded.failure.empty()) return not_converged(options.input, "not converged: " + loaded.failure, streams);
   write_model_document(options.file, loaded.model, options.input);
   streams.out << options.file << ": written, with three matrices beside it\n";
   return kDone;
@@ -72,26 +134,26 @@ int export_model(const ExportOptions& options, const std::string& input, const S
 
 int run_export(const ExportOptions& options, const Streams& streams) {
   const std::optional<ExportFormat> format = named<ExportFormat>(options.format);
-  const bool matrices = options.format == kMatrixMarket;
-  if (!matrices && !format) {
-    std::vector<std::string_view> formats = names_of<ExportFormat>();
-    formats.push_back(kMatrixMarket);
-    refuse("--format", one_of(formats), options.format);
-  }
-  if (format != ExportFormat::inp && options.deck != DeckOptions{})
-    refuse("--format", "must be inp with --nodal-diameter, --modes or --contact", options.format);
-  check_replaceable(options.file);
-  const bool of_run = fs::is_directory(options.input);
-  const auto design = [&] {
-    return of_run ? run_file(options.input, "best.toml", "best design").string() : options.input;
-  };
-  if (matrices) return export_model(options, design(), streams);
+  check_export(options, format);
+  const Exported exported(options);
+  const bool of_run = exported.of_run();
+  if (!format) return export_model(options, exported, streams);
   if (!of_run && (is_hdf5_file(options.input) || is_model_document(load_document(options.input))))
     refuse(options.input, "is a reduced model: it has matrices (--format matrix-market), no geometry");
-  if (format == ExportFormat::vtu)
-    export_fields(fields_of(options, of_run), options.file);
-  else
-    export_geometry(load_study(design(), overrides(options.set)).scene, *format, options.deck, options.file);
+  if (format == ExportFormat::csv) {
+    if (!of_run) refuse(options.input, "must be the directory of a run for csv, the table of its candidates");
+    replace_file(options.file, candidate_table(results_of(options.input)));
+  } else if (has_fields(*format)) {
+    const bool series = format == ExportFormat::pvd;
+    (series ? export_history : export_fields)(exported.design(series), options.file);
+  } else if (options.worn) {
+    const report::DesignRecord design = exported.design(false);
+    if (design.contact.depth_m.empty() || design.status != "converged")
+      refuse(options.input, "has no worn flanks: its wear has not come to an end (" + design.status + ")");
+    export_solids(exported.study().scene, *format, &design.contact, options.file);
+  } else {
+    export_geometry(exported.study().scene, *format, options.deck, options.file);
+  }
   streams.out << options.file << ": written\n";
   return kDone;
 }

@@ -136,7 +136,9 @@ struct ExportOptions {
   std::vector<std::string> set;  ///< KEY=VALUE, as given with --set
   std::string format;
   std::string file;
-  DeckOptions deck;  ///< of the format inp
+  std::optional<int> candidate;  ///< number of an evaluation of a run, from 1; absent: its best design
+  bool worn = false;             ///< solids with the flanks that wear leaves
+  DeckOptions deck;              ///< of the format inp
 };
 int run_export(const ExportOptions& options, const Streams& streams);
 

@@ -139,7 +139,12 @@ CommandHelp export_files() {
       .name = "export",
       .what = "Write geometry, finite elements or fields of a run's best design or of a study, or matrices of a model",
       .footer =
-          "stl writes the surfaces of blade and disk (binary, mm) of a study in space.\n"
+          "step, iges and stl write blade and disk of one sector as solids, or their surfaces in triangles (binary); "
+          "mm.\n"
+          "vtu writes stress, contact pressure, slip, wear depth and mode shapes on the mesh, pvd a series of files "
+          "over "
+          "the\n"
+          "wear history, csv a table of all candidates of a run.\n"
           "inp writes the sector's finite elements for CalculiX (units mm, tonne, s): centrifugal load at the study's "
           "speed,\n"
           "then natural frequencies; --nodal-diameter, --modes and --contact choose what is asked for.\n"

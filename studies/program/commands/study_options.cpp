@@ -106,7 +106,14 @@ std::span<const Option<ExportOptions>> command_options<ExportOptions>() {
         {"INPUT", &E::input, {}, "Directory of a run, a study file, or a reduced model", true},
         {"--format", &E::format, "NAME", "One of " + export_formats() + ", " + std::string(kMatrixMarket), true},
         output_option<E>(&E::file, "FILE", "The file to write"),
-        set_option<E>()};
+        set_option<E>(),
+        {"--candidate",
+         &E::candidate,
+         "N",
+         "Of a run: its evaluation of that number (default: the best design)",
+         false,
+         {.lower = 1}},
+        {"--worn", &E::worn, {}, "step, iges, stl: the blade with its flanks worn as far as wear goes"}};
   }();
   return table;
 }

@@ -194,9 +194,11 @@ RunEngine study_engine(const Study& study) {
   return engine;
 }
 
-report::DesignRecord describe_fields(const Study& study) {
-  return report::make_design_record(study.scene, scene_evaluator(study)->evaluate(study.scene),
-                                    {.curve_points = 0, .nodal_diameter_modes = 0, .history_steps = 0});
+report::DesignRecord describe_fields(const Study& study, bool history) {
+  report::DesignRecordOptions options{.curve_points = 0, .nodal_diameter_modes = 0, .history_profiles = 16};
+  if (!history) options.history_steps = 0;
+  const Scene scene = optimizer::in_first_case(study.scene, study.problem.cases);
+  return report::make_design_record(scene, scene_evaluator(study)->evaluate(scene, {.bars = false}), options);
 }
 
 bool is_hdf5_file(const std::string& file) {
@@ -241,37 +243,6 @@ InputError infeasible(const std::string& file, const std::vector<std::string>& m
 }
 
 namespace {
-
-LoadedModel from_study(const std::string& file, const std::vector<Override>& given, std::ostream* err,
-                       std::optional<wear::Follow> follow) {
-  Study study = load_study(file, given);
-  if (follow) study.scene.loading.follow = *follow;
-  if (err != nullptr && study.scene.solver.accuracy > 0)
-    *err << file
-         << ": warning: solver.accuracy chooses nothing here: mesh, modes, harmonics and samples are those of the file "
-            "(`dovetail evaluate` chooses and tells them).\n";
-  optimizer::CandidateModel candidate = scene_evaluator(study)->builder().build(study.scene);
-  if (candidate.infeasible()) throw infeasible(file, candidate.messages);
-  LoadedModel loaded;
-  loaded.joint.options = optimizer::steady_options(study.scene.solver);
-  loaded.follow = study.scene.loading.follow;
-  loaded.history_tolerance = study.scene.solver.history_tolerance;
-  if (!candidate.converged()) {
-    loaded.failure = candidate.status;
-    return loaded;
-  }
-  // The same contact nodes as an evaluation has, so that whatever is computed is of one model.
-  optimizer::fit_contact(study.scene, {}, candidate);
-  if (!candidate.converged()) {
-    loaded.failure = candidate.status;
-    return loaded;
-  }
-  loaded.model = candidate.model;
-  loaded.joint.model = candidate.condensed;
-  loaded.lines = optimizer::node_lines(candidate.cells);
-  loaded.glued_omega = candidate.glued_frequencies(study.scene.loading.mode - 1);
-  return loaded;
-}
 
 /// Before a model is read: options that do not fit are told whatever the file is like.
 steady::Options model_options(const std::string& file, const std::vector<std::string>& set,
@@ -346,6 +317,35 @@ std::optional<reduction::ReducedModel> read_any_model(const std::string& input) 
   return read_model_document(document);
 }
 
+LoadedModel load_model(Study study, std::ostream* err, std::optional<wear::Follow> follow) {
+  if (follow) study.scene.loading.follow = *follow;
+  if (err != nullptr && study.scene.solver.accuracy > 0)
+    *err << study.file
+         << ": warning: solver.accuracy chooses nothing here: mesh, modes, harmonics and samples are those of the file "
+            "(`dovetail evaluate` chooses and tells them).\n";
+  optimizer::CandidateModel candidate = scene_evaluator(study)->builder().build(study.scene);
+  if (candidate.infeasible()) throw infeasible(study.file, candidate.messages);
+  LoadedModel loaded;
+  loaded.joint.options = optimizer::steady_options(study.scene.solver);
+  loaded.follow = study.scene.loading.follow;
+  loaded.history_tolerance = study.scene.solver.history_tolerance;
+  if (!candidate.converged()) {
+    loaded.failure = candidate.status;
+    return loaded;
+  }
+  // The same contact nodes as an evaluation has, so that whatever is computed is of one model.
+  optimizer::fit_contact(study.scene, {}, candidate);
+  if (!candidate.converged()) {
+    loaded.failure = candidate.status;
+    return loaded;
+  }
+  loaded.model = candidate.model;
+  loaded.joint.model = candidate.condensed;
+  loaded.lines = optimizer::node_lines(candidate.cells);
+  loaded.glued_omega = candidate.glued_frequencies(study.scene.loading.mode - 1);
+  return loaded;
+}
+
 LoadedModel load_model(const std::string& input, const std::vector<std::string>& set, const SolverChoice& solver,
                        std::ostream* err, std::optional<wear::Follow> follow) {
   if (is_hdf5_file(input)) {
@@ -353,7 +353,7 @@ LoadedModel load_model(const std::string& input, const std::vector<std::string>&
     return from_model(input, reduction::read_model(input), steady, solver);
   }
   const Document document = load_document(input);
-  if (!is_model_document(document)) return from_study(input, overrides(set, solver), err, follow);
+  if (!is_model_document(document)) return load_model(load_study(input, overrides(set, solver)), err, follow);
   const steady::Options steady = model_options(input, set, solver);
   return from_model(input, read_model_document(document), steady, solver);
 }

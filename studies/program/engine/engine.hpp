@@ -43,8 +43,9 @@ inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();  //
 /// be meshed. Throws InputError when neither can.
 [[nodiscard]] std::shared_ptr<const optimizer::SceneEvaluator> scene_evaluator(const Study& study);
 
-/// The study's design with its fields and without curves.
-[[nodiscard]] report::DesignRecord describe_fields(const Study& study);
+/// The study's design, in its first case, with its fields and without curves.
+/// @param history  with its wear history, of which up to 16 states are kept
+[[nodiscard]] report::DesignRecord describe_fields(const Study& study, bool history = false);
 
 /// A reduced model to compute with, from a model file or from a study's candidate.
 struct LoadedModel {
@@ -70,6 +71,9 @@ struct LoadedModel {
 [[nodiscard]] LoadedModel load_model(const std::string& input, const std::vector<std::string>& set,
                                      const SolverChoice& solver, std::ostream* err = nullptr,
                                      std::optional<wear::Follow> follow = {});
+
+/// The same of a study that is read already.
+[[nodiscard]] LoadedModel load_model(Study study, std::ostream* err = nullptr, std::optional<wear::Follow> follow = {});
 
 /// Those given with --set, and the solver's options as overrides of the keys of [solver]. Throws InputError with all
 /// that are not KEY=VALUE, and for numbers that are neither whole nor auto.

@@ -9,18 +9,34 @@ namespace dovetail::studies {
 
 /// Formats of the section [export] and of the command export.
 enum class ExportFormat {
-  dxf,  ///< drawing of the section
-  svg,  ///< drawing of the section
-  stl,  ///< surfaces in space: a section has nothing to write
-  vtu,  ///< computed fields on the mesh
-  inp,  ///< the finite elements themselves, an input deck of another program
+  dxf,   ///< drawing of the section
+  svg,   ///< drawing of the section
+  step,  ///< solids of blade and disk
+  iges,  ///< the same
+  stl,   ///< their surfaces in triangles
+  vtu,   ///< computed fields on the mesh
+  pvd,   ///< a series of these: the joint while it wears
+  csv,   ///< table of all candidates of a run
+  inp,   ///< the finite elements themselves, an input deck of another program
 };
-constexpr EnumNames<ExportFormat, 5> enum_names(ExportFormat) {
+constexpr EnumNames<ExportFormat, 9> enum_names(ExportFormat) {
   return {{{ExportFormat::dxf, "dxf"},
            {ExportFormat::svg, "svg"},
+           {ExportFormat::step, "step"},
+           {ExportFormat::iges, "iges"},
            {ExportFormat::stl, "stl"},
            {ExportFormat::vtu, "vtu"},
+           {ExportFormat::pvd, "pvd"},
+           {ExportFormat::csv, "csv"},
            {ExportFormat::inp, "inp"}}};
+}
+/// Whether what is written has to be computed, or to be read from a run.
+[[nodiscard]] constexpr bool has_fields(ExportFormat format) {
+  return format == ExportFormat::vtu || format == ExportFormat::pvd;
+}
+/// Solids may be drawn with worn flanks.
+[[nodiscard]] constexpr bool is_solid(ExportFormat format) {
+  return format == ExportFormat::step || format == ExportFormat::iges || format == ExportFormat::stl;
 }
 [[nodiscard]] constexpr std::string_view to_string(ExportFormat format) {
   return name_of(format);

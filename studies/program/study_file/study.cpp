@@ -128,8 +128,6 @@ void read_exports(SectionReader& root, Study& study, Problems& problems) {
           item.kind == Node::Kind::text ? named<ExportFormat>(item.text) : std::nullopt;
       if (!format)
         problems.add(item, "export.formats", allowed);
-      else if (format == ExportFormat::stl && !study.scene.kind->in_space)
-        problems.add(item, "export.formats", "is a surface in space: scene.type must be \"sector\"");
       else if (std::ranges::find(study.exports, *format) == study.exports.end())
         study.exports.push_back(*format);
     }

@@ -10,6 +10,7 @@
 
 #include "fem/diameter_frequencies.hpp"
 #include "fem/element.hpp"
+#include "fem/flank_trace.hpp"
 #include "fem/stress.hpp"
 #include "geometry/profile/flank_form.hpp"
 #include "wear/history/history.hpp"
@@ -112,6 +113,56 @@ FieldRecord preload_fields(const Scene& scene, const CandidateModel& model) {
   return fields;
 }
 
+/// Which contact node is a cell where a node of the mesh lies on a flank.
+void add_flank_nodes(const CandidateModel& model, FieldRecord& fields) {
+  const std::vector<fem::CellStrip> strips = model.cells.strips();
+  const auto part = [](const std::vector<double>& ends, double place) {
+    const auto above = std::upper_bound(ends.begin(), ends.end(), place) - ends.begin();
+    return static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(above - 1, 0, std::ssize(ends) - 2));
+  };
+  std::size_t first_strip = 0;
+  for (std::size_t f = 0; f < model.mesh.sector.flanks.size(); ++f) {
+    const fem::Flank& flank = model.mesh.sector.flanks[f];
+    const std::vector<double>& along = model.cells.flanks[f].along;
+    const fem::TraceLines lines = fem::trace_lines(flank);
+    const Eigen::SparseMatrix<double, Eigen::RowMajor> nearest(flank.interpolation);
+    for (std::size_t pair = 0; pair < flank.pairs.size(); ++pair) {
+      Eigen::Index node = 0;
+      double most = 0;
+      for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(nearest, static_cast<Eigen::Index>(pair)); it;
+           ++it)
+        if (it.value() > most) {
+          most = it.value();
+          node = it.col();
+        }
+      const auto i = static_cast<std::size_t>(node % flank.grid[0]), j = static_cast<std::size_t>(node / flank.grid[0]);
+      const fem::CellStrip& strip = strips[first_strip + part(along, lines.along[j])];
+      for (const int mesh_node : flank.pairs[pair]) {
+        fields.flank_nodes.push_back(mesh_node);
+        fields.flank_cells.push_back(static_cast<std::int64_t>(strip.first + part(strip.ends, lines.across[i])));
+      }
+    }
+    first_strip += along.size() - 1;
+  }
+}
+
+/// The lowest natural modes with the flanks stuck: one reduced coordinate each, and the forces that hold the flanks.
+void add_modes(const CandidateModel& model, int count, FieldRecord& fields) {
+  const reduction::ReducedModel& reduced = model.reduction.model;
+  const Eigen::Index held = reduced.contact.count() * reduced.contact.directions();
+  const Eigen::Index modes = std::min<Eigen::Index>(count, model.reduction.glued_frequencies.size());
+  const Eigen::MatrixXd coordinates = Eigen::MatrixXd::Identity(reduced.size(), held + modes).rightCols(modes);
+  const Eigen::MatrixXd forces = -reduced.stiffness.block(0, held, held, modes);
+  const Eigen::MatrixXd shapes =
+      model.matrices.shared->system.constraints.transformation * model.reduction.recovery.apply(coordinates, forces, 0);
+  for (Eigen::Index m = 0; m < modes; ++m) {
+    const auto at_nodes = shapes.col(m).reshaped(fields.mesh.dimensions(), fields.mesh.node_count());
+    const Numbers shape = list(shapes.col(m) / at_nodes.colwise().norm().maxCoeff());
+    fields.mode_shapes.insert(fields.mode_shapes.end(), shape.begin(), shape.end());
+    fields.mode_frequency_hz.push_back(model.reduction.glued_frequencies(m) / (2 * std::numbers::pi));
+  }
+}
+
 /// States whose depths are kept: evenly over the history, first and last included.
 std::vector<std::int64_t> chosen_states(Eigen::Index states, int wanted) {
   std::vector<std::int64_t> chosen;
@@ -157,6 +208,9 @@ ContactRecord contact_record(const CandidateResult& result) {
   record.area_m2 = list(surface.area);
   record.gap_m = list(surface.gap);
   record.preload_pressure_pa = list(result.model.preload.pressure);
+  if (result.unworn)
+    for (const steady::NodeSummary& node : result.unworn->state.nodes)
+      record.slip_m_per_cycle.push_back(node.slip_distance);
   if (result.asymptote) {
     record.wear_rate_m_per_cycle = list(result.asymptote->unworn_rate);
     record.depth_m = list(result.asymptote->depth);
@@ -186,7 +240,11 @@ DesignRecord make_design_record(const Scene& scene, const CandidateResult& resul
   const fem::SectorMesh& sector = model.mesh.sector;
   add_fillet("blade", sector.mesh, sector.blade_fillet_nodes, result.blade_fillet, record);
   add_fillet("disk", sector.mesh, sector.disk_fillet_nodes, result.disk_fillet, record);
-  if (options.fields) record.fields = preload_fields(scene, model);
+  if (options.fields) {
+    record.fields = preload_fields(scene, model);
+    add_flank_nodes(model, record.fields);
+    add_modes(model, options.mode_shapes, record.fields);
+  }
   const auto asked = [&result](Stage stage) {
     return !result.evaluation.converged() || !result.stage || *result.stage >= stage;
   };

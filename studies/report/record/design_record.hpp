@@ -14,6 +14,7 @@ struct DesignRecordOptions {
   int history_steps = 30;        ///< >= 0, steps of the wear history; 0: none
   int history_profiles = 6;      ///< >= 0, depth profiles kept of the history, first and last included
   bool fields = true;            ///< mesh, displacement and von Mises stress of the preload
+  int mode_shapes = 3;           ///< >= 0, with the fields
 };
 
 /// Where the contact nodes are, their preload and, as far as they were computed, first rates and worn depths.

@@ -99,6 +99,7 @@ inline constexpr auto kFields<ContactRecord> =
                RecordField{"gap_m", &ContactRecord::gap_m},
                RecordField{"preload_pressure_pa", &ContactRecord::preload_pressure_pa},
                RecordField{"wear_rate_m_per_cycle", &ContactRecord::wear_rate_m_per_cycle},
+               RecordField{"slip_m_per_cycle", &ContactRecord::slip_m_per_cycle, true},
                RecordField{"depth_m", &ContactRecord::depth_m}};
 
 template <>
@@ -145,7 +146,11 @@ inline constexpr auto kFields<FieldRecord> =
                TableField<FieldRecord>{
                    "fields/displacement_m", &FieldRecord::displacement_m,
                    [](const FieldRecord& record) { return static_cast<std::size_t>(record.mesh.dimensions()); }},
-               RecordField{"fields/von_mises_pa", &FieldRecord::von_mises_pa}};
+               RecordField{"fields/von_mises_pa", &FieldRecord::von_mises_pa},
+               RecordField{"fields/flank_nodes", &FieldRecord::flank_nodes, true},
+               RecordField{"fields/flank_cells", &FieldRecord::flank_cells, true},
+               RecordField{"fields/mode_frequency_hz", &FieldRecord::mode_frequency_hz, true},
+               RecordField{"fields/mode_shapes", &FieldRecord::mode_shapes, true}};
 
 template <>
 inline constexpr auto kFields<DesignRecord> =

@@ -34,7 +34,7 @@ void Archive::require_consistent(const std::string& group, const DesignRecord& d
   const ContactRecord& c = design.contact;
   require_nodes(group + "/contact", c.flank, c.flank_names,
                 {&c.along_m, &c.across_m, &c.x_m, &c.y_m, &c.area_m2, &c.gap_m, &c.preload_pressure_pa,
-                 &c.wear_rate_m_per_cycle, &c.depth_m});
+                 &c.wear_rate_m_per_cycle, &c.slip_m_per_cycle, &c.depth_m});
   if (!c.flank.empty() && c.along_m.empty()) refuse(group + "/contact/along_m", {}, "must not be empty");
   for (const ResponseCurve* curve : {&design.unworn, &design.worn, &design.glued}) {
     require_size(group + " (response curves)", curve->amplitude_m.size(), curve->frequency_hz.size());
@@ -53,6 +53,16 @@ void Archive::require_consistent(const std::string& group, const DesignRecord& d
     require_size(group + "/fields/displacement_m", fields.displacement_m.size(),
                  static_cast<std::size_t>(fields.mesh.dimensions()) * nodes);
   if (!fields.von_mises_pa.empty()) require_size(group + "/fields/von_mises_pa", fields.von_mises_pa.size(), nodes);
+  require_size(group + "/fields/flank_cells", fields.flank_cells.size(), fields.flank_nodes.size());
+  const auto require_below = [&](const std::string& name, const Wholes& indices, std::size_t count) {
+    for (const std::int64_t index : indices)
+      if (index < 0 || index >= static_cast<std::int64_t>(count))
+        refuse(group + name, std::to_string(index), "must be an index below " + std::to_string(count));
+  };
+  require_below("/fields/flank_nodes", fields.flank_nodes, nodes);
+  require_below("/fields/flank_cells", fields.flank_cells, c.flank.size());
+  require_size(group + "/fields/mode_shapes", fields.mode_shapes.size(),
+               fields.mode_frequency_hz.size() * static_cast<std::size_t>(fields.mesh.dimensions()) * nodes);
 }
 
 void Archive::require_consistent(const std::string& group, const VerificationRecord& record) const {

@@ -28,6 +28,7 @@ struct ContactRecord {
   Numbers gap_m;  ///< initial, unloaded
   Numbers preload_pressure_pa;
   Numbers wear_rate_m_per_cycle;  ///< of the unworn state at the unworn resonance
+  Numbers slip_m_per_cycle;       ///< path under load of that state
   Numbers depth_m;                ///< asymptotic wear depth, both surfaces together
 };
 
@@ -65,8 +66,12 @@ struct HistoryRecord {
 /// The mesh of the section and nodal fields on it; without elements: not kept.
 struct FieldRecord {
   fem::Mesh mesh;
-  Numbers displacement_m;  ///< [n, d] of the preload (spin-up)
-  Numbers von_mises_pa;    ///< [n] of the preload
+  Numbers displacement_m;                      ///< [n, d] of the preload (spin-up)
+  Numbers von_mises_pa;                        ///< [n] of the preload
+  std::vector<std::int64_t> flank_nodes = {};  ///< [K] nodes of the mesh on the flanks, of blade and disk
+  std::vector<std::int64_t> flank_cells = {};  ///< [K] the contact node that is a cell there
+  Numbers mode_frequency_hz = {};  ///< [M] natural frequencies of the joint at speed with stuck rigid flanks
+  Numbers mode_shapes = {};        ///< [M, n d] their shapes row by row, the longest displacement 1
 };
 
 /// Everything shown or exported of one design. Pieces that could not be computed are empty; `notes` says why.

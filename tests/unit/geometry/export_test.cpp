@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <numbers>
 #include <sstream>
 
@@ -69,6 +70,34 @@ class Reader : public DL_CreationAdapter {
     if (key == "$INSUNITS") unit = value;
   }
 };
+
+// Readers that check a file repair one whose objects do not.
+TEST_F(Dxf, SaysWhoOwnsEachObject) {
+  const std::filesystem::path file = folder_ / "section.dxf";
+  write_dxf(file, section_layers({}));
+  std::ifstream stream(file);
+  std::map<std::string, std::string> owners;
+  std::vector<std::string> listed;
+  std::string code, value, object;
+  bool objects = false;
+  while (std::getline(stream, code) && std::getline(stream, value)) {
+    const int number = std::stoi(code);
+    objects = objects || (number == 2 && value == "OBJECTS");
+    if (!objects) continue;
+    if (number == 5) owners.emplace(object = value, "");
+    if (number == 330 && owners[object].empty()) owners[object] = value;
+    if (number == 350) listed.push_back(value);
+  }
+  EXPECT_GT(owners.size(), 8U);
+  int roots = 0;
+  for (const auto& [handle, owner] : owners)
+    if (owner == "0")
+      ++roots;
+    else
+      EXPECT_TRUE(owners.contains(owner)) << handle << " is owned by " << owner;
+  EXPECT_EQ(roots, 1);
+  for (const std::string& handle : listed) EXPECT_TRUE(owners.contains(handle)) << handle;
+}
 
 TEST_F(Dxf, IsReadBackWithTheSameLinesAndArcs) {
   const std::filesystem::path file = folder_ / "section.dxf";

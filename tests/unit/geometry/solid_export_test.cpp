@@ -4,13 +4,10 @@
 #include <Eigen/LU>
 #include <cstdint>
 #include <cstring>
-#include <map>
 #include <string>
 
 #include "fem/element.hpp"
-#include "geometry/exports/stl.hpp"
 #include "geometry/exports/vtu.hpp"
-#include "geometry/solid/surface.hpp"
 #include "tests/unit/geometry/solid_checks.hpp"
 
 namespace dovetail::geometry {
@@ -70,46 +67,6 @@ TEST(Vtu, OrdersTheNodesOfAWedgeAsVtkDoes) {
     for (const int corner : middles[k]) mean += at(corner) / static_cast<double>(middles[k].size());
     EXPECT_EQ(at(6 + static_cast<int>(k)), mean) << k;
   }
-}
-
-float number(const std::string& bytes, std::size_t at) {
-  float value = 0;
-  std::memcpy(&value, bytes.data() + at, sizeof(value));
-  return value;
-}
-
-TEST(Stl, IsTheClosedSurfaceOfABodySeenFromOutside) {
-  const MeshedSector meshed = mesh_solid({}, everything(), coarse_section(), {.slot_elements = 4});
-  for (const int body : {0, 1}) {
-    const std::vector<std::array<int, 3>> triangles = surface(meshed.sector.mesh, body);
-    // Every edge is used once in each direction.
-    std::map<std::pair<int, int>, int> edges;
-    for (const auto& triangle : triangles)
-      for (std::size_t i = 0; i < 3; ++i) ++edges[{triangle[i], triangle[(i + 1) % 3]}];
-    for (const auto& [edge, uses] : edges) {
-      EXPECT_EQ(uses, 1);
-      EXPECT_TRUE(edges.contains({edge.second, edge.first}));
-    }
-
-    const std::string bytes = stl(meshed.sector.mesh, {body});
-    std::uint32_t count = 0;
-    std::memcpy(&count, bytes.data() + 80, sizeof(count));
-    ASSERT_EQ(count, triangles.size());
-    ASSERT_EQ(bytes.size(), 84 + 50 * static_cast<std::size_t>(count));
-    double volume = 0;
-    for (std::size_t t = 0; t < count; ++t) {
-      Eigen::Matrix3d corners;
-      for (int i = 0; i < 9; ++i)
-        corners(i % 3, i / 3) = number(bytes, 84 + 50 * t + 12 + 4 * static_cast<std::size_t>(i));
-      volume += corners.determinant() / 6;
-    }
-    // Chords of half elements: arcs of up to 45 degrees miss R^2 (t - sin t)/2 of the section, less than 1 %.
-    EXPECT_NEAR(volume * 1e-9 / measure_of_body(meshed.sector.mesh, body), 1, 0.01);
-  }
-}
-
-TEST(Stl, RefusesAPlaneMesh) {
-  EXPECT_THROW((void)stl(mesh_sector({}, coarse_section()).sector.mesh, {0}), InputError);
 }
 
 }  // namespace

@@ -91,6 +91,39 @@ TEST(DesignRecord, AgreesWithTheEvaluation) {
   EXPECT_EQ(record.history->profile_depth_m.size(), record.history->profile_states.size() * contact.flank.size());
 }
 
+// Shapes of the full model whose energies are those of their frequencies, and contact nodes where their cells are.
+TEST(DesignRecord, HasModesAndContactNodesOnTheMesh) {
+  const Evaluated& design = evaluated();
+  const DesignRecord record =
+      make_design_record(design.scene, design.result,
+                         {.curve_points = 0, .nodal_diameter_modes = 0, .history_steps = 0, .mode_shapes = 3});
+  const FieldRecord& fields = record.fields;
+  const Eigen::SparseMatrix<double> stiffness = design.result.model.matrices.stiffness();
+  const Eigen::SparseMatrix<double>& mass = design.result.model.matrices.shared->system.full.mass;
+  ASSERT_EQ(fields.mode_frequency_hz.size(), 3U);
+  const Eigen::Index size = fields.mesh.nodes.size();
+  ASSERT_EQ(fields.mode_shapes.size(), 3 * static_cast<std::size_t>(size));
+  for (Eigen::Index m = 0; m < 3; ++m) {
+    const Eigen::Map<const Eigen::VectorXd> shape(fields.mode_shapes.data() + m * size, size);
+    const double omega = 2 * std::numbers::pi * fields.mode_frequency_hz[static_cast<std::size_t>(m)];
+    // Reduced modes are those of the full model but for the modes left out: their frequencies err by 1e-4 at most here.
+    EXPECT_NEAR(shape.dot(stiffness * shape) / (omega * omega * shape.dot(mass * shape)), 1, 1e-3) << m;
+    EXPECT_NEAR(shape.reshaped(2, size / 2).colwise().norm().maxCoeff(), 1, 1e-12);
+  }
+  ASSERT_EQ(fields.flank_nodes.size(), fields.flank_cells.size());
+  ASSERT_FALSE(fields.flank_nodes.empty());
+  const ContactRecord& contact = record.contact;
+  std::vector<double> longest(contact.flank.size(), 0.0);
+  for (std::size_t i = 0; i < contact.flank.size(); ++i)
+    longest[i] = contact.area_m2[i] / design.scene.geometry.slot_length;
+  for (std::size_t k = 0; k < fields.flank_nodes.size(); ++k) {
+    const auto cell = static_cast<std::size_t>(fields.flank_cells[k]);
+    const Eigen::Vector2d at = fields.mesh.nodes.col(fields.flank_nodes[k]);
+    EXPECT_LE((at - Eigen::Vector2d(contact.x_m[cell], contact.y_m[cell])).norm(), 0.5 * longest[cell] * (1 + 1e-6));
+  }
+  EXPECT_EQ(contact.slip_m_per_cycle.size(), contact.flank.size());
+}
+
 // Fewer points than may be computed, and lines between them that show the rest.
 TEST(DesignRecord, CurvesHavePointsWhereTheyBend) {
   const Evaluated& design = evaluated();

@@ -106,12 +106,12 @@ bool same(const EvaluationRecord& a, const EvaluationRecord& b) {
 }
 
 void expect_same(const ContactRecord& a, const ContactRecord& b) {
-  const auto& [a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11] = a;
-  const auto& [b1, b2, b3, b4, b5, b6, b7, b8, b9, b10, b11] = b;
+  const auto& [a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12] = a;
+  const auto& [b1, b2, b3, b4, b5, b6, b7, b8, b9, b10, b11, b12] = b;
   EXPECT_EQ(a1, b1);
   EXPECT_EQ(a2, b2);
   EXPECT_TRUE(all_same(a3, b3) && all_same(a4, b4) && all_same(a5, b5) && all_same(a6, b6) && all_same(a7, b7));
-  EXPECT_TRUE(all_same(a8, b8) && all_same(a9, b9) && all_same(a10, b10) && all_same(a11, b11));
+  EXPECT_TRUE(all_same(a8, b8) && all_same(a9, b9) && all_same(a10, b10) && all_same(a11, b11) && all_same(a12, b12));
 }
 void expect_same(const ResponseCurve& a, const ResponseCurve& b) {
   const auto& [a1, a2, a3] = a;
@@ -137,8 +137,11 @@ void expect_same(const HistoryRecord& a, const HistoryRecord& b) {
   EXPECT_TRUE(all_same(a9, b9));
 }
 void expect_same(const FieldRecord& a, const FieldRecord& b) {
-  const auto& [mesh_a, displacement_a, stress_a] = a;
-  const auto& [mesh_b, displacement_b, stress_b] = b;
+  const auto& [mesh_a, displacement_a, stress_a, nodes_a, cells_a, hertz_a, shapes_a] = a;
+  const auto& [mesh_b, displacement_b, stress_b, nodes_b, cells_b, hertz_b, shapes_b] = b;
+  EXPECT_EQ(nodes_a, nodes_b);
+  EXPECT_EQ(cells_a, cells_b);
+  EXPECT_TRUE(all_same(hertz_a, hertz_b) && all_same(shapes_a, shapes_b));
   const auto& [a1, a2, a3, a4, a5] = mesh_a;
   const auto& [b1, b2, b3, b4, b5] = mesh_b;
   EXPECT_EQ(a1, b1);

@@ -43,6 +43,7 @@ ContactRecord contact(const geometry::Profile& profile, double depth_um) {
       record.gap_m.push_back(1e-5 * s);
       record.preload_pressure_pa.push_back(8e7 + 1e7 * flank * s);
       record.wear_rate_m_per_cycle.push_back(1e-12 * (1 - s));
+      record.slip_m_per_cycle.push_back(1e-6 * (1 - s));
       record.depth_m.push_back(depth_um * 1e-6 * (1 - s) * (1 - s));
     }
   }
@@ -90,6 +91,10 @@ DesignRecord sample_design(double depth_um) {
   design.fields.mesh.regions = {{.name = "blade_root", .body = 0, .thickness = 0.04, .plane_stress = false}};
   design.fields.displacement_m = Numbers(12, 1e-5);
   design.fields.von_mises_pa = {1, 2, 3, 4, 5, 6};
+  design.fields.flank_nodes = {2, 5};
+  design.fields.flank_cells = {0, 7};
+  design.fields.mode_frequency_hz = {490.5, 2000};
+  design.fields.mode_shapes = Numbers(24, 0.5);
   design.notes = {"A note about <this> design."};
   return design;
 }

@@ -97,6 +97,14 @@ TEST(Vtu, ReadsBackWithVtksOrderOfQuadraticTriangles) {
   EXPECT_EQ(array<double>(file, "energy_j", 1), (std::vector<double>{0.1, 1e300}));
 }
 
+TEST(Vtu, HasNumbersOfTheWholeFile) {
+  const std::string file = vtu(square(), {}, {}, {{"mode_frequency_hz", {490.5, 2000, 1e300}}});
+  EXPECT_EQ(report::markup_error(file), "");
+  EXPECT_LT(file.find("<FieldData>"), file.find("<Piece"));
+  EXPECT_NE(file.find("NumberOfTuples=\"3\""), std::string::npos);
+  EXPECT_EQ(array<double>(file, "mode_frequency_hz", 1), (std::vector<double>{490.5, 2000, 1e300}));
+}
+
 TEST(Vtu, RefusesFieldsThatDoNotFit) {
   const fem::Mesh mesh = square();
   const Eigen::MatrixXd nodal = Eigen::MatrixXd::Zero(1, 9), elementwise = Eigen::MatrixXd::Zero(1, 2);

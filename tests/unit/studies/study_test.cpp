@@ -400,8 +400,6 @@ TEST(Study, ExportFormatsAreKnown) {
   EXPECT_THAT(complaints(replaced(sample(), "formats = [\"dxf\"]", "formats = [\"dwg\"]")),
               HasSubstr("export.formats = \"dwg\": must be one of dxf"));
   EXPECT_THAT(complaints(replaced(sample(), "formats = [\"dxf\"]", "formats = \"dxf\"")), HasSubstr("must be a list"));
-  EXPECT_THAT(complaints(replaced(sample(), "formats = [\"dxf\"]", "formats = [\"stl\"]")),
-              HasSubstr("export.formats = \"stl\": is a surface in space: scene.type must be \"sector\""));
 }
 
 /// The sample with more text behind it.
