@@ -561,6 +561,23 @@ TEST(StudyLinks, WrongOnesAreRefused) {
   const std::string once = "[[linked]]\nkey = \"" + width + "\"\nvalue = \"12\"\n";
   EXPECT_THAT(complaint(once + once), HasSubstr("is linked already"));
   EXPECT_THAT(complaint("[[case]]\nname = \"a\"\n\"" + width + "\" = 12\n" + once), HasSubstr("differs between cases"));
+  // At the line where it is linked, not where the file has the number.
+  const std::string threshold = linked("contact.energy_threshold_j_per_m2", "3");
+  EXPECT_THAT(threshold, HasSubstr("linked[0].key = \"contact.energy_threshold_j_per_m2\": changes nothing with"));
+  EXPECT_THAT(threshold, HasSubstr("s.toml:" + std::to_string(std::ranges::count(sample(), '\n') + 2) + ":"));
+}
+
+// Wherever uncertain numbers are looked at: a range of its own would part a key from what it follows.
+TEST(StudyLinks, MayBeUncertainAboutWhatTheyFollow) {
+  const std::string width = "geometry.shank_width_mm", link = "[[linked]]\nkey = \"" + width + "\"\nvalue = \"12\"\n";
+  for (const std::string rule : {"nominal", "corners", "sobol", "gauss"}) {
+    const std::string robust =
+        "[robust]\nrule = \"" + rule + "\"\n" + link + "[[uncertain]]\nkey = \"" + width + "\"\n";
+    EXPECT_THAT(complaint(robust + "lower = 11\nupper = 13\n"), HasSubstr("or follows from some: give plus_minus"));
+    EXPECT_EQ(complaint(robust + "plus_minus = 0.1\n"), "") << rule;
+    EXPECT_EQ(complaint(robust + "relative = 0.01\n"), "") << rule;
+    EXPECT_THAT(complaint(robust + "plus_minus = 0.1\nmean = 12\n"), HasSubstr("only has a meaning")) << rule;
+  }
 }
 
 }  // namespace
