@@ -181,7 +181,8 @@ SearchOutcome front_search(EvaluationSession& session, FinerLimits& finer) {
   if (algorithm == Algorithm::nsga2)
     outcome = within_budget([&] { return search_once(session, session.options().initial_step, 0); });
   else if (algorithm != Algorithm::scan)
-    outcome = epsilon_constraint(session, [&] { return within_budget([&] { return search(session); }); });
+    outcome = within_budget(
+        [&] { return epsilon_constraint(session, [&] { return within_budget([&] { return search(session); }); }); });
   session.focus({});
   bool held = !finer.active();
   for (int look = 0; !held && session.best() && look < CorrectionParams{}.looks; ++look)
@@ -202,6 +203,10 @@ OptimizationResult result_of(EvaluationSession& session, Status status, const st
   if (session.problem().front && result.best) {
     result.front = front_in(session);
     result.best = result.front->compromise;
+    if (result.front->moves)
+      result.message +=
+          "; without a feasible scan the reference is the worst of start and front, which moves with the search: give "
+          "`reference` to compare runs by their hypervolume";
   }
   if (!result.best) result.least_broken = session.least_broken();
   session.statistics().unused_records = session.unused_records();

@@ -117,7 +117,7 @@ WrittenRun write_run(const RunSite& site, const OptimizationResult& result, doub
   WrittenRun written = record_of(site, result, seconds);
   report::RunRecord& record = written.record;
   if (result.front) record.front = front_record(study.problem, result);
-  if (study.problem.front) write_front(site.directory, study, record);
+  if (study.problem.front) write_front(site.directory, study, result);
   record.verifications = verifications;
   record.departures = departures;
   report::write_results(site.directory / "results.h5", record);

@@ -191,6 +191,41 @@ TEST_F(Run, HandsOverAFront) {
   EXPECT_EQ(text_of(results() / "front.csv"), csv);
 }
 
+// Every row is of the search, also that of the design which was looked at more closely; what comes near to a number is
+// shown as how far it is from it.
+TEST_F(Run, ShowsAFrontAsTheSearchSawIt) {
+  std::string text = replaced(text_of(study()), "weight = 1\n", "");
+  text = replaced(text, "algorithm = \"cobyla\"", "algorithm = \"nsga2\"");
+  replace_file(study(), text + "\n[[objective]]\nresponse = \"mass_kg\"\naim = 0.1005\n");
+  int barred = 0;
+  const RunEngineFactory closer = [&](const Study& study) {
+    RunEngine engine = two_bowls(barred)(study);
+    engine.describe = [evaluate = engine.evaluate, keys = study.problem.space.keys()](const optimizer::Scene& scene) {
+      std::vector<double> x;
+      for (const std::string& key : keys) x.push_back(optimizer::parameter(scene, key));
+      DescribedDesign seen{.evaluation = evaluate(x), .record = {}};
+      for (auto& [name, value] : seen.evaluation.responses) value *= 1.25;
+      seen.record.status = "converged";
+      return seen;
+    };
+    return engine;
+  };
+  ASSERT_EQ(run(false, closer), kDone) << err_.str();
+  EXPECT_THAT(out_.str(), HasSubstr("  |mass_kg - 0.1005| from "));
+  const auto rows = table_of(results() / "front.csv");
+  const auto column = [&](const std::string& name) {
+    return static_cast<std::size_t>(std::ranges::find(rows.front(), name) - rows.front().begin());
+  };
+  const std::size_t distance = column("objective |mass_kg - 0.1005|"), mass = column("mass_kg");
+  ASSERT_LT(distance, rows.front().size());
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    EXPECT_NEAR(std::stod(rows[i][distance]), std::abs(std::stod(rows[i][mass]) - 0.1005), 1e-15) << i;
+    EXPECT_EQ(rows[i][column("objective asymptotic_wear_volume_m3")], rows[i][column("asymptotic_wear_volume_m3")]);
+    EXPECT_NEAR(std::stod(rows[i][column("constraint post_width_m:lower")]),
+                (4e-3 - std::stod(rows[i][column("post_width_m")])) / 4e-3, 1e-12);
+  }
+}
+
 /// The bowl; it kills its process where the first variable is in a band.
 RunEngine deadly() {
   return {.evaluate =
@@ -281,6 +316,46 @@ TEST_F(Run, KeepsTheNoiseFromTheBarOfItsStart) {
   fs::remove(results() / "settings.json");
   ASSERT_EQ(run(true, with_start), kDone) << err_.str();
   EXPECT_EQ(starts, 3);
+}
+
+// Of a front the noisiest objective counts; what all cases wear off together has the noise of what one does.
+TEST_F(Run, TakesTheNoiseOfTheNoisiestObjective) {
+  const std::string one = "response = \"asymptotic_wear_volume_m3\"\nweight = 1\n";
+  const std::string other = "\n[[objective]]\nresponse = \"mass_kg\"\n";
+  const std::string text = text_of(study());
+  const auto noise = [&](const std::string& objective, const std::string& more) {
+    replace_file(study(),
+                 replaced(replaced(text, one, objective), "max_evaluations = 40", "max_evaluations = 2") + more);
+    fs::remove_all(results());
+    const RunEngineFactory with_start = [&](const Study&) {
+      RunEngine engine{.evaluate =
+                           [](std::span<const double> x) {
+                             optimizer::Evaluation e = bowl(x);
+                             e.responses["mass_kg"] = 2;
+                             e.responses["mission_wear_volume_m3"] = 1e-10;
+                             return e;
+                           },
+                       .describe = {}};
+      engine.start = [] {
+        optimizer::Evaluation start;
+        start.responses = {{"asymptotic_wear_volume_m3", 1e-10}, {"mass_kg", 2}};
+        start.error_sources = {{"asymptotic_wear_volume_m3", {{"mesh", 3e-12}}}, {"mass_kg", {{"mesh", 0.1}}}};
+        return start;
+      };
+      return engine;
+    };
+    static_cast<void>(run(false, with_start));
+    const std::string said = err_.str(), words = "at the start: ";
+    const std::size_t at = said.find(words);
+    return at == std::string::npos ? "" : said.substr(at + words.size(), said.find('\n', at) - at - words.size());
+  };
+  const std::string wear = "response = \"asymptotic_wear_volume_m3\"\n";
+  EXPECT_EQ(noise(wear, ""), "0.03");
+  EXPECT_EQ(noise(wear, other), "0.05");
+  EXPECT_EQ(noise("response = \"mass_kg\"\n", "\n[[objective]]\n" + wear), "0.05");
+  EXPECT_EQ(noise("response = \"mission_wear_volume_m3\"\n", ""), "0.03");
+  // In a sum the mass weighs next to nothing.
+  EXPECT_EQ(noise(wear + "weight = 1\nscale = 1e-10\n", other + "weight = 1e-9\nscale = 1\n"), "0.03");
 }
 
 // Settings for what is handed over are those of the best design: chosen once, told, and in its file, but not in the
