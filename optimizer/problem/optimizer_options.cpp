@@ -128,6 +128,14 @@ int population_of(const OptimizerOptions& options, std::size_t variables) {
   return std::max(kParams.least, 4 + static_cast<int>(3 * std::log(n)));  // [Hansen 2006]
 }
 
+int scan_size(const OptimizerOptions& options, std::size_t variables) {
+  // As an algorithm of its own the scan takes the whole budget unless told otherwise.
+  if (options.algorithm == Algorithm::scan && options.scan_evaluations == 0) return options.max_evaluations - 1;
+  // With the start it is their first generation.
+  const bool first = options.algorithm == Algorithm::de || options.algorithm == Algorithm::nsga2;
+  return first ? std::max(options.scan_evaluations, population_of(options, variables) - 1) : options.scan_evaluations;
+}
+
 std::vector<Violation> contradictions(const OptimizerOptions& options, bool front) {
   std::vector<Violation> found;
   const bool nsga2 = options.algorithm == Algorithm::nsga2;

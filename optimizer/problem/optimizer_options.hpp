@@ -111,6 +111,9 @@ struct PopulationParams {
 /// Candidates of a generation for so many variables; 0 where there are none.
 [[nodiscard]] int population_of(const OptimizerOptions& options, std::size_t variables);
 
+/// Candidates of the scan before the algorithm.
+[[nodiscard]] int scan_size(const OptimizerOptions& options, std::size_t variables);
+
 /// Keys of [optimizer] that cannot be had together, or not with so many objectives: `front` when each is wanted for
 /// itself. Without a file.
 [[nodiscard]] std::vector<Violation> contradictions(const OptimizerOptions& options, bool front);

@@ -55,11 +55,14 @@ Front front_of(const Problem& problem, std::span<const Candidate> candidates) {
   Front front;
   const std::size_t count = problem.objective.size();
   Terms first;
+  front.moves = true;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const Candidate& one = candidates[i];
     // As their values say: what looks at finer meshes bring comes and goes with the length of the run.
-    if (one.evaluation.feasible && (one.phase == kStartPhase || one.phase == kScanPhase))
+    if (one.evaluation.feasible && (one.phase == kStartPhase || one.phase == kScanPhase)) {
       first.push_back(one.judgement.terms);
+      front.moves = front.moves && one.phase != kScanPhase;
+    }
     if (!one.judgement.feasible) continue;
     bool beaten = false;
     for (std::size_t j = 0; j < candidates.size() && !beaten; ++j)
@@ -69,9 +72,12 @@ Front front_of(const Problem& problem, std::span<const Candidate> candidates) {
   std::ranges::stable_sort(front.points, {}, [&](std::size_t i) { return candidates[i].judgement.terms; });
   Terms terms;
   for (const std::size_t i : front.points) terms.push_back(candidates[i].judgement.terms);
-  front.reference = worst_of(count, first.empty() ? terms : first);
+  if (front.moves) first.insert(first.end(), terms.begin(), terms.end());
+  front.reference = worst_of(count, first);
   for (std::size_t i = 0; i < count; ++i)
     if (const auto& given = problem.objective[i].reference) front.reference[i] = as_term(problem.objective[i], *given);
+  front.moves =
+      front.moves && std::ranges::any_of(problem.objective, [](const ObjectiveTerm& term) { return !term.reference; });
   if (terms.empty()) return front;
   front.ideal.assign(count, kInfinity);
   for (const std::vector<double>& one : terms)

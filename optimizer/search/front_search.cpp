@@ -36,6 +36,19 @@ std::vector<double> weights_of(const EvaluationSession& session, std::size_t ter
   return weights;
 }
 
+/// The same in an order that is spread over all of them wherever it is cut short: halves, quarters, eighths, ...
+std::vector<std::size_t> spread_order(std::size_t count) {
+  std::vector<std::size_t> order;
+  std::vector<bool> taken(count);
+  for (std::size_t parts = 2; order.size() < count; parts *= 2)
+    for (std::size_t odd = 1; odd < parts; odd += 2) {
+      const std::size_t at = odd * count / parts;
+      if (!taken[at]) order.push_back(at);
+      taken[at] = true;
+    }
+  return order;
+}
+
 }  // namespace
 
 SearchOutcome epsilon_constraint(EvaluationSession& session, const std::function<SearchOutcome()>& search) {
@@ -44,43 +57,53 @@ SearchOutcome epsilon_constraint(EvaluationSession& session, const std::function
   const auto all = static_cast<std::size_t>(options.max_evaluations);
   const std::size_t runs = std::max(static_cast<std::size_t>(options.front_points), terms);
   const std::string name = "epsilon-constraint with " + std::string(to_string(options.algorithm));
-  std::size_t left = runs, limited = 0;
+  // Of no run does the way hang on how long the whole may become: a longer budget goes on where a shorter one ended.
+  std::size_t share = EpsilonParams{}.share * (session.problem().space.size() + 1), limited = 0;
   const auto run = [&](const Focus& focus) {
     session.focus(focus);
-    const std::size_t done = session.candidates().size();
-    session.limit(done + (all - std::min(all, done)) / left--);
-    limited += search().status == Status::converged ? 0 : 1;
+    const std::size_t before = session.candidates().size();
+    session.limit(before + share);
+    const bool converged = search().status == Status::converged;
+    if (!converged && session.candidates().size() == all) throw StopSearch{Status::iteration_limit};
+    limited += converged ? 0 : 1;
   };
-  std::vector<std::vector<double>> ends;
-  for (std::size_t i = 0; i < terms; ++i) {
-    run({.weights = weights_of(session, terms, i),
-         .most = std::vector<double>(terms, kInfinity),
-         .size = std::vector<double>(terms, 1.0)});
-    if (!session.best())
-      return {.status = Status::stalled, .message = name + ": found no candidate that keeps the limits"};
-    ends.push_back(session[*session.best()].judgement.terms);
-  }
-  std::vector<double> best(terms), worst(terms);
-  for (std::size_t i = 0; i < terms; ++i) {
-    const auto [least, most] = std::ranges::minmax(ends, {}, [i](const auto& end) { return end[i]; });
-    best[i] = least[i];
-    worst[i] = most[i];
-  }
-  const std::vector<double> weights = weights_of(session, terms, 0);
-  for (const std::vector<double>& way : fractions(left, terms - 1, options.seed)) {
-    Focus focus{
-        .weights = weights, .most = std::vector<double>(terms, kInfinity), .size = std::vector<double>(terms, 1.0)};
-    for (std::size_t i = 1; i < terms; ++i) {
-      if (!(worst[i] > best[i])) continue;  // this objective is at its best wherever the others are
-      focus.most[i] = worst[i] + way[i - 1] * (best[i] - worst[i]);
-      focus.size[i] = worst[i] - best[i];
+  const std::vector<std::vector<double>> ways = fractions(runs - terms, terms - 1, options.seed);
+  const std::vector<std::size_t> order = spread_order(ways.size());
+  while (true) {
+    const std::size_t known = session.candidates().size();
+    limited = 0;
+    std::vector<std::vector<double>> ends;
+    for (std::size_t i = 0; i < terms; ++i) {
+      run({.weights = weights_of(session, terms, i),
+           .most = std::vector<double>(terms, kInfinity),
+           .size = std::vector<double>(terms, 1.0)});
+      if (!session.best()) continue;
+      ends.push_back(session[*session.best()].judgement.terms);
     }
-    run(focus);
+    if (ends.empty())
+      return {.status = Status::stalled, .message = name + ": found no candidate that keeps the limits"};
+    std::vector<double> best(terms), worst(terms);
+    for (std::size_t i = 0; i < terms; ++i) {
+      const auto [least, most] = std::ranges::minmax(ends, {}, [i](const auto& end) { return end[i]; });
+      best[i] = least[i];
+      worst[i] = most[i];
+    }
+    const std::vector<double> weights = weights_of(session, terms, 0);
+    for (const std::size_t at : order) {
+      Focus focus{
+          .weights = weights, .most = std::vector<double>(terms, kInfinity), .size = std::vector<double>(terms, 1.0)};
+      for (std::size_t i = 1; i < terms; ++i) {
+        if (!(worst[i] > best[i])) continue;  // this objective is at its best wherever the others are
+        focus.most[i] = worst[i] + ways[at][i - 1] * (best[i] - worst[i]);
+        focus.size[i] = worst[i] - best[i];
+      }
+      run(focus);
+    }
+    if (limited == 0) return {.status = Status::converged, .message = name + ": every run reached its stopping rule"};
+    if (session.candidates().size() == known)
+      return {.status = Status::stalled, .message = name + ": asks only for candidates it already knows"};
+    share *= 2;
   }
-  if (limited == 0) return {.status = Status::converged, .message = name + ": every run reached its stopping rule"};
-  return {.status = Status::iteration_limit,
-          .message = name + ": " + std::to_string(limited) + " of " + std::to_string(runs) +
-                     " runs were ended by their share of the budget"};
 }
 
 }  // namespace dovetail::optimizer

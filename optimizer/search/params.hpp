@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 namespace dovetail::optimizer {
 
 // The numbers that steer searches, beside those that a study may set (OptimizerOptions). Objectives are scaled to about
@@ -55,6 +57,8 @@ struct EpsilonParams {
   /// Weight of the objectives that do not count, by the extent of what is known: where the one that counts is at its
   /// least over a whole stretch of designs, the best in the others is wanted [Mavrotas 2009].
   double others = 1e-3;
+  /// Evaluations of a run, times the number of variables and one; twice as many each time all runs are done again.
+  std::size_t share = 3;
 };
 
 /// When the libraries' own algorithms stop.

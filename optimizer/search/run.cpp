@@ -181,7 +181,8 @@ SearchOutcome front_search(EvaluationSession& session, FinerLimits& finer) {
   if (algorithm == Algorithm::nsga2)
     outcome = within_budget([&] { return search_once(session, session.options().initial_step, 0); });
   else if (algorithm != Algorithm::scan)
-    outcome = epsilon_constraint(session, [&] { return within_budget([&] { return search(session); }); });
+    outcome = within_budget(
+        [&] { return epsilon_constraint(session, [&] { return within_budget([&] { return search(session); }); }); });
   session.focus({});
   bool held = !finer.active();
   for (int look = 0; !held && session.best() && look < CorrectionParams{}.looks; ++look)
@@ -202,6 +203,10 @@ OptimizationResult result_of(EvaluationSession& session, Status status, const st
   if (session.problem().front && result.best) {
     result.front = front_in(session);
     result.best = result.front->compromise;
+    if (result.front->moves)
+      result.message +=
+          "; without a feasible scan the reference is the worst of start and front, which moves with the search: give "
+          "`reference` to compare runs by their hypervolume";
   }
   if (!result.best) result.least_broken = session.least_broken();
   session.statistics().unused_records = session.unused_records();
@@ -212,19 +217,19 @@ OptimizationResult result_of(EvaluationSession& session, Status status, const st
   return result;
 }
 
-void scan(EvaluationSession& session) {
+void scan(EvaluationSession& session, const std::optional<Part>& part) {
   const OptimizerOptions& options = session.options();
-  int count = options.scan_evaluations;
-  // As an algorithm of its own the scan takes the whole budget unless told otherwise.
-  if (options.algorithm == Algorithm::scan && count == 0) count = options.max_evaluations - 1;
-  // With the start it is their first generation.
-  if (options.algorithm == Algorithm::de || options.algorithm == Algorithm::nsga2)
-    count = std::max(count, population_of(options, session.problem().space.size()) - 1);
+  const std::size_t variables = session.problem().space.size();
+  const auto count = static_cast<std::size_t>(scan_size(options, variables));
   if (count == 0) return;
-  static_cast<void>(
-      session.evaluate_all(latin_hypercube(static_cast<std::size_t>(count), session.problem().space.size(),
-                                           static_cast<std::uint64_t>(options.seed)),
-                           kScanPhase));
+  std::vector<std::vector<double>> points = latin_hypercube(count, variables, static_cast<std::uint64_t>(options.seed));
+  if (part) {
+    std::vector<std::vector<double>> own;
+    for (std::size_t i = static_cast<std::size_t>(part->number) - 1; i < count; i += static_cast<std::size_t>(part->of))
+      own.push_back(points[i]);
+    points = std::move(own);
+  }
+  static_cast<void>(session.evaluate_all(points, kScanPhase));
 }
 
 }  // namespace
@@ -239,10 +244,13 @@ OptimizationResult run_optimization(const Problem& problem, const Evaluator& eva
   try {
     session.evaluate_start();
     static_cast<void>(within_budget([&] {
-      scan(session);
+      scan(session, hooks.part);
       return SearchOutcome{};
     }));
-    outcome = problem.front ? front_search(session, finer) : corrected_search(session, finer);
+    if (hooks.part)
+      outcome = {.status = Status::converged, .message = "a part of the scan: complete"};
+    else
+      outcome = problem.front ? front_search(session, finer) : corrected_search(session, finer);
   } catch (const StopSearch& stop) {
     outcome = {.status = stop.reason, .message = {}};
     stopped = true;

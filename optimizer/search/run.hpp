@@ -57,6 +57,11 @@ struct FinerCheck {
 using BatchEvaluator = std::function<void(const std::vector<std::vector<double>>& points,
                                           const std::function<bool(std::size_t place, Evaluation)>& told)>;
 
+/// One of so many, counted from 1.
+struct Part {
+  int number = 1, of = 1;
+};
+
 /// What a run is connected to. All optional.
 struct RunHooks {
   Journal* journal = nullptr;                          ///< answers what it holds, records what is new
@@ -65,6 +70,7 @@ struct RunHooks {
   FinerEvaluator finer = {};                           ///< without: limits are kept on the mesh of the search alone
   BatchEvaluator many = {};                            ///< in place of the evaluator: several candidates at once
   Journal* finer_journal = nullptr;                    ///< of it; x is followed by the level
+  std::optional<Part> part = {};  ///< start and that part of the scan, and no search: others compute the rest
 };
 
 struct SearchStatistics {

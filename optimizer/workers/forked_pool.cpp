@@ -19,6 +19,8 @@
 #include <system_error>
 #include <utility>
 
+#include "optimizer/workers/memory.hpp"
+
 namespace dovetail::optimizer {
 
 namespace {
@@ -89,8 +91,8 @@ std::string words(int status) {
 
 }  // namespace
 
-ForkedPool::ForkedPool(std::size_t size, WorkerFactory factory, double patience_s)
-    : factory_(std::move(factory)), patience_(patience_s), workers_(size) {}
+ForkedPool::ForkedPool(std::size_t size, WorkerFactory factory, double patience_s, FreeMemory free)
+    : factory_(std::move(factory)), patience_(patience_s), workers_(size), free_(std::move(free)), told_(size) {}
 
 ForkedPool::~ForkedPool() {
   for (Process& process : workers_) static_cast<void>(end(process, process.task.has_value()));
@@ -148,6 +150,7 @@ Finished ForkedPool::heard(Process& process) {
   const bool late = Clock::now() - process.since > patience_;
   pollfd ready{.fd = process.from, .events = POLLIN, .revents = 0};
   if (::poll(&ready, 1, 0) > 0) result.answer = receive(process.from);
+  most_taken_ = std::max(most_taken_, memory_taken(process.id).most);
   process.task.reset();
   if (!result.answer) {
     result.ended = end(process, late);
@@ -177,6 +180,29 @@ std::vector<std::size_t> ForkedPool::waited() const {
   return found;
 }
 
+std::size_t ForkedPool::size() const {
+  if (!free_) return workers_.size();
+  if (most_taken_ == 0) return 1;
+  double taken = 0;
+  for (const Process& process : workers_)
+    if (process.id >= 0) taken += memory_taken(process.id).now;
+  return std::min(workers_.size(), processes_that_fit(most_taken_, taken, free_()));
+}
+
+std::size_t ForkedPool::room() {
+  const std::size_t fit = size();
+  if (most_taken_ == 0 || fit >= told_) return fit;
+  constexpr double kGigabyte = 1e9;
+  std::cerr
+      << fmt::format(
+             "dovetail: memory has room for {} of {} processes: one takes up to {:.2g} GB (--jobs N has N of them "
+             "all the same)",
+             fit, workers_.size(), most_taken_ / kGigabyte)
+      << std::endl;
+  told_ = fit;
+  return fit;
+}
+
 void ForkedPool::run(std::span<const std::string> tasks, const std::function<bool(Finished)>& told) {
   // Writing to a worker that has ended is no reason to end, too.
   const auto before = std::signal(SIGPIPE, SIG_IGN);
@@ -186,6 +212,7 @@ void ForkedPool::run(std::span<const std::string> tasks, const std::function<boo
     for (Process& process : workers_) {
       if (!goes_on || next == tasks.size()) break;
       if (process.task) continue;
+      if (under_way > 0 && under_way >= room()) break;
       hand_out(process, next, tasks[next]);
       ++next;
       ++under_way;

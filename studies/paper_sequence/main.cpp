@@ -26,17 +26,14 @@ std::vector<std::string> run(const ready_study::Call& call, bool converge) {
     options.nodal_diameter_modes = 2;
   }
   paper_sequence::Results results = paper_sequence::compute(study.scene, options);
-  results.quick = call.quick;
-  results.study_text = study.text;
-  results.commit = call.commit;
-  results.seconds = call.passed();
+  results.made = call.made(study.text);
   paper_sequence::write(call.folder, results);
   if (converge) {
     paper_sequence::ConvergenceOptions levels;
     if (call.quick) levels = {.mesh_factors = {1.25, 1}, .modes = {20}, .harmonics = {1, 3}, .samples = {64, 128}};
     levels.progress = options.progress;
     results.convergence = paper_sequence::convergence(study.scene, levels);
-    results.seconds = call.passed();
+    results.made = call.made(study.text);
     paper_sequence::write(call.folder, results);
   }
   return results.failures;

@@ -64,17 +64,6 @@ std::string lead(const std::vector<Finding>& all, const SceneWords& words) {
   return text;
 }
 
-std::string provenance(const Results& r) {
-  const report::Provenance made = report::provenance();
-  return report::definition_list({{"Time taken", significant(r.seconds, 3) + " s"},
-                                  {"History", fmt::format("{} steps, {} steady states, {} Jacobians",
-                                                          r.history.cycles.empty() ? 0 : r.history.cycles.size() - 1,
-                                                          r.history.solves, r.history.jacobians)},
-                                  {"Commit", r.commit},
-                                  {"Compiler", made.compiler},
-                                  {"Date", made.date_utc}});
-}
-
 void add_findings(const std::vector<Finding>& all, report::Blanks& blanks) {
   for (const char* key : kFindings) blanks[key];
   for (const Finding& finding : all) blanks[finding.key] = beside(finding);
@@ -89,14 +78,11 @@ std::string page_html(const Results& r) {
   for (const std::string& failure : r.failures) failures += "<p class=\"flag\">" + escape(failure) + "</p>\n";
   report::Blanks blanks{{"title", words.title},
                         {"lead", lead(all, words)},
-                        {"quick", r.quick ? "yes" : ""},
                         {"such", words.such},
                         {"failures", failures},
                         {"findings", finding_table(all, words)},
                         {"convergence", convergence_table(r.convergence)},
-                        {"difference", words.difference},
-                        {"provenance", provenance(r)},
-                        {"study", r.study_text}};
+                        {"difference", words.difference}};
   add_findings(all, blanks);
   for (const char* name : {"computed", "preload", "first_rates", "joint_figure"}) blanks[name];
   if (!r.design.contact.flank.empty()) {
@@ -106,8 +92,11 @@ std::string page_html(const Results& r) {
     blanks["joint_figure"] = report::joint_figure(r.design, nullptr);
     for (const auto& [key, figure] : figures(r)) blanks[key] = report::figure_html(figure);
   }
-  return report::page("The reference " + words.title + " \u2013 dovetail", texts::page_css,
-                      report::fill(texts::page_html, blanks));
+  const std::string history =
+      fmt::format("{} steps, {} steady states, {} Jacobians",
+                  r.history.cycles.empty() ? 0 : r.history.cycles.size() - 1, r.history.solves, r.history.jacobians);
+  return ready_study::page("The reference " + words.title + " \u2013 dovetail", texts::page_css, texts::page_html,
+                           blanks, r.made, {{"History", history}});
 }
 
 }  // namespace dovetail::paper_sequence

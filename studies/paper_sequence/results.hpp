@@ -5,6 +5,7 @@
 
 #include "optimizer/scene/scene.hpp"
 #include "studies/paper_sequence/convergence.hpp"
+#include "studies/ready_study/program.hpp"
 #include "studies/report/plots/report_plots.hpp"
 #include "studies/report/record/run_record.hpp"
 
@@ -38,9 +39,7 @@ struct History {
 
 /// Everything the study computed, SI.
 struct Results {
-  bool quick = false;
-  std::string study_text, commit;
-  double seconds = 0;  ///< of computing
+  ready_study::Made made;
   optimizer::Scene scene;
   report::DesignRecord design;  ///< contact nodes with preload, first rates and final depths; nodal diameters
   double resonance_hz = 0, resonance_m = 0;

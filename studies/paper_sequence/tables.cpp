@@ -50,8 +50,8 @@ Json findings_json(const std::vector<Finding>& all) {
 }
 
 Json results_json(const Results& r) {
-  Json json{{"quick", r.quick},
-            {"seconds", r.seconds},
+  Json json{{"quick", r.made.quick},
+            {"seconds", r.made.seconds},
             {"resonance_hz", r.resonance_hz},
             {"resonance_amplitude_m", r.resonance_m},
             {"glued_hz", r.glued_hz},

@@ -6,11 +6,18 @@
 #include "core/errors.hpp"
 #include "core/replace_file.hpp"
 #include "numerics/process.hpp"
+#include "studies/report/record/run_record.hpp"
+#include "studies/report/words/table.hpp"
+#include "studies/report/words/units.hpp"
 
 namespace dovetail::ready_study {
 
 double Call::passed() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+Made Call::made(const std::string& study_text) const {
+  return {.quick = quick, .commit = commit, .seconds = passed(), .study_text = study_text};
 }
 
 void Call::say(const std::string& what) const {
@@ -38,6 +45,19 @@ int run(int argc, char** argv, const Program& program) try {
 } catch (const std::exception& error) {
   std::fprintf(stderr, "%s\n", error.what());
   return 1;
+}
+
+std::string page(const std::string& title, std::string_view rules, std::string_view text, report::Blanks blanks,
+                 const Made& made, const std::vector<std::pair<std::string, std::string>>& more) {
+  const report::Provenance by = report::provenance();
+  std::vector<std::pair<std::string, std::string>> rows{{"Time taken", report::significant(made.seconds, 3) + " s"}};
+  rows.insert(rows.end(), more.begin(), more.end());
+  for (const auto& [name, value] : {std::pair{"Commit", made.commit}, {"Compiler", by.compiler}, {"Date", by.date_utc}})
+    rows.emplace_back(name, value);
+  blanks["quick"] = made.quick ? "yes" : "";
+  blanks["provenance"] = report::definition_list(rows);
+  blanks["study"] = made.study_text;
+  return report::page(title, rules, report::fill(text, blanks));
 }
 
 void write(const std::filesystem::path& folder, const std::vector<std::pair<std::string, std::string>>& files) {

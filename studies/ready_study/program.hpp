@@ -4,10 +4,21 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "studies/report/pages/page.hpp"
+
 namespace dovetail::ready_study {
+
+/// How the results of a ready study were made, as its page says.
+struct Made {
+  bool quick = false;  ///< no evidence
+  std::string commit = {};
+  double seconds = 0;
+  std::string study_text = {};
+};
 
 /// What a program of a ready study was called with, and its clock.
 struct Call {
@@ -17,6 +28,8 @@ struct Call {
 
   /// Seconds since the call.
   [[nodiscard]] double passed() const;
+  /// What was made by now, of a study with that text.
+  [[nodiscard]] Made made(const std::string& study_text) const;
   /// A line for people, with the seconds.
   void say(const std::string& what) const;
 };
@@ -41,6 +54,12 @@ struct Program {
 
 /// The program's exit status: 0 done, 1 failed, 2 the input is wrong, 3 something did not converge.
 [[nodiscard]] int run(int argc, char** argv, const Program& program);
+
+/// The page of a template, in which {{quick}}, {{{provenance}}} and {{study}} are how its results were made, with these
+/// rows of provenance besides; see report::page.
+[[nodiscard]] std::string page(const std::string& title, std::string_view rules, std::string_view text,
+                               report::Blanks blanks, const Made& made,
+                               const std::vector<std::pair<std::string, std::string>>& more = {});
 
 /// Writes files, name and content, to a folder that is made if needed. Throws InputError when it cannot.
 void write(const std::filesystem::path& folder, const std::vector<std::pair<std::string, std::string>>& files);

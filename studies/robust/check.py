@@ -3,35 +3,13 @@
 import csv
 import json
 import os
-import re
-import subprocess
 import sys
-import tempfile
-import unittest
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-PROGRAM = ""
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "ready_study"))
+import quick_run  # noqa: E402
 
 
-class Robust(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.kept = tempfile.TemporaryDirectory()
-        cls.folder = cls.kept.name
-        command = [PROGRAM, cls.folder, "--study", os.path.join(HERE, "study.toml"), "--quick"]
-        cls.answer = subprocess.run(command, capture_output=True, text=True)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.kept.cleanup()
-
-    def read(self, name):
-        with open(os.path.join(self.folder, name), encoding="utf-8") as file:
-            return file.read()
-
-    def test_everything_converged(self):
-        self.assertEqual(self.answer.returncode, 0, self.answer.stderr)
-
+class Robust(quick_run.QuickRun):
     def test_designs_are_side_by_side(self):
         start, nominal, robust = json.loads(self.read("results.json"))["designs"]
         self.assertEqual([start["name"], nominal["name"], robust["name"]], ["start", "nominal optimum", "robust optimum"])
@@ -45,14 +23,40 @@ class Robust(unittest.TestCase):
             self.assertEqual(design["over_force"][-1]["force_n"], 5)
             self.assertAlmostEqual(strong / design["worst_volume_m3"], 1, delta=1e-9)
 
+    def test_searches_look_where_they_say(self):
+        for name, cases in (("nominal", 1), ("robust", 9)):
+            journal = self.read(os.path.join(name, "journal.jsonl")).splitlines()[1:]
+            answers = [json.loads(line)["record"]["responses"] for line in journal]
+            seen = {key.partition("@")[2] for responses in answers for key in responses if "@" in key}
+            self.assertEqual(len(seen), cases, (name, seen))
+
+    def test_page_says_what_the_data_say(self):
+        designs = json.loads(self.read("results.json"))["designs"]
+        page = self.read("report.html").replace("\u2212", "-")
+        start, nominal, robust = designs
+        lead = page.partition('class="lead">')[2].partition("</p>")[0]
+        for other, name in ((start, "the start"), (nominal, "the nominal optimum")):
+            part = 1 - robust["worst_volume_m3"] / other["worst_volume_m3"]
+            self.assertIn(f"{100 * abs(part):.0f} % {'more' if part < 0 else 'less'} than {name}", lead)
+        # A row for each limit: every design at its worst corner, and in brackets in the samples.
+        rows = [row.split("<td") for row in page.split("<tr") if "%" in row and "(" in row]
+        for name in robust["limits"]:
+            cells = [(f"{100 * d['limits'][name]['value']:+.1f} %", f"({100 * d['limits_in_samples'][name]:+.1f} %)") for d in designs]
+            found = [row for row in rows if len(row) > 3 and all(a in cell and b in cell for (a, b), cell in zip(cells, row[-3:]))]
+            self.assertEqual(len(found), 1, (name, cells))
+        table = list(csv.DictReader(self.read("designs.csv").splitlines()))
+        for row, design in zip(table, designs):
+            self.assertEqual(row["design"], design["name"])
+            self.assertAlmostEqual(float(row["worst_volume_mm3"]) * 1e-9, design["worst_volume_m3"], delta=1e-4 * design["worst_volume_m3"])
+            for key, value in design["parameters"].items():
+                self.assertAlmostEqual(float(row[key]), value, delta=1e-6 * max(1, abs(value)))
+
     def test_tables_and_page(self):
         rows = list(csv.reader(self.read("designs.csv").splitlines()))
         self.assertEqual([len(row) for row in rows], [9] * 4)
-        page = self.read("report.html")
+        page = self.standing_alone()
         self.assertEqual(page.count("<svg xmlns"), 2)
-        self.assertIsNone(re.search(r'<(script|link|img)\b|src="|href="http', page))
 
 
 if __name__ == "__main__":
-    PROGRAM = sys.argv.pop(1)
-    unittest.main()
+    quick_run.main(__file__)

@@ -72,8 +72,7 @@ Design optimum(const std::string& name, const std::string& file, const std::stri
                const ComputeOptions& options) {
   std::ostringstream out;
   options.progress("searching the " + name + ": " + folder);
-  const int ended = studies::run_study({.study = file, .directory = folder, .jobs = cores()}, {out, std::cerr},
-                                       studies::study_engine);
+  const int ended = studies::run_study({.study = file, .directory = folder}, {out, std::cerr}, studies::study_engine);
   if (ended != studies::kDone && ended != studies::kNotConverged)
     throw std::runtime_error("the search of the " + name + " was cut short");
   const report::RunRecord record = report::read_results(folder + "/results.h5");

@@ -16,9 +16,7 @@ std::vector<std::string> run(const ready_study::Call& call) {
     options.evaluations = 6;
   }
   robust::Results results = robust::compute(call.study_file, call.folder, options);
-  results.quick = call.quick;
-  results.commit = call.commit;
-  results.seconds = call.passed();
+  results.made = call.made(results.study.text);
   robust::write(call.folder, results);
   std::vector<std::string> failures;
   for (const robust::Design& design : results.designs)

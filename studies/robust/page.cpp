@@ -201,31 +201,24 @@ std::string ends(const Results& r) {
 }
 
 std::string page_html(const Results& r) {
-  const report::Provenance made = report::provenance();
-  return report::page(
-      "A robust joint \u2013 dovetail", "",
-      report::fill(texts::page_html,
-                   {{"lead", lead(r)},
-                    {"quick", r.quick ? "yes" : ""},
-                    {"friction", range_of(r.study, "contact.friction")},
-                    {"force", range_of(r.study, "loading.tip_force_n") + " N"},
-                    {"fit", range_of(r.study, "geometry.flank_mismatch_um") + " \u00b5m"},
-                    {"designs", design_table(r)},
-                    {"limits", limit_table(r)},
-                    {"samples", std::to_string(r.samples.problem.cases.size())},
-                    {"ends", ends(r)},
-                    {"over_force", report::figures_html({force_plot(r), sample_plot(r)})},
-                    {"cost", cost(r)},
-                    {"way", in_the_way(r)},
-                    {"provenance", report::definition_list({{"Time taken", significant(r.seconds, 3) + " s"},
-                                                            {"Commit", r.commit},
-                                                            {"Compiler", made.compiler},
-                                                            {"Date", made.date_utc}})},
-                    {"study", r.study.text}}));
+  return ready_study::page("A robust joint \u2013 dovetail", "", texts::page_html,
+                           {{"lead", lead(r)},
+
+                            {"friction", range_of(r.study, "contact.friction")},
+                            {"force", range_of(r.study, "loading.tip_force_n") + " N"},
+                            {"fit", range_of(r.study, "geometry.flank_mismatch_um") + " \u00b5m"},
+                            {"designs", design_table(r)},
+                            {"limits", limit_table(r)},
+                            {"samples", std::to_string(r.samples.problem.cases.size())},
+                            {"ends", ends(r)},
+                            {"over_force", report::figures_html({force_plot(r), sample_plot(r)})},
+                            {"cost", cost(r)},
+                            {"way", in_the_way(r)}},
+                           r.made);
 }
 
 Json json_of(const Results& r) {
-  Json json{{"quick", r.quick}, {"seconds", r.seconds}, {"designs", Json::array()}};
+  Json json{{"quick", r.made.quick}, {"seconds", r.made.seconds}, {"designs", Json::array()}};
   for (const Design& design : r.designs) {
     Json one{{"name", design.name}, {"keeps_limits", all_met(r, design)}};
     const std::vector<optimizer::DesignVariable>& variables = r.study.problem.space.variables();

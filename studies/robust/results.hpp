@@ -7,6 +7,7 @@
 #include "optimizer/problem/evaluation.hpp"
 #include "optimizer/problem/load_case.hpp"
 #include "studies/program/study_file/study.hpp"
+#include "studies/ready_study/program.hpp"
 
 namespace dovetail::robust {
 
@@ -27,9 +28,7 @@ struct Results {
   std::vector<double> forces_n = {};
   std::vector<studies::Study> at_force = {};
   std::vector<Design> designs = {};
-  bool quick = false;
-  std::string commit = {};
-  double seconds = 0;
+  ready_study::Made made = {};
 };
 
 /// Worst of the cases of a study, by its first objective; NaN where one is not known.

@@ -23,10 +23,7 @@ std::vector<std::string> run(const ready_study::Call& call) {
     options.wear = false;
   }
   skewed_slot::Results results = skewed_slot::compute(study.scene, options);
-  results.quick = call.quick;
-  results.study_text = study.text;
-  results.commit = call.commit;
-  results.seconds = call.passed();
+  results.made = call.made(study.text);
   skewed_slot::write(call.folder, results);
   std::vector<std::string> failures;
   for (const skewed_slot::Joint& joint : results.joints)

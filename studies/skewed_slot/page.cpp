@@ -175,25 +175,18 @@ Plot slip_plot(const Results& r) {
 }
 
 std::string page_html(const Results& r) {
-  const report::Provenance made = report::provenance();
-  return report::page(
-      "A skewed slot \u2013 dovetail", "",
-      report::fill(texts::page_html,
-                   {{"lead", lead(r)},
-                    {"quick", r.quick ? "yes" : ""},
-                    {"joints", joint_table(r)},
-                    {"over_angle", report::figures_html({pressure_plot(r), slip_plot(r)})},
-                    {"maps", report::figures_html(maps(r))},
-                    {"wear", wear_table(r)},
-                    {"provenance", report::definition_list({{"Time taken", significant(r.seconds, 3) + " s"},
-                                                            {"Commit", r.commit},
-                                                            {"Compiler", made.compiler},
-                                                            {"Date", made.date_utc}})},
-                    {"study", r.study_text}}));
+  return ready_study::page("A skewed slot \u2013 dovetail", "", texts::page_html,
+                           {{"lead", lead(r)},
+
+                            {"joints", joint_table(r)},
+                            {"over_angle", report::figures_html({pressure_plot(r), slip_plot(r)})},
+                            {"maps", report::figures_html(maps(r))},
+                            {"wear", wear_table(r)}},
+                           r.made);
 }
 
 Json json_of(const Results& r) {
-  Json json{{"quick", r.quick}, {"seconds", r.seconds}, {"joints", Json::array()}};
+  Json json{{"quick", r.made.quick}, {"seconds", r.made.seconds}, {"joints", Json::array()}};
   for (const Joint& j : r.joints) {
     Json joint = optimizer::json_value<Json>(j);
     joint.update({{"flank", j.contact.flank},

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "optimizer/scene/scene.hpp"
+#include "studies/ready_study/program.hpp"
 #include "studies/report/record/run_record.hpp"
 
 namespace dovetail::skewed_slot {
@@ -29,9 +30,7 @@ struct Wear {
 };
 
 struct Results {
-  bool quick = false;
-  std::string study_text = {}, commit = {};
-  double seconds = 0;
+  ready_study::Made made = {};
   optimizer::Scene scene = {};
   std::vector<Joint> joints = {};  ///< by angle, the straight slot first
   std::vector<Wear> wear = {};     ///< of the straight and the most skewed slot

@@ -19,13 +19,23 @@ namespace {
 
 namespace fs = std::filesystem;
 using optimizer::Evaluation;
-using report::EvaluationRecord, report::FrontRecord;
+using report::FrontRecord;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// A term's value in the unit of its response, and as it is where more is better.
 double as_response(const optimizer::ObjectiveTerm& term, double value) {
   return value * (term.scale > 0 ? term.scale : 1) / term.weight;
+}
+
+/// What the column of an objective holds: its response, or how far that is from where it is wanted.
+std::string column_name(const optimizer::ObjectiveTerm& term) {
+  std::string name = term.response;
+  if (term.absolute && term.target != 0)
+    name += fmt::format(" {} {}", term.target > 0 ? "-" : "+", shortest(std::abs(term.target)));
+  if (term.absolute) name = "|" + name + "|";
+  const bool by_worst = term.over == to_string(optimizer::Over::worst);
+  return optimizer::of_case(name, by_worst ? "" : term.over);
 }
 
 std::string point_file(std::size_t point, std::size_t points) {
@@ -97,8 +107,7 @@ FrontRecord front_record(const optimizer::Problem& problem, const optimizer::Opt
   const optimizer::Front& front = *result.front;
   for (std::size_t i = 0; i < problem.objective.size(); ++i) {
     const optimizer::ObjectiveTerm& term = problem.objective[i];
-    const bool by_worst = term.over == to_string(optimizer::Over::worst);
-    record.objectives.push_back(optimizer::of_case(term.response, by_worst ? "" : term.over));
+    record.objectives.push_back(column_name(term));
     record.ideal.push_back(as_response(term, front.ideal[i]));
     record.reference.push_back(as_response(term, front.reference[i]));
   }
@@ -120,22 +129,22 @@ FrontRecord front_record(const optimizer::Problem& problem, const optimizer::Opt
   return record;
 }
 
-void write_front(const fs::path& directory, const Study& study, const report::RunRecord& record) {
+void write_front(const fs::path& directory, const Study& study, const optimizer::OptimizationResult& result) {
   const fs::path folder = directory / "front";
   std::error_code none;
   std::vector<fs::path> older;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, none))
     if (entry.path().filename().string().starts_with("point_")) older.push_back(entry.path());
   for (const fs::path& file : older) fs::remove(file, none);
-  if (!record.front) {
+  if (!result.front) {
     fs::remove(directory / "front.csv", none);
     return;
   }
-  const FrontRecord& front = *record.front;
+  const FrontRecord front = front_record(study.problem, result);
   const std::size_t points = front.evaluation.size();
   std::set<std::string> responses, barred;
   for (const std::int64_t index : front.evaluation) {
-    const EvaluationRecord& at = record.evaluations[static_cast<std::size_t>(index)];
+    const Evaluation& at = result.evaluations[static_cast<std::size_t>(index)].evaluation;
     for (const auto& [name, value] : at.responses) responses.insert(name);
     for (const auto& [name, bar] : at.error_estimates) barred.insert(name);
   }
@@ -150,7 +159,7 @@ void write_front(const fs::path& directory, const Study& study, const report::Ru
   const Document document = parse_document(study.text, study.file);
   for (std::size_t point = 0; point < points; ++point) {
     const auto index = static_cast<std::size_t>(front.evaluation[point]);
-    const EvaluationRecord& at = record.evaluations[index];
+    const optimizer::Candidate& at = result.evaluations[index];
     const std::string file = point_file(point, points);
     replace_file(folder / file, with_values(document, settings_at(study, at.x)));
     text += fmt::format("{},{},front/{}", point + 1, index + 1, file);
@@ -158,10 +167,10 @@ void write_front(const fs::path& directory, const Study& study, const report::Ru
       text += "," + table_number(front.value(point, i)) + "," + table_number(front.bar(point, i));
     for (const double x : at.x) text += "," + table_number(x);
     for (const std::string& name : responses) {
-      text += "," + table_number(value_in(at.responses, name));
-      if (barred.contains(name)) text += "," + table_number(value_in(at.error_estimates, name));
+      text += "," + table_number(value_in(at.evaluation.responses, name));
+      if (barred.contains(name)) text += "," + table_number(value_in(at.evaluation.error_estimates, name));
     }
-    for (const double c : at.constraints) text += "," + table_number(c);
+    for (const double c : at.judgement.constraints) text += "," + table_number(c);
     text += "\n";
   }
   replace_file(directory / "front.csv", text);

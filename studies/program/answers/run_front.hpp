@@ -20,7 +20,9 @@ void add_front_bars(const RunSite& site, const std::string& fingerprint, const O
 
 /// front.csv, a line for each point, and every point as a study file, front/point_01.toml and so on. Points of an older
 /// front are gone.
-void write_front(const std::filesystem::path& directory, const Study& study, const report::RunRecord& record);
+/// @param result  as the search found it, so that the rows of all points can be compared
+void write_front(const std::filesystem::path& directory, const Study& study,
+                 const optimizer::OptimizationResult& result);
 
 /// What came of it, for people; without a front nothing.
 [[nodiscard]] std::string front_words(const report::RunRecord& record);

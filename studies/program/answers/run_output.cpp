@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cctype>
+#include <future>
 #include <optional>
 #include <ostream>
 #include <utility>
@@ -66,9 +67,18 @@ WrittenRun record_of(const RunSite& site, OptimizationResult result, double seco
   const RunEngine& engine = site.engine;
   std::optional<report::DesignRecord> best, baseline;
   std::string inaccurate;
-  const auto look = [&](std::size_t index, std::optional<report::DesignRecord>& design) {
+  const bool start_is_best = result.best == std::size_t{0};
+  // Both are begun before either is waited for: where others work for a run, start and best design are described at
+  // once.
+  const auto described = [&](std::size_t index) {
+    const bool at_once = site.pool != nullptr && site.pool->size() > 1 && result.best && !start_is_best;
+    return std::async(at_once ? std::launch::async : std::launch::deferred,
+                      [&, index] { return engine.describe(scene_of(study, result.evaluations[index])); });
+  };
+  const auto look = [&](std::size_t index, std::future<DescribedDesign> future,
+                        std::optional<report::DesignRecord>& design) {
+    DescribedDesign seen = future.get();
     optimizer::Candidate& candidate = result.evaluations[index];
-    DescribedDesign seen = engine.describe(scene_of(study, candidate));
     const auto known = static_cast<std::ptrdiff_t>(seen.evaluation.messages.size());
     if (const auto raised = site.raised.find(index); raised != site.raised.end())
       optimizer::raise_bars(raised->second, seen.evaluation);
@@ -83,11 +93,14 @@ WrittenRun record_of(const RunSite& site, OptimizationResult result, double seco
     const std::vector<std::string>& messages = candidate.evaluation.messages;
     design->notes.insert(design->notes.begin() + known, messages.begin() + known, messages.end());
   };
-  if (engine.describe && result.best) look(*result.best, best);
-  if (engine.describe && result.best == std::size_t{0})
+  std::future<DescribedDesign> of_best, of_start;
+  if (engine.describe && result.best) of_best = described(*result.best);
+  if (engine.describe && !result.evaluations.empty() && !start_is_best) of_start = described(0);
+  if (of_best.valid()) look(*result.best, std::move(of_best), best);
+  if (of_start.valid())
+    look(0, std::move(of_start), baseline);
+  else
     baseline = best;
-  else if (engine.describe && !result.evaluations.empty())
-    look(0, baseline);
   report::RunRecord record = report::record_run(study.problem, study.optimizer, result);
   record.name = study.name;
   record.title = study.title;
@@ -118,7 +131,7 @@ WrittenRun write_run(const RunSite& site, const OptimizationResult& result, doub
   WrittenRun written = record_of(site, result, seconds);
   report::RunRecord& record = written.record;
   if (result.front) record.front = front_record(study.problem, result);
-  if (study.problem.front) write_front(site.directory, study, record);
+  if (study.problem.front) write_front(site.directory, study, result);
   record.verifications = verifications;
   record.departures = departures;
   report::write_results(site.directory / "results.h5", record);

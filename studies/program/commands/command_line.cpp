@@ -9,7 +9,6 @@
 #include <ostream>
 #include <sstream>
 #include <system_error>
-#include <thread>
 
 #include "core/options.hpp"
 #include "studies/program/answers/version.hpp"
@@ -70,7 +69,6 @@ void add_command(CLI::App& app, Chosen& chosen, const CommandHelp& help, Run run
 
 void add_commands(CLI::App& app, Chosen& chosen, const PoolFactory& pools) {
   add_command<RunOptions>(app, chosen, help::run(), [pools](RunOptions options, const Streams& streams) {
-    if (!options.jobs) options.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     return run_study(options, streams, study_engine, pools);
   });
   add_command<EvaluateOptions>(app, chosen, help::evaluate(), run_evaluate);

@@ -7,12 +7,15 @@
 #include <filesystem>
 #include <memory>
 #include <ostream>
+#include <sstream>
+#include <thread>
 
 #include "core/replace_file.hpp"
 #include "optimizer/journal/fingerprint.hpp"
 #include "optimizer/journal/journal.hpp"
 #include "optimizer/search/run.hpp"
 #include "optimizer/workers/forked_pool.hpp"
+#include "optimizer/workers/memory.hpp"
 #include "studies/program/answers/run_departures.hpp"
 #include "studies/program/answers/run_front.hpp"
 #include "studies/program/answers/run_output.hpp"
@@ -41,6 +44,20 @@ void require_runnable(const Study& study) {
                                    std::pair{study.problem.objective.empty(), "objective"}})
     if (none) wrong.add(study.file, fmt::format("has no [[{}]]; an optimisation needs at least one", what));
   wrong.raise();
+}
+
+/// The part of the scan that was asked for; throws where there is none.
+std::optional<optimizer::Part> part_of(const RunOptions& options, const Study& study) {
+  if (options.part.empty()) return {};
+  optimizer::Part part;
+  std::istringstream text(options.part);
+  char slash = 0;
+  if (!(text >> part.number >> slash >> part.of) || slash != '/' || !text.eof() || part.number < 1 ||
+      part.number > part.of)
+    refuse("--part", "must be K/N, the K-th of N parts, as in 2/8", options.part);
+  if (optimizer::scan_size(study.optimizer, study.problem.space.size()) == 0)
+    refuse("--part", "is of the scan, and the study has none: give [optimizer] scan_evaluations", options.part);
+  return part;
 }
 
 /// The directory of the results, created; an existing one is only touched to resume it. Scripts that always say
@@ -216,8 +233,8 @@ std::string settings_words(const Study& searched, const SettledStudy& handed) {
 }
 
 /// The search, with its journals in the directory.
-OptimizationResult searched(const RunSite& site, bool resume, const std::string& fingerprint,
-                            const OrderlyInterrupt& interrupt) {
+OptimizationResult searched(const RunSite& site, bool resume, const std::optional<optimizer::Part>& part,
+                            const std::string& fingerprint, const OrderlyInterrupt& interrupt) {
   const auto opened = [&](const char* name) {
     const fs::path file = site.directory / name;
     optimizer::Journal journal =
@@ -232,7 +249,8 @@ OptimizationResult searched(const RunSite& site, bool resume, const std::string&
                             .progress = [&](const optimizer::Progress& at) { progress(at); },
                             .stop = &interrupt.flag(),
                             .finer = {},
-                            .finer_journal = &finer_journal};
+                            .finer_journal = &finer_journal,
+                            .part = part};
   hooks.many = site.engine.many;
   if (site.engine.finer)
     hooks.finer = [&](std::span<const double> x, int level) {
@@ -246,9 +264,12 @@ OptimizationResult searched(const RunSite& site, bool resume, const std::string&
 }  // namespace
 
 std::unique_ptr<optimizer::WorkerPool> processes(const RunOptions& options, const optimizer::WorkerFactory& factory) {
-  const int jobs = options.jobs.value_or(1);
-  if (jobs == 1) return nullptr;
-  return std::make_unique<optimizer::ForkedPool>(static_cast<std::size_t>(jobs), factory, options.patience);
+  const auto jobs =
+      static_cast<std::size_t>(options.jobs.value_or(static_cast<int>(std::thread::hardware_concurrency())));
+  if (jobs <= 1) return nullptr;
+  // Whoever gives a number knows what there is.
+  return std::make_unique<optimizer::ForkedPool>(jobs, factory, options.patience,
+                                                 options.jobs ? optimizer::FreeMemory() : optimizer::free_memory);
 }
 
 int run_study(const RunOptions& options, const Streams& streams, const RunEngineFactory& make_engine,
@@ -256,6 +277,7 @@ int run_study(const RunOptions& options, const Streams& streams, const RunEngine
   const auto begin = std::chrono::steady_clock::now();
   const Study asked = load_study(options.study);
   require_runnable(asked);
+  const std::optional<optimizer::Part> part = part_of(options, asked);
   for (const std::string& warning : warnings(asked)) streams.err << options.study << ": warning: " << warning << "\n";
   const fs::path directory = prepare_directory(options, asked, streams.err);
   const SettledStudy settled = settled_run(asked, directory, options.resume, make_engine, streams.err);
@@ -267,7 +289,12 @@ int run_study(const RunOptions& options, const Streams& streams, const RunEngine
   const RunEngine engine = pool ? at_work(study, alone, *pool) : alone;
   const RunSite site{.study = study, .engine = engine, .directory = directory, .err = streams.err, .pool = pool.get()};
   const OrderlyInterrupt interrupt;
-  OptimizationResult result = searched(site, options.resume, fingerprint_of(study), interrupt);
+  OptimizationResult result = searched(site, options.resume, part, fingerprint_of(study), interrupt);
+  if (part) {
+    streams.out << fmt::format("{}: part {} of {} of the scan, {} evaluations in {}\n", study.name, part->number,
+                               part->of, result.evaluations.size(), directory.string());
+    return interrupt.requested() ? kInterrupted : kDone;
+  }
   add_front_bars(site, fingerprint_of(study), interrupt, result);
 
   // What is handed over may ask for more than the search.

@@ -110,8 +110,9 @@ struct RunOptions {
   std::string study;
   std::string directory;  ///< empty: results/NAME
   bool resume = false;
-  std::optional<int> jobs;  ///< processes that work at once; absent: this one alone, which the program makes all cores
-  double patience = 3600;   ///< s; one that takes longer for a candidate is given up
+  std::optional<int> jobs = {};  ///< processes that work at once; absent: one for each core, as far as memory goes
+  double patience = 3600;        ///< s; one that takes longer for a candidate is given up
+  std::string part = {};         ///< "K/N": start and the K-th of N parts of the scan alone; empty: the whole run
 };
 /// Makes others who work on the pieces of a run; null: the run does them itself.
 using PoolFactory =

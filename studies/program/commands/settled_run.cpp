@@ -8,11 +8,13 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <optional>
 #include <ostream>
 
 #include "core/replace_file.hpp"
 #include "optimizer/journal/fingerprint.hpp"
+#include "optimizer/responses/response_table.hpp"
 #include "studies/program/answers/accuracy_json.hpp"
 #include "studies/program/answers/run_output.hpp"
 #include "studies/program/answers/version.hpp"
@@ -43,20 +45,38 @@ struct Chosen {
 };
 
 /// What the bars of the start, in the first case, say of differences between designs. No history is asked in a search:
-/// a doubt that only one settles is no noise. Nothing where they say nothing.
+/// a doubt that only one settles is no noise. What all cases wear off together is taken to be as noisy as what the
+/// first one does: the same computation, whose bars are there. Of a front the noisiest objective counts: each is
+/// limited while others are minimised, and a step that is lost in the noise of one of them tells nothing. Nothing where
+/// the bars say nothing.
 std::optional<double> noise_of(const Study& study, const optimizer::Evaluation& start) {
   optimizer::Problem alone = study.problem;
   alone.cases.clear();
-  for (const optimizer::ObjectiveTerm& term : study.problem.objective)
+  for (optimizer::ObjectiveTerm& term : alone.objective) {
+    const optimizer::Response* response = optimizer::find_response(term.response);
+    if (response != nullptr && response->alone != nullptr) term.response = response->alone->name;
     if (std::ranges::find(start.unbounded, term.response) != start.unbounded.end()) return {};
+  }
   std::map<std::string, double> bars;
   for (const auto& [response, sources] : start.error_sources)
     for (const auto& [source, bar] : sources)
       if (source != "history") bars[response] += bar;
-  const double objective = judge(alone, start, study.optimizer.constraint_tolerance).objective;
-  const double bar = judgement_bars(alone, start.responses, bars).objective;
-  if (!std::isfinite(objective) || !std::isfinite(bar) || objective == 0) return {};
-  return std::clamp(bar / std::abs(objective), optimizer::NoiseParams{}.unknown, 0.5);
+  std::vector<double> sizes, noises;
+  for (const optimizer::ObjectiveTerm& term : alone.objective) {
+    const auto [value, bar] = term_value(alone, term, start.responses, bars);
+    sizes.push_back(value);
+    noises.push_back(bar);
+  }
+  if (!alone.front) {
+    sizes = {std::accumulate(sizes.begin(), sizes.end(), 0.0)};
+    noises = {std::accumulate(noises.begin(), noises.end(), 0.0)};
+  }
+  double noise = optimizer::NoiseParams{}.unknown;
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    if (!std::isfinite(sizes[i]) || !std::isfinite(noises[i]) || sizes[i] == 0) return {};
+    noise = std::max(noise, noises[i] / std::abs(sizes[i]));
+  }
+  return std::min(noise, 0.5);
 }
 
 void keep(const std::filesystem::path& file, const std::string& question, const Chosen& chosen) {

@@ -73,9 +73,16 @@ std::span<const Option<RunOptions>> command_options<RunOptions>() {
       study_option<R>(),
       {"-o,--output", &R::directory, "DIR", "Directory of the results (default: results/NAME)"},
       {"--resume", &R::resume, {}, "Continue the run stored in the directory"},
-      {"--jobs", &R::jobs, "N", "Processes that work at once (default: one for each core)", false, {.lower = 1}},
+      {"--jobs",
+       &R::jobs,
+       "N",
+       "Processes that work at once (default: one for each core, as many as memory has room for)",
+       false,
+       {.lower = 1}},
       {"--patience", &R::patience, "SECONDS", "A candidate for which one of several processes takes longer has failed",
-       false, kPositive}};
+       false, kPositive},
+      {"--part", &R::part, "K/N",
+       "Start and the K-th of N parts of the scan alone; `dovetail merge` puts the parts together"}};
   return table;
 }
 

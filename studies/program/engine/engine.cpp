@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
+#include <mutex>
 #include <ostream>
 #include <string_view>
 #include <utility>
@@ -85,7 +86,7 @@ optimizer::Evaluation mission_piece(const SceneEvaluator& evaluator, optimizer::
 }
 
 /// Designs with bars and what the wear history decides. The best one is verified and then described: it is computed
-/// once.
+/// once. Several threads may look at designs.
 class CloserLook {
  public:
   CloserLook(std::shared_ptr<const SceneEvaluator> evaluator, optimizer::Stage until)
@@ -95,8 +96,12 @@ class CloserLook {
 
   /// The first one is kept until it is taken.
   std::shared_ptr<const optimizer::CandidateResult> look(const Scene& scene) {
-    if (kept_ && kept_->evaluation.parameters == optimizer::parameters(scene)) return kept_;
+    {
+      const std::scoped_lock lock(mutex_);
+      if (kept_ && kept_->evaluation.parameters == optimizer::parameters(scene)) return kept_;
+    }
     auto result = std::make_shared<const optimizer::CandidateResult>(evaluated(*evaluator_, scene, purpose_));
+    const std::scoped_lock lock(mutex_);
     seen_.insert_or_assign(optimizer::parameters(scene), result->evaluation);
     if (!kept_) kept_ = result;
     return result;
@@ -104,19 +109,24 @@ class CloserLook {
 
   std::shared_ptr<const optimizer::CandidateResult> take(const Scene& scene) {
     auto result = look(scene);
+    const std::scoped_lock lock(mutex_);
     if (kept_ == result) kept_.reset();
     return result;
   }
 
   /// Of one that need not be kept.
   optimizer::Evaluation evaluation(const Scene& scene) {
-    const auto found = seen_.find(optimizer::parameters(scene));
-    return found != seen_.end() ? found->second : evaluated(*evaluator_, scene, purpose_).evaluation;
+    {
+      const std::scoped_lock lock(mutex_);
+      if (const auto found = seen_.find(optimizer::parameters(scene)); found != seen_.end()) return found->second;
+    }
+    return evaluated(*evaluator_, scene, purpose_).evaluation;
   }
 
  private:
   std::shared_ptr<const SceneEvaluator> evaluator_;
   optimizer::Purpose purpose_;
+  std::mutex mutex_;  // of what follows
   std::shared_ptr<const optimizer::CandidateResult> kept_;
   std::map<std::map<std::string, double>, optimizer::Evaluation> seen_;
 };

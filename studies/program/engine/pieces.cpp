@@ -92,11 +92,13 @@ void run_designs(const Study& study, const std::vector<Piece>& designs, optimize
                  const std::function<bool(std::size_t, Evaluation)>& told) {
   const std::vector<optimizer::LoadCase>& cases = study.problem.cases;
   const std::vector<optimizer::MissionCases> missions = study_missions(study, false);
-  const std::size_t loads = std::max<std::size_t>(cases.size(), 1) + missions.size();
+  const std::size_t alone = std::max<std::size_t>(cases.size(), 1), loads = alone + missions.size();
   std::vector<Piece> pieces;
   std::vector<std::string> tasks;
   for (Piece piece : designs)
-    for (piece.load = 0; piece.load < loads; ++piece.load) {
+    for (std::size_t i = 0; i < loads; ++i) {
+      // The longest first, so that none is waited for alone: a mission takes more than any of its cases.
+      piece.load = (alone + i) % loads;
       pieces.push_back(piece);
       tasks.push_back(task_of(piece));
     }
@@ -104,7 +106,7 @@ void run_designs(const Study& study, const std::vector<Piece>& designs, optimize
   std::vector<std::size_t> left(designs.size(), loads);
   pool.run(tasks, [&](const Finished& finished) {
     const std::size_t design = finished.task / loads;
-    found[design][finished.task % loads] = evaluation_of(study, pieces[finished.task], finished);
+    found[design][pieces[finished.task].load] = evaluation_of(study, pieces[finished.task], finished);
     if (--left[design] > 0) return true;
     return told(design, optimizer::together(cases, scene_at(study, designs[design].x), found[design], missions));
   });

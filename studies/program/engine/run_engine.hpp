@@ -65,7 +65,7 @@ struct RunEngine {
   /// The same on finer meshes; empty: limits are kept on one mesh.
   optimizer::FinerEvaluator finer = {};
   /// The design with bars and what the wear history decides, as far as the study's responses need, and with the curves
-  /// and fields, of its first case, that results and report show; empty: they show none.
+  /// and fields, of its first case, that results and report show; empty: they show none. Threads may ask at once.
   std::function<DescribedDesign(const optimizer::Scene&)> describe;
   /// The design's wear by the full history, at settings that are handed over or, without them, at finer ones; empty:
   /// designs are not verified.

@@ -114,6 +114,15 @@ namespace {
 
 using optimizer::Uncertain;
 
+/// Whether that key follows from the variables, wherever uncertain numbers are looked at.
+bool is_linked(const Node* root, const std::string& key) {
+  const Node* list = root ? root->find("linked") : nullptr;
+  return list != nullptr && std::ranges::any_of(list->items, [&](const Node& item) {
+           const Node* linked = item.find("key");
+           return linked != nullptr && linked->kind == Node::Kind::text && overlap(linked->text, key);
+         });
+}
+
 /// A range, or mean and deviation, of an uncertain number: itself, what is added to it, or what it is multiplied by.
 bool read_distribution(SectionReader& section, const Parameter& parameter, bool varied, Problems& problems,
                        Uncertain& number) {
@@ -138,7 +147,8 @@ bool read_distribution(SectionReader& section, const Parameter& parameter, bool 
     return false;
   }
   if (range && varied) {
-    problems.missing(&node, section.path("lower"), "is of a design variable: give plus_minus or relative");
+    problems.missing(&node, section.path("lower"),
+                     "is of a design variable, or follows from some: give plus_minus or relative");
     return false;
   }
   if (range) {
@@ -180,9 +190,9 @@ std::vector<LoadCase> read_samples(SectionReader& root, const optimizer::Scene& 
       return overlap(variable.key, *key) ||
              std::ranges::any_of(variable.also, [&](const std::string& also) { return overlap(also, *key); });
     };
+    const bool varied = std::ranges::any_of(variables, is_varied) || is_linked(root.node(), *key);
     Uncertain number{.key = *key};
-    const bool known =
-        read_distribution(section, *parameter, std::ranges::any_of(variables, is_varied), problems, number);
+    const bool known = read_distribution(section, *parameter, varied, problems, number);
     section.finish();
     if (!why.empty())
       problems.add(*at, section.path("key"), why);

@@ -47,9 +47,11 @@ std::string known_names(const std::map<std::string, double>& numbers) {
 }
 
 /// Why that key may not be linked; empty where it may.
-std::string refusal_of(const std::string& key, const Node* root, const optimizer::Parameter& parameter,
-                       const optimizer::Problem& problem, const std::vector<LinkedKey>& before) {
+std::string refusal_of(const std::string& key, const Node* root, const optimizer::Scene& scene,
+                       const optimizer::Parameter& parameter, const optimizer::Problem& problem,
+                       const std::vector<LinkedKey>& before) {
   if (std::string why = conflict_of_variable(root, parameter); !why.empty()) return why;
+  if (parameter.left_aside(scene)) return left_aside_words(scene);
   const Node* given = root ? root->at(key) : nullptr;
   if (given && !given->origin.empty()) return "follows from the design variables and cannot be set";
   for (const auto& [other, value] : problem.space.settings(problem.space.start()))
@@ -92,7 +94,7 @@ std::vector<LinkedKey> read_linked(SectionReader& root, const optimizer::Problem
     const Node* at = node->find("key");
     const optimizer::Parameter* parameter = key ? scene_key(*key, *at, section.path("key"), problems) : nullptr;
     if (parameter == nullptr || !value) continue;
-    if (const std::string why = refusal_of(*key, root.node(), *parameter, problem, linked); !why.empty()) {
+    if (const std::string why = refusal_of(*key, root.node(), scene, *parameter, problem, linked); !why.empty()) {
       problems.add(*at, section.path("key"), why);
       continue;
     }

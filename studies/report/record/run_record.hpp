@@ -137,10 +137,10 @@ struct VerificationRecord {
                                                   const Numbers& values, std::int64_t flank);
 
 /// What several objectives came to that were wanted each for itself; see optimizer::Front. Values are those of the
-/// search, of the responses that the objectives name, in SI and as they are, also where more is better.
+/// search, of what the objectives are about, in SI and as it is, also where more is better.
 struct FrontRecord {
-  std::vector<std::string> objectives;   ///< [O] responses, where cases count in another way than by the worst with
-                                         ///< "@" and that
+  std::vector<std::string> objectives;   ///< [O] responses, or in bars how far they are from their aim; where cases
+                                         ///< count in another way than by the worst with "@" and that
   std::vector<std::int64_t> evaluation;  ///< [P] index of the candidate of every point
   Numbers values;                        ///< [P, O] row by row
   Numbers bars;                          ///< [P, O] NaN where none were asked, or there are none

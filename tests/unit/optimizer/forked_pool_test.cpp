@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <csignal>
+#include <filesystem>
+#include <fstream>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -83,6 +85,48 @@ TEST(ForkedPool, WhoHangsIsGivenUp) {
   const std::map<std::size_t, Finished> told = run(pool, {"sleep", "x", "x"});
   EXPECT_THAT(told.at(0).ended, HasSubstr("gave no answer in 0.3 s"));
   EXPECT_TRUE(told.at(1).answer && told.at(2).answer);
+}
+
+/// Answers with how many work at that moment, by files in a folder, this one among them.
+WorkerFactory counting() {
+  return [](const std::string& folder) -> Worker {
+    return [folder](const std::string&) -> std::string {
+      const std::filesystem::path own = std::filesystem::path(folder) / std::to_string(::getpid());
+      std::ofstream(own) << "here";
+      std::this_thread::sleep_for(std::chrono::milliseconds(30));
+      const auto all = std::distance(std::filesystem::directory_iterator(folder), {});
+      std::filesystem::remove(own);
+      return std::to_string(all);
+    };
+  };
+}
+
+TEST(ForkedPool, NoMoreWorkAtOnceThanMemoryHasRoomFor) {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("dovetail_pool_" + std::to_string(::getpid()));
+  const auto most_at_once = [&](double free, std::string& said) {
+    std::filesystem::create_directories(folder);
+    ForkedPool pool(4, counting(), 60, [free] { return free; });
+    pool.prepare(folder.string());
+    testing::internal::CaptureStderr();
+    int most = 0;
+    bool first = true;
+    pool.run(std::vector<std::string>(24, "x"), [&](const Finished& finished) {
+      // What one takes is not known before it has answered.
+      EXPECT_TRUE(!first || *finished.answer == "1");
+      first = false;
+      most = std::max(most, std::stoi(*finished.answer));
+      return true;
+    });
+    said = testing::internal::GetCapturedStderr();
+    std::filesystem::remove_all(folder);
+    return most;
+  };
+  std::string said;
+  EXPECT_GT(most_at_once(1e15, said), 2);
+  EXPECT_EQ(said, "");
+  EXPECT_EQ(most_at_once(0, said), 1);
+  EXPECT_THAT(said, HasSubstr("dovetail: memory has room for 1 of 4 processes: one takes up to"));
 }
 
 TEST(ForkedPool, NoMoreIsHandedOutWhenToldSo) {

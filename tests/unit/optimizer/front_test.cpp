@@ -55,6 +55,12 @@ TEST(Front, CountsAgainstTheWorstFeasibleOfStartAndScanUnlessTold) {
                              candidate({6, 2}, true, kScanPhase), candidate({90, 1})};
   Problem problem = plain_problem();
   EXPECT_THAT(front_of(problem, all).reference, ElementsAre(6, 7));
+  EXPECT_FALSE(front_of(problem, all).moves);
+  // Against the start alone a front of what is better here and worse there would be worth nothing.
+  all[1].phase = all[2].phase = kStartPhase;
+  EXPECT_THAT(front_of(problem, all).reference, ElementsAre(90, 7));
+  EXPECT_TRUE(front_of(problem, all).moves);
+  EXPECT_GT(front_of(problem, all).hypervolume, 0);
   all.resize(1);
   all.push_back(candidate({1, 4}));
   all.push_back(candidate({2, 3}));
@@ -62,6 +68,9 @@ TEST(Front, CountsAgainstTheWorstFeasibleOfStartAndScanUnlessTold) {
   problem.objective[1].weight = -1;  // maximised
   problem.objective[1].reference = 5;
   EXPECT_THAT(front_of(problem, all).reference, ElementsAre(2, -5));
+  EXPECT_TRUE(front_of(problem, all).moves);
+  problem.objective[0].reference = 9;
+  EXPECT_FALSE(front_of(problem, all).moves);
 }
 
 TEST(Front, IsOfAnyNumberOfObjectives) {
@@ -170,6 +179,36 @@ TEST_P(FrontBy, KeepsTheBudgetAndLeavesCandidatesJudgedByTheProblem) {
       }
     }
   }
+}
+
+// More evaluations go on where fewer ended, to the same bits as if they had been there from the start.
+TEST_P(FrontBy, GoesOnWithALargerBudget) {
+  if (GetParam() == Algorithm::scan) GTEST_SKIP() << "is a hypercube of another size";
+  const Problem problem = two_bowls();
+  OptimizerOptions options = front_options(GetParam());
+  for (const int budget : {40, 90, 133, 240}) {
+    options.max_evaluations = budget;
+    Journal journal = budget == 40 ? Journal::create(file, "k") : Journal::resume(file, "k");
+    const OptimizationResult result = run_optimization(problem, two_rough_bowls_at, options, {.journal = &journal});
+    EXPECT_EQ(result.statistics.unused_records, 0) << budget;
+    EXPECT_THAT(result.evaluations, testing::SizeIs(budget)) << result.message;
+    const OptimizationResult whole = run_optimization(problem, two_rough_bowls_at, options);
+    ASSERT_EQ(whole.evaluations.size(), result.evaluations.size());
+    for (std::size_t i = 0; i < whole.evaluations.size(); ++i)
+      EXPECT_EQ(whole.evaluations[i].x, result.evaluations[i].x);
+    ASSERT_TRUE(result.front);
+    EXPECT_EQ(whole.front->hypervolume, result.front->hypervolume);
+  }
+}
+
+TEST(Front, SaysThatItsReferenceMovesWithoutAScan) {
+  Problem problem = plain_problem();
+  OptimizerOptions options = front_options(Algorithm::cobyla);
+  EXPECT_THAT(run_optimization(problem, two_bowls_at, options).message, testing::Not(HasSubstr("reference")));
+  options.scan_evaluations = 0;
+  const OptimizationResult alone = run_optimization(problem, two_bowls_at, options);
+  EXPECT_THAT(alone.message, HasSubstr("without a feasible scan the reference is the worst of start and front"));
+  EXPECT_GT(alone.front->hypervolume, 0);
 }
 
 TEST_P(FrontBy, KeepsWhatIsFinishedWhenStopped) {

@@ -8,12 +8,14 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "core/replace_file.hpp"
 #include "optimizer/journal/journal.hpp"
 #include "studies/program/commands/commands.hpp"
 #include "studies/program/commands/kept_rounds.hpp"
+#include "studies/program/engine/engine.hpp"
 #include "studies/program/engine/interrupt.hpp"
 #include "studies/report/record/results_file.hpp"
 #include "tests/unit/studies/sample_study.hpp"
@@ -191,6 +193,122 @@ TEST_F(Run, HandsOverAFront) {
   EXPECT_EQ(text_of(results() / "front.csv"), csv);
 }
 
+// Every row is of the search, also that of the design which was looked at more closely; what comes near to a number is
+// shown as how far it is from it.
+TEST_F(Run, ShowsAFrontAsTheSearchSawIt) {
+  std::string text = replaced(text_of(study()), "weight = 1\n", "");
+  text = replaced(text, "algorithm = \"cobyla\"", "algorithm = \"nsga2\"");
+  replace_file(study(), text + "\n[[objective]]\nresponse = \"mass_kg\"\naim = 0.1005\n");
+  int barred = 0;
+  const RunEngineFactory closer = [&](const Study& study) {
+    RunEngine engine = two_bowls(barred)(study);
+    engine.describe = [evaluate = engine.evaluate, keys = study.problem.space.keys()](const optimizer::Scene& scene) {
+      std::vector<double> x;
+      for (const std::string& key : keys) x.push_back(optimizer::parameter(scene, key));
+      DescribedDesign seen{.evaluation = evaluate(x), .record = {}};
+      for (auto& [name, value] : seen.evaluation.responses) value *= 1.25;
+      seen.record.status = "converged";
+      return seen;
+    };
+    return engine;
+  };
+  ASSERT_EQ(run(false, closer), kDone) << err_.str();
+  EXPECT_THAT(out_.str(), HasSubstr("  |mass_kg - 0.1005| from "));
+  const auto rows = table_of(results() / "front.csv");
+  const auto column = [&](const std::string& name) {
+    return static_cast<std::size_t>(std::ranges::find(rows.front(), name) - rows.front().begin());
+  };
+  const std::size_t distance = column("objective |mass_kg - 0.1005|"), mass = column("mass_kg");
+  ASSERT_LT(distance, rows.front().size());
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    EXPECT_NEAR(std::stod(rows[i][distance]), std::abs(std::stod(rows[i][mass]) - 0.1005), 1e-15) << i;
+    EXPECT_EQ(rows[i][column("objective asymptotic_wear_volume_m3")], rows[i][column("asymptotic_wear_volume_m3")]);
+    EXPECT_NEAR(std::stod(rows[i][column("constraint post_width_m:lower")]),
+                (4e-3 - std::stod(rows[i][column("post_width_m")])) / 4e-3, 1e-12);
+  }
+}
+
+// What follows from the variables is in every file that is handed over, and another formula is another study.
+TEST_F(Run, HandsOverLinkedKeys) {
+  const std::string text = text_of(study()), key = "geometry.shank_width_mm";
+  const auto linked = [&](const char* formula) {
+    replace_file(study(), text + "\n[[linked]]\nkey = \"" + key + "\"\nvalue = \"" + formula + "\"\n");
+  };
+  linked("geometry_neck_width_mm + 2.5");
+  int calls = 0;
+  ASSERT_EQ(run(false, counted(calls)), kDone) << err_.str();
+  const Study best = load_study((results() / "best.toml").string());
+  EXPECT_NE(optimizer::parameter(best.scene, "geometry.neck_width_mm"), 8.5) << "the start";
+  EXPECT_DOUBLE_EQ(optimizer::parameter(best.scene, key),
+                   optimizer::parameter(best.scene, "geometry.neck_width_mm") + 2.5);
+  EXPECT_THAT(text_of(results() / "best.toml"),
+              testing::ContainsRegex("\nshank_width_mm = 11\\.|\nshank_width_mm = 1[0-9]"));
+  EXPECT_THAT(out_.str(), HasSubstr("  " + key + " = "));
+  const report::RunRecord record = report::read_results(results() / "results.h5");
+  EXPECT_EQ(record.provenance.linked.at(key), "geometry_neck_width_mm + 2.5");
+  ASSERT_EQ(run(true, counted(calls)), kDone) << err_.str();
+  linked("2 * geometry_neck_width_mm - 6");  // the same at the start
+  EXPECT_THROW(run(true, counted(calls)), InputError);
+}
+
+// Where a link has no value at an end of a range, there is no design there, and nothing is said against the others.
+TEST_F(Run, LooksForHopeWhereLinkedKeysHaveValuesAlone) {
+  replace_file(study(), text_of(study()) +
+                            "\n[[linked]]\nkey = \"geometry.shank_width_mm\"\nvalue = \"11 + 0 * "
+                            "sqrt(geometry_neck_width_mm - 8.2)\"\n");
+  const RunEngineFactory with_rules = [](const Study& study) {
+    RunEngine engine{.evaluate = bowl, .describe = {}};
+    engine.rules = [study](std::span<const double> x) {
+      if (std::isnan(optimizer::parameter(scene_at(study, x), "geometry.shank_width_mm")))
+        throw InputError(
+            Violation{.file = {}, .key = "geometry.shank_width_mm", .value = "nan", .allowed = "must be > 0"});
+      return std::vector<geometry::Rule>{{.name = "wall", .margin = -0.1, .sentence = "the wall is thin"}};
+    };
+    return engine;
+  };
+  EXPECT_EQ(run(false, with_rules), kDone) << err_.str();
+}
+
+// Parts of a scan that know nothing of each other are, together, the scan of a whole run.
+TEST_F(Run, ComputesItsScanInParts) {
+  replace_file(study(), replaced(text_of(study()), "scan_evaluations = 0", "scan_evaluations = 7"));
+  int calls = 0;
+  ASSERT_EQ(run(false, counted(calls)), kDone) << err_.str();
+  const int whole = calls;
+  const auto records = [&](const fs::path& in) { return optimizer::read_journal(in / "journal.jsonl").records; };
+  const auto of_whole = records(results());
+  const auto part = [&](const std::string& text, const std::string& into) {
+    out_.str("");
+    return run_study({.study = study(), .directory = (directory_ / into).string(), .jobs = 1, .part = text},
+                     {.out = out_, .err = err_}, counted(calls));
+  };
+  MergeOptions merge{.directories = {}, .directory = (directory_ / "merged").string()};
+  std::set<std::vector<double>> seen;
+  for (const std::string number : {"1", "2", "3"}) {
+    calls = 0;
+    ASSERT_EQ(part(number + "/3", "part" + number), kDone) << err_.str();
+    EXPECT_EQ(calls, number == "1" ? 1 + 3 : 1 + 2);
+    EXPECT_THAT(out_.str(), HasSubstr("part " + number + " of 3 of the scan"));
+    EXPECT_FALSE(fs::exists(directory_ / ("part" + number) / "best.toml"));
+    for (const auto& record : records(directory_ / ("part" + number))) seen.insert(record.x);
+    merge.directories.push_back((directory_ / ("part" + number)).string());
+  }
+  EXPECT_EQ(seen.size(), 8U);
+  ASSERT_EQ(run_merge(merge, {.out = out_, .err = err_}), kDone);
+  calls = 0;
+  ASSERT_EQ(run_study({.study = study(), .directory = merge.directory, .resume = true, .jobs = 1},
+                      {.out = out_, .err = err_}, counted(calls)),
+            kDone);
+  EXPECT_EQ(calls, whole - 8);
+  EXPECT_EQ(text_of(directory_ / "merged" / "best.toml"), text_of(results() / "best.toml"));
+  for (const auto& record : records(directory_ / "merged")) seen.insert(record.x);
+  EXPECT_EQ(seen.size(), of_whole.size());
+  for (const char* wrong : {"3", "0/3", "4/3", "1/3x", "a/b", "1/", "-1/2"})
+    EXPECT_THROW(part(wrong, "none"), InputError) << wrong;
+  replace_file(study(), replaced(text_of(study()), "scan_evaluations = 7", "scan_evaluations = 0"));
+  EXPECT_THROW(part("1/3", "none"), InputError) << "there is no scan";
+}
+
 /// The bowl; it kills its process where the first variable is in a band.
 RunEngine deadly() {
   return {.evaluate =
@@ -281,6 +399,47 @@ TEST_F(Run, KeepsTheNoiseFromTheBarOfItsStart) {
   fs::remove(results() / "settings.json");
   ASSERT_EQ(run(true, with_start), kDone) << err_.str();
   EXPECT_EQ(starts, 3);
+}
+
+// Of a front the noisiest objective counts; what all cases wear off together has the noise of what one does.
+TEST_F(Run, TakesTheNoiseOfTheNoisiestObjective) {
+  const std::string one = "response = \"asymptotic_wear_volume_m3\"\nweight = 1\n";
+  const std::string other = "\n[[objective]]\nresponse = \"mass_kg\"\n";
+  const std::string text = text_of(study());
+  const auto noise = [&](const std::string& objective, const std::string& more) {
+    replace_file(study(),
+                 replaced(replaced(text, one, objective), "max_evaluations = 40", "max_evaluations = 2") + more);
+    fs::remove_all(results());
+    const RunEngineFactory with_start = [&](const Study&) {
+      RunEngine engine{.evaluate =
+                           [](std::span<const double> x) {
+                             optimizer::Evaluation e = bowl(x);
+                             e.responses["mass_kg"] = 2;
+                             e.responses["mission_wear_volume_m3"] = 1e-10;
+                             return e;
+                           },
+                       .describe = {}};
+      engine.start = [] {
+        optimizer::Evaluation start;
+        start.responses = {{"asymptotic_wear_volume_m3", 1e-10}, {"mass_kg", 2}};
+        start.error_sources = {{"asymptotic_wear_volume_m3", {{"mesh", 3e-12}}}, {"mass_kg", {{"mesh", 0.02}}}};
+        return start;
+      };
+      return engine;
+    };
+    static_cast<void>(run(false, with_start));
+    const std::string said = err_.str(), words = "at the start: ";
+    const std::size_t at = said.find(words);
+    return at == std::string::npos ? "" : said.substr(at + words.size(), said.find('\n', at) - at - words.size());
+  };
+  const std::string wear = "response = \"asymptotic_wear_volume_m3\"\n";
+  EXPECT_EQ(noise(wear, ""), "0.03");
+  EXPECT_EQ(noise("response = \"mass_kg\"\n", ""), "0.01");
+  EXPECT_EQ(noise(wear, other), "0.03");
+  EXPECT_EQ(noise("response = \"mass_kg\"\n", "\n[[objective]]\n" + wear), "0.03");
+  EXPECT_EQ(noise("response = \"mission_wear_volume_m3\"\n", ""), "0.03");
+  // In a sum the wear weighs next to nothing.
+  EXPECT_EQ(noise(wear + "weight = 1\nscale = 1\n", other + "weight = 1\nscale = 1\n"), "0.01");
 }
 
 // Settings for what is handed over are those of the best design: chosen once, told, and in its file, but not in the

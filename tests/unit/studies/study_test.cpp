@@ -255,6 +255,12 @@ TEST(Study, DesignsWithOneMeshShareTheirMatrices) {
   EXPECT_EQ(of_variable(silent, crown), optimizer::Prestress::shared);
   EXPECT_EQ(of_variable(sample(), crown), optimizer::Prestress::own);
   EXPECT_EQ(of_variable(silent, "key = \"geometry.neck_width_mm\"\nlower = 8\nupper = 9\n"), optimizer::Prestress::own);
+  // What follows from a variable may move the mesh though the variable does not.
+  const auto linked = [](const char* key) {
+    return "[[linked]]\nkey = \"" + std::string(key) + "\"\nvalue = \"9 + geometry_left_flank_crown_um / 100\"\n";
+  };
+  EXPECT_EQ(of_variable(silent, crown + linked("geometry.shank_width_mm")), optimizer::Prestress::own);
+  EXPECT_EQ(of_variable(silent, crown + linked("geometry.right.flank_crown_um")), optimizer::Prestress::shared);
 }
 
 TEST(Study, AContactGridFinerThanTheMeshIsRefused) {
@@ -529,6 +535,11 @@ TEST(StudyLinks, FollowFromTheVariables) {
   x[static_cast<std::size_t>(at)] = 8.25;
   EXPECT_EQ(settings_at(study, x).at("geometry.shank_width_mm"), 12.5);
   EXPECT_EQ(settings_at(study, x).at("geometry.neck_width_mm"), 8.25);
+  // Of the variables alone: one link does not hang on another.
+  EXPECT_THAT(complaint("[[linked]]\nkey = \"geometry.shank_width_mm\"\nvalue = \"12\"\n[[linked]]\nkey = "
+                        "\"geometry.aerofoil_root_thickness_mm\"\nvalue = \"geometry_shank_width_mm / 2\"\n"),
+              HasSubstr("must be a formula of the design variables"));
+  EXPECT_TRUE(std::isnan(with_linked({{"a", 1}}, {{{"b", "2 * a"}, {"c", "b + 1"}}}).at("c")));
 }
 
 TEST(StudyLinks, WithoutAValueAreNone) {
@@ -559,6 +570,33 @@ TEST(StudyLinks, WrongOnesAreRefused) {
   const std::string once = "[[linked]]\nkey = \"" + width + "\"\nvalue = \"12\"\n";
   EXPECT_THAT(complaint(once + once), HasSubstr("is linked already"));
   EXPECT_THAT(complaint("[[case]]\nname = \"a\"\n\"" + width + "\" = 12\n" + once), HasSubstr("differs between cases"));
+  // At the line where it is linked, not where the file has the number.
+  const std::string threshold = linked("contact.energy_threshold_j_per_m2", "3");
+  EXPECT_THAT(threshold, HasSubstr("linked[0].key = \"contact.energy_threshold_j_per_m2\": changes nothing with"));
+  EXPECT_THAT(threshold, HasSubstr("s.toml:" + std::to_string(std::ranges::count(sample(), '\n') + 2) + ":"));
+}
+
+TEST(StudyLinks, CannotBeSetOnTheCommandLine) {
+  const std::string key = "geometry.shank_width_mm";
+  const std::string text = sample() + "[[linked]]\nkey = \"" + key + "\"\nvalue = \"geometry_neck_width_mm + 2\"\n";
+  Document document = parse_document(text, "s.toml");
+  const std::vector<Override> given{{.key = key, .value = "12", .origin = "--set " + key + "=12"}};
+  apply_overrides(document, given);
+  EXPECT_THAT([&] { static_cast<void>(read_study(document)); },
+              testing::ThrowsMessage<InputError>(HasSubstr("follows from the design variables and cannot be set")));
+}
+
+// Wherever uncertain numbers are looked at: a range of its own would part a key from what it follows.
+TEST(StudyLinks, MayBeUncertainAboutWhatTheyFollow) {
+  const std::string width = "geometry.shank_width_mm", link = "[[linked]]\nkey = \"" + width + "\"\nvalue = \"12\"\n";
+  for (const std::string rule : {"nominal", "corners", "sobol", "gauss"}) {
+    const std::string robust =
+        "[robust]\nrule = \"" + rule + "\"\n" + link + "[[uncertain]]\nkey = \"" + width + "\"\n";
+    EXPECT_THAT(complaint(robust + "lower = 11\nupper = 13\n"), HasSubstr("or follows from some: give plus_minus"));
+    EXPECT_EQ(complaint(robust + "plus_minus = 0.1\n"), "") << rule;
+    EXPECT_EQ(complaint(robust + "relative = 0.01\n"), "") << rule;
+    EXPECT_THAT(complaint(robust + "plus_minus = 0.1\nmean = 12\n"), HasSubstr("only has a meaning")) << rule;
+  }
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(Optimizer, KnownFront,
                          testing::Values(Share{Algorithm::nsga2, 600, 0.98, 0.90},
                                          Share{Algorithm::cobyla, 600, 0.97, 0.93},
                                          Share{Algorithm::bobyqa, 1200, 0.96, 0.90},
-                                         Share{Algorithm::slsqp, 600, 0.97, 0.93}),
+                                         Share{Algorithm::slsqp, 800, 0.97, 0.93}),
                          [](const auto& parameter) { return std::string(to_string(parameter.param.algorithm)); });
 
 }  // namespace
