@@ -15,9 +15,9 @@ constexpr contact::PenaltyParams kPenalty;
 constexpr PreloadParams kPreload;
 
 // The contact problem of harmonic 0 at one load level, with the slip of the level before, whose factors serve as long
-// as few nodes change what they do.
-Attempt solve_level(const Joint& joint, double scale, const Eigen::MatrixXd& start,
-                    const std::shared_ptr<const Tangent>& before) {
+// as few nodes change what they do. `foreseen`: where it is searched first, or empty.
+Attempt solve_level(const Joint& joint, double scale, const Eigen::MatrixXd& foreseen, const Attempt& before) {
+  const Eigen::MatrixXd& start = before.point.displacement;
   const auto system =
       std::make_shared<const dynamics::HarmonicSystem>(dynamics::harmonic_system(*joint.model, 0, 0, scale));
   Attempt level;
@@ -31,12 +31,13 @@ Attempt solve_level(const Joint& joint, double scale, const Eigen::MatrixXd& sta
       return false;
     }
     level = solve(std::make_shared<const Problem>(at), from.size() > 0 ? from : at.closed_start(), Method::newton,
-                  joint.options.max_iterations, before);
+                  joint.options.max_iterations, before.tangent);
     level.iterations += so_far;
     return level.status == Status::converged;
   };
   for (const double ratio : kPenalty.cascade) {
-    if (start.size() > 0 && attempt(problem.with_penalty(ratio), start)) return level;
+    for (const Eigen::MatrixXd* from : {&foreseen, &start})
+      if (from->size() > 0 && attempt(problem.with_penalty(ratio), *from)) return level;
     if (attempt(problem.with_penalty(ratio), {})) return level;
   }
   const Eigen::MatrixXd anchor = start.size() > 0 ? start : problem.closed_start();
@@ -71,8 +72,8 @@ Preload quasi_static(const std::shared_ptr<const dynamics::CondensedModel>& mode
                           .budget = options.budget}};
   Preload preload;
   preload.slip_origin = contact.slip_origin;
-  Point point;
-  std::shared_ptr<const Tangent> tangent;
+  Attempt last;
+  const Point& point = last.point;
   // An interference fit presses before any load does. Without one there is nothing to solve at load zero.
   const bool pressed = nodes > 0 && contact.gap.minCoeff() < 0;
   double reached = 0, step = 1.0 / options.steps;
@@ -82,9 +83,9 @@ Preload quasi_static(const std::shared_ptr<const dynamics::CondensedModel>& mode
     double scale = at_zero ? 0 : reached + step;
     if (scale > 1 - kPreload.whole) scale = 1;
     // As long as no node changes what it does displacements are linear in the load.
-    const Eigen::MatrixXd start =
-        rate.size() > 0 ? Eigen::MatrixXd(point.displacement + (scale - reached) * rate) : point.displacement;
-    Attempt level = solve_level(joint, scale, start, tangent);
+    const Eigen::MatrixXd foreseen =
+        rate.size() > 0 ? Eigen::MatrixXd(point.displacement + (scale - reached) * rate) : rate;
+    Attempt level = solve_level(joint, scale, foreseen, last);
     preload.iterations += level.iterations;
     preload.status = within(options.budget, level.status);
     if (preload.status == Status::budget_spent) return preload;
@@ -103,8 +104,7 @@ Preload quasi_static(const std::shared_ptr<const dynamics::CondensedModel>& mode
     }
     reached = scale;
     step = std::min(2 * step, 1.0 / options.steps);
-    point = std::move(level.point);
-    tangent = std::move(level.tangent);
+    last = std::move(level);
     for (Eigen::Index i = 0; i < nodes; ++i)
       joint.condition.slip_origin.row(i) = point.nodes[static_cast<std::size_t>(i)].slip_end.head(d - 1).transpose();
   }

@@ -30,7 +30,7 @@ struct KeptPatterns {
 struct Matrices {
   std::string status = status_of(Outcome::converged);
   std::shared_ptr<const fem::Assembler> assembler;
-  fem::SectorSystem system;               ///< on the trace; without what add_prestress() has used of it
+  fem::SectorSystem system;  ///< on the trace; `stiffness` and `full.stiffness` are empty after add_prestress()
   Eigen::SparseMatrix<double> stiffness;  ///< over all nodes, at speed: K + K_g - Omega^2 M
   reduction::TraceModel trace;            ///< of a tip force of 1 N
   // To add what the preload of another design changes:

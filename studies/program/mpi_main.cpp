@@ -17,7 +17,8 @@
 int main(int argc, char** argv) {
   using namespace dovetail;
   numerics::prepare_process(argv);
-  MPI_Init(&argc, &argv);
+  int threads = 0;  // only the first of them speaks to others
+  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &threads);
   int rank = 0, ranks = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);

@@ -149,7 +149,8 @@ with tempfile.TemporaryDirectory(prefix="dovetail_slurm_") as name:
         assert kept(folder / "ranks") == alone, logs(folder)
         after = (folder / "ranks/journal.jsonl").read_text()
         assert after.startswith(before[: before.rfind("\n") + 1]), "finished evaluations were lost"
-        # Parts of the scan, of which one does not end well, and all together.
+        # Parts of the scan and all together, with a part that ended before it began.
+        (folder / "parts/part-9").mkdir(parents=True)
         parts = slurm.submit(folder, "--array=1-3", str(SCRIPTS / "array.sbatch"), "study.toml", "parts")
         slurm.submit(folder, "--cpus-per-task=2", f"--dependency=afterany:{parts}", str(SCRIPTS / "merge.sbatch"), "study.toml", "parts")
         slurm.wait("the whole of the parts", lambda: not slurm.ask("squeue", "-h").strip(), SECONDS)

@@ -1,6 +1,7 @@
 #include "studies/program/answers/run_output.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cctype>
 #include <future>
@@ -9,6 +10,7 @@
 #include <utility>
 
 #include "core/replace_file.hpp"
+#include "optimizer/workers/memory.hpp"
 #include "studies/program/answers/candidate_table.hpp"
 #include "studies/program/answers/field_export.hpp"
 #include "studies/program/answers/geometry_export.hpp"
@@ -71,7 +73,9 @@ WrittenRun record_of(const RunSite& site, OptimizationResult result, double seco
   // Both are begun before either is waited for: where others work for a run, start and best design are described at
   // once.
   const auto described = [&](std::size_t index) {
-    const bool at_once = site.pool != nullptr && site.pool->size() > 1 && result.best && !start_is_best;
+    const optimizer::MemoryTaken taken = optimizer::memory_taken(::getpid());
+    const bool fit = optimizer::processes_that_fit(taken.most, taken.now, optimizer::free_memory()) > 1;
+    const bool at_once = site.pool != nullptr && site.pool->size() > 1 && fit && result.best && !start_is_best;
     return std::async(at_once ? std::launch::async : std::launch::deferred,
                       [&, index] { return engine.describe(scene_of(study, result.evaluations[index])); });
   };
@@ -141,15 +145,20 @@ WrittenRun write_run(const RunSite& site, const OptimizationResult& result, doub
   for (const ExportFormat format : study.exports) {
     const std::filesystem::path file = site.directory / ("best." + std::string(to_string(format)));
     const bool fields = record.best_design && record.best_design->fields.mesh.element_count() > 0;
-    if (format == ExportFormat::csv)
-      replace_file(site.directory / "candidates.csv", candidate_table(record));
-    else if (!has_fields(format))
-      export_geometry(best, format, {}, file);
-    else if (!fields || (format == ExportFormat::pvd && !record.best_design->history))
-      site.err << "dovetail: " << file.string() << ": not written: the best design has no "
-               << (fields ? "wear history" : "fields") << "\n";
-    else
-      (format == ExportFormat::pvd ? export_history : export_fields)(*record.best_design, file);
+    try {
+      if (format == ExportFormat::csv)
+        replace_file(site.directory / "candidates.csv", candidate_table(record));
+      else if (!has_fields(format))
+        export_geometry(best, format, {}, file);
+      else if (!fields || (format == ExportFormat::pvd && !record.best_design->history))
+        site.err << "dovetail: " << file.string() << ": not written: the best design has no "
+                 << (fields ? "wear history" : "fields") << "\n";
+      else
+        (format == ExportFormat::pvd ? export_history : export_fields)(*record.best_design, file);
+    } catch (const InputError& error) {
+      // The run is over, and what it found is written.
+      site.err << "dovetail: " << file.string() << ": not written: " << error.what() << "\n";
+    }
   }
   return written;
 }

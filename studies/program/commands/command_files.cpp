@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "core/replace_file.hpp"
+#include "optimizer/cases.hpp"
 #include "optimizer/journal/journal.hpp"
 #include "reduction/model_file.hpp"
 #include "studies/program/answers/candidate_table.hpp"
@@ -102,6 +103,8 @@ void check_export(const ExportOptions& options, std::optional<ExportFormat> form
     refuse("--format", "must be step, iges or stl with --worn", options.format);
   if (options.candidate && format == ExportFormat::csv)
     refuse("--candidate", "has no meaning with csv: the table has all of them", std::to_string(*options.candidate));
+  if (!options.set.empty() && format == ExportFormat::csv)
+    refuse("--set", "has no meaning with csv: the table is of what a run computed", options.set.front());
   check_replaceable(options.file);
 }
 
@@ -150,7 +153,9 @@ int run_export(const ExportOptions& options, const Streams& streams) {
     const report::DesignRecord design = exported.design(false);
     if (design.contact.depth_m.empty() || design.status != "converged")
       refuse(options.input, "has no worn flanks: its wear has not come to an end (" + design.status + ")");
-    export_solids(exported.study().scene, *format, &design.contact, options.file);
+    // The record is of the first case.
+    const Study study = exported.study();
+    export_solids(optimizer::in_first_case(study.scene, study.problem.cases), *format, &design.contact, options.file);
   } else {
     export_geometry(exported.study().scene, *format, options.deck, options.file);
   }

@@ -10,13 +10,13 @@ namespace {
 
 constexpr std::array<NamedMaterial, 5> kMaterials{{
     {.name = "Ti-6Al-4V",
-     .at_20_c = {},
+     .at_20_c = {.youngs_modulus = 114e9, .poisson_ratio = 0.33, .density = 4430},
      .source = "annealed; Materials Properties Handbook: Titanium Alloys, ASM International 1994"},
     {.name = "Ti-6Al-2Sn-4Zr-2Mo",
      .at_20_c = {.youngs_modulus = 114e9, .poisson_ratio = 0.325, .density = 4540},
      .source = "duplex annealed; Materials Properties Handbook: Titanium Alloys, ASM International 1994"},
     {.name = "Inconel 718",
-     .at_20_c = {.youngs_modulus = 200e9, .poisson_ratio = 0.294, .density = 8190},
+     .at_20_c = {.youngs_modulus = 200e9, .poisson_ratio = 0.294, .density = 8220},
      .source = "aged; Special Metals, publication SMC-045"},
     {.name = "17-4PH",
      .at_20_c = {.youngs_modulus = 196e9, .poisson_ratio = 0.272, .density = 7800},

@@ -76,6 +76,11 @@ class SceneReader {
   void read_body(const std::string& path, fem::Material& object, std::span<const Field<fem::Material>> table) {
     const Node* grade = section(path).take("grade");
     if (grade != nullptr) set_material(*grade, path + ".grade", object);
+    const auto given = [&](const Field<fem::Material>& field) {
+      return section(path).node()->find(field.key) != nullptr;
+    };
+    if (grade != nullptr && std::ranges::all_of(table, given))
+      problems_.add(*grade, path + ".grade", "changes nothing, because all numbers of the material are given, too");
     section(path).fields(object, table, !named_ && grade == nullptr && &object != &scene_.disk);
   }
 

@@ -36,17 +36,25 @@ void add_doubts(const Study& study, std::vector<std::string>& result) {
       result.push_back(section + ".density_kg_m3 = " + shortest(of.density) + " is no metal's: is it meant in kg/m3?");
   };
   doubt_body("blade", scene.blade);
-  doubt_body("disk", scene.disk);
+  if (const std::string disk = "material.disk.";
+      std::ranges::any_of(study.given, [&](const std::string& key) { return key.starts_with(disk); }))
+    doubt_body("disk", scene.disk);
   if (scene.contact.friction > kDoubt.friction)
     result.push_back("contact.friction = " + shortest(scene.contact.friction) + ": dry metals have less.");
   for (const optimizer::ResponseConstraint& of : study.problem.constraints)
-    if (of.response.ends_with("_pa") && of.upper && outside(*of.upper, kDoubt.limit))
-      result.push_back("the limit " + of.response + " <= " + shortest(*of.upper) +
-                       " Pa is far from what metals bear: limits are given in Pa.");
-  for (const optimizer::DesignVariable& variable : study.problem.space.variables())
-    if (variable.key.starts_with("contact.") || variable.key.starts_with("material.") ||
-        variable.key.starts_with("loading."))
-      result.push_back("the variable " + variable.key +
+    for (const std::optional<double>& limit : {of.lower, of.upper})
+      if (of.response.ends_with("_pa") && limit && outside(*limit, kDoubt.limit))
+        result.push_back("the limit " + shortest(*limit) + " Pa of " + of.response +
+                         " is far from what metals bear: limits are given in Pa.");
+  std::vector<std::string> varied;
+  for (const optimizer::DesignVariable& variable : study.problem.space.variables()) {
+    varied.push_back(variable.key);
+    varied.insert(varied.end(), variable.also.begin(), variable.also.end());
+  }
+  for (const LinkedKey& linked : study.linked) varied.push_back(linked.key);
+  for (const std::string& key : varied)
+    if (key.starts_with("contact.") || key.starts_with("material.") || key.starts_with("loading."))
+      result.push_back("the variable " + key +
                        " is no dimension that a designer may choose: what is not known for certain belongs into "
                        "[[uncertain]], what changes in service into [[case]].");
   if (scene.kind->in_space && scene.solid_mesh.slot_elements > kDoubt.layers)

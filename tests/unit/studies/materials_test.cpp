@@ -35,11 +35,11 @@ std::string told(const std::string& text) {
 }
 
 TEST(Materials, AreNamedForBothBodiesOrForOne) {
-  // Special Metals gives 29.0 million psi and 0.296 lb/in3 for Inconel 718.
+  // Special Metals gives 29.0 million psi and 0.297 lb/in3 for Inconel 718.
   const NamedMaterial* nickel = find_material("inconel 718");
   ASSERT_NE(nickel, nullptr);
   EXPECT_NEAR(nickel->at_20_c.youngs_modulus, 29.0e6 * 6894.757, 0.005 * 200e9);
-  EXPECT_NEAR(nickel->at_20_c.density, 0.296 * 27679.9, 10);
+  EXPECT_NEAR(nickel->at_20_c.density, 0.297 * 27679.9, 10);
 
   // Keys of a file stand before its first section.
   const optimizer::Scene both = scene_of("material = \"Inconel 718\"\n" + with_material(""));
@@ -56,6 +56,8 @@ TEST(Materials, AreNamedForBothBodiesOrForOne) {
 TEST(Materials, OfOtherNamesAreRefusedWithThoseThereAre) {
   EXPECT_THAT(told("material = \"unobtainium\"\n" + with_material("")), HasSubstr("Ti-6Al-4V, Ti-6Al-2Sn-4Zr-2Mo"));
   EXPECT_THAT(told(with_material("[material.blade]\ngrade = 718\n")), HasSubstr("material.blade.grade = 718"));
+  EXPECT_THAT(told(replaced(study_template("sample"), "[material.blade]\n", "[material.blade]\ngrade = \"17-4PH\"\n")),
+              HasSubstr("changes nothing"));
   const std::string varied = "[[variable]]\nkey = \"material.blade.density_kg_m3\"\nlower = 4000\nupper = 9000\n";
   EXPECT_THAT(told("material = \"17-4PH\"\n" + with_material("") + varied), HasSubstr("with grade = \"17-4PH\""));
 }
@@ -64,15 +66,14 @@ TEST(Materials, AndLimitsThatNobodyMeansAreDoubted) {
   const auto doubts = [](const std::string& text) { return warnings(read_study(parse_document(text, "s.toml"))); };
   const std::string plain = with_material("[material.blade]\ngrade = \"17-4PH\"\n");
   EXPECT_TRUE(doubts(plain).empty());
-  // 200e9 GPa: the disk follows the blade.
   const std::vector<std::string> modulus =
       doubts(with_material("[material.blade]\ngrade = \"17-4PH\"\nyoungs_modulus_gpa = 200e9\n"));
-  ASSERT_EQ(modulus.size(), 2U);
+  ASSERT_EQ(modulus.size(), 1U);
   EXPECT_THAT(modulus.front(), HasSubstr("material.blade.youngs_modulus_gpa"));
   const std::vector<std::string> limit =
-      doubts(plain + "[[constraint]]\nresponse = \"contact_pressure_mean_pa\"\nupper = 560\n");
+      doubts(plain + "[[constraint]]\nresponse = \"contact_pressure_mean_pa\"\nlower = 560\n");
   ASSERT_EQ(limit.size(), 1U);
-  EXPECT_THAT(limit.front(), HasSubstr("contact_pressure_mean_pa <= 560 Pa"));
+  EXPECT_THAT(limit.front(), HasSubstr("560 Pa of contact_pressure_mean_pa"));
   const std::vector<std::string> variable =
       doubts(plain + "[[variable]]\nkey = \"contact.friction\"\nlower = 0.3\nupper = 0.6\n");
   ASSERT_EQ(variable.size(), 1U);
