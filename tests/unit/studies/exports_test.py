@@ -135,6 +135,17 @@ class Exports(unittest.TestCase):
         self.assertGreater(deepest, 0)
         self.assertLess(abs(max(depths) * 1e-3 / deepest - 1), 1e-6)
 
+    def test_worn_solids_are_of_the_first_case(self):
+        of_case = self.text("s.toml") + '\n[[case]]\nname = "bent"\n"geometry.flank_length_mm" = 6\n'
+        with open(self.path("cases.toml"), "w") as stream:
+            stream.write(of_case)
+        self.export("cases.toml", "case.step", "--worn")
+        self.export("s.toml", "same.step", "--worn", "--set", "geometry.flank_length_mm=6")
+        points = [bspline_points(step_text(self.path(file))) for file in ("case.step", "same.step")]
+        self.assertEqual(len(points[0]), len(points[1]))
+        # mm; places follow worn zones, whose ends another reference of the mesh moves a little.
+        self.assertLess(max(math.dist(a, b) for a, b in zip(*points)), 1e-5)
+
     def test_fields_are_those_of_the_answers(self):
         fields = arrays(self.export("s.toml", "s.vtu"))
         responses = self.evaluate("s.toml")["responses"]
@@ -225,6 +236,7 @@ class Exports(unittest.TestCase):
                 ("only has a meaning with the directory of a run", "s.toml", "--format", "step", "--candidate", 1),
                 ("must be one of dxf", "s.toml", "--format", "stp"),
                 ("has no meaning with csv", "o", "--format", "csv", "--candidate", 1),
+                ("what a run computed", "o", "--format", "csv", "--set", "geometry.neck_width_mm=9"),
                 ("must be the directory of a run for csv", "s.toml", "--format", "csv"),
                 ("must be step, iges or stl with --worn", "s.toml", "--format", "dxf", "--worn"),
                 ("holds no results", ".", "--format", "pvd"),
