@@ -143,8 +143,9 @@ class Exports(unittest.TestCase):
         self.export("s.toml", "same.step", "--worn", "--set", "geometry.flank_length_mm=6")
         points = [bspline_points(step_text(self.path(file))) for file in ("case.step", "same.step")]
         self.assertEqual(len(points[0]), len(points[1]))
-        # mm; places follow worn zones, whose ends another reference of the mesh moves a little.
-        self.assertLess(max(math.dist(a, b) for a, b in zip(*points)), 1e-5)
+        # mm; the mesh of a case is moved from that of the file's own geometry, and worn zones end a little elsewhere on it.
+        # On the flank as the file has it points lie 0.4 mm off.
+        self.assertLess(max(math.dist(a, b) for a, b in zip(*points)), 0.02)
 
     def test_fields_are_those_of_the_answers(self):
         fields = arrays(self.export("s.toml", "s.vtu"))
