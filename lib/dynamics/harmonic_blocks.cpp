@@ -6,6 +6,22 @@
 
 namespace dovetail::dynamics {
 
+Eigen::MatrixXcd amplitude(const Eigen::MatrixXd& x, Eigen::Index n, Eigen::Index h, bool conjugated) {
+  Eigen::MatrixXcd result(n, x.cols());
+  result.real() = x.middleRows((h == 0 ? 0 : 2 * h - 1) * n, n);
+  if (h == 0)
+    result.imag().setZero();
+  else
+    result.imag() = (conjugated ? 1 : -1) * x.middleRows(2 * h * n, n);
+  return result;
+}
+
+void put_amplitude(const Eigen::MatrixXcd& amplitude, Eigen::Index h, bool conjugated, Eigen::MatrixXd& x) {
+  const Eigen::Index n = amplitude.rows();
+  x.middleRows((h == 0 ? 0 : 2 * h - 1) * n, n) = amplitude.real();
+  if (h > 0) x.middleRows(2 * h * n, n) = (conjugated ? 1 : -1) * amplitude.imag();
+}
+
 Eigen::MatrixXd apply_harmonics(const std::vector<const Eigen::MatrixXcd*>& matrices, Form form,
                                 const Eigen::MatrixXd& x) {
   const bool turned = form == Form::transposed || form == Form::adjoint;
@@ -15,25 +31,16 @@ Eigen::MatrixXd apply_harmonics(const std::vector<const Eigen::MatrixXcd*>& matr
   const auto coefficients = 2 * static_cast<Eigen::Index>(matrices.size()) - 1;
   assert(x.rows() == in * coefficients);
   Eigen::MatrixXd result(out * coefficients, x.cols());
-  // conj(A) x = conj(A conj(x)): amplitudes c + i s in and out instead of c - i s.
-  const double sign = conjugated ? 1 : -1;
-  Eigen::MatrixXcd amplitude(in, x.cols());
-  for (std::size_t h = 0; h < matrices.size(); ++h) {
-    const Eigen::Index cosine = h == 0 ? 0 : 2 * static_cast<Eigen::Index>(h) - 1, sine = cosine + 1;
-    amplitude.real() = x.middleRows(cosine * in, in);
-    if (h == 0)
-      amplitude.imag().setZero();
-    else
-      amplitude.imag() = sign * x.middleRows(sine * in, in);
+  for (std::size_t i = 0; i < matrices.size(); ++i) {
+    const auto h = static_cast<Eigen::Index>(i);
+    // conj(A) x = conj(A conj(x))
+    const Eigen::MatrixXcd there = amplitude(x, in, h, conjugated);
     // Harmonics that nothing is in are common: what wear moves directly has a mean alone.
-    if (amplitude.isZero(0)) {
-      result.middleRows(cosine * out, h == 0 ? out : 2 * out).setZero();
-      continue;
-    }
-    const Eigen::MatrixXcd applied =
-        turned ? numerics::transposed_product(*matrices[h], amplitude) : numerics::product(*matrices[h], amplitude);
-    result.middleRows(cosine * out, out) = applied.real();
-    if (h > 0) result.middleRows(sine * out, out) = sign * applied.imag();
+    if (there.isZero(0))
+      put_amplitude(Eigen::MatrixXcd::Zero(out, x.cols()), h, conjugated, result);
+    else
+      put_amplitude(turned ? numerics::transposed_product(*matrices[i], there) : numerics::product(*matrices[i], there),
+                    h, conjugated, result);
   }
   return result;
 }

@@ -33,6 +33,21 @@ MatrixXd applied_to_all(const MatrixXd& x, int harmonics, Index in, Index out, c
   return result;
 }
 
+/// Neighbouring dofs among those listed: the first one's place in the list, and how many.
+struct Run {
+  Index place = 0, first = 0, count = 0;
+};
+
+std::vector<Run> runs_of(const std::vector<Index>& dofs) {
+  std::vector<Run> runs;
+  for (std::size_t p = 0; p < dofs.size(); ++p)
+    if (p > 0 && dofs[p] == dofs[p - 1] + 1)
+      ++runs.back().count;
+    else
+      runs.push_back({.place = static_cast<Index>(p), .first = dofs[p], .count = 1});
+  return runs;
+}
+
 }  // namespace
 
 MatrixXd apply_to_all(const MatrixXd& a, const MatrixXd& x, int harmonics) {
@@ -95,7 +110,63 @@ MatrixXd HarmonicMatrices::mean() const {
   return result;
 }
 
+MatrixXd HarmonicMatrices::apply_at(const std::vector<Index>& dofs, const MatrixXd& x) const {
+  const Index n = size(), k = coefficients(), rows = static_cast<Index>(dofs.size());
+  MatrixXd result(rows * k, x.cols());
+  const std::vector<Run> runs = runs_of(dofs);
+  if (base_) {
+    // Symmetric: its columns, which stand together, are the rows.
+    const Eigen::Map<const MatrixXd> columns(x.data(), n, k * x.cols());
+    Eigen::Map<MatrixXd> all(result.data(), rows, k * x.cols());
+    for (const Run& run : runs)
+      all.middleRows(run.place, run.count) =
+          numerics::transposed_product(base_->middleCols(run.first, run.count), columns);
+    const MatrixXd left = (*coupling_)(dofs, Eigen::all);
+    return result + apply_low_rank({.left = left, .inner = inner_, .right = *coupling_}, x, false);
+  }
+  for (Index h = 0; h <= harmonics(); ++h) {
+    const MatrixXcd there = amplitude(x, n, h, false);
+    MatrixXcd applied(rows, x.cols());
+    for (const Run& run : runs)
+      applied.middleRows(run.place, run.count) =
+          numerics::transposed_product(dense_[static_cast<std::size_t>(h)].middleCols(run.first, run.count), there);
+    put_amplitude(applied, h, false, result);
+  }
+  return result;
+}
+
+MatrixXd HarmonicMatrices::apply_from(const std::vector<Index>& dofs, const MatrixXd& x, bool conjugated) const {
+  const Index n = size(), k = coefficients();
+  MatrixXd result = MatrixXd::Zero(n * k, x.cols());
+  const std::vector<Run> runs = runs_of(dofs);
+  if (base_) {
+    const Eigen::Map<const MatrixXd> columns(x.data(), n, k * x.cols());
+    Eigen::Map<MatrixXd> all(result.data(), n, k * x.cols());
+    for (const Run& run : runs)
+      numerics::add_product(base_->middleCols(run.first, run.count), columns.middleRows(run.first, run.count), all);
+    return result + apply_low_rank({.left = *coupling_, .inner = inner_, .right = *coupling_}, x, conjugated);
+  }
+  for (Index h = 0; h <= harmonics(); ++h) {
+    const MatrixXcd there = amplitude(x, n, h, conjugated);
+    MatrixXcd applied = MatrixXcd::Zero(n, x.cols());
+    for (const Run& run : runs)
+      applied += numerics::product(dense_[static_cast<std::size_t>(h)].middleCols(run.first, run.count),
+                                   there.middleRows(run.first, run.count));
+    put_amplitude(applied, h, conjugated, result);
+  }
+  return result;
+}
+
 MatrixXd HarmonicMatrices::apply(const MatrixXd& x, bool conjugated) const {
+  // Where few dofs move their columns are all that is read.
+  const Index n = size();
+  std::vector<Index> moved;
+  for (Index a = 0; a < n && 4 * static_cast<Index>(moved.size()) <= n; ++a) {
+    bool moves = false;
+    for (Index k = 0; k < coefficients() && !moves; ++k) moves = !x.row(k * n + a).isZero(0);
+    if (moves) moved.push_back(a);
+  }
+  if (4 * static_cast<Index>(moved.size()) <= n) return apply_from(moved, x, conjugated);
   if (base_)
     // K is symmetric, and its columns stand together.
     return apply_transposed_to_all(*base_, x, harmonics()) +

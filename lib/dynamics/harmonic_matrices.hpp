@@ -46,6 +46,8 @@ class HarmonicMatrices {
   /// All of them applied to real coefficients X [n (2H+1), c], as apply_harmonics does. The transpose of this real
   /// operator is that of the conjugates.
   [[nodiscard]] Eigen::MatrixXd apply(const Eigen::MatrixXd& x, bool conjugated = false) const;
+  /// Rows `dofs` of it, of each coefficient: [dofs (2H+1), c].
+  [[nodiscard]] Eigen::MatrixXd apply_at(const std::vector<Eigen::Index>& dofs, const Eigen::MatrixXd& x) const;
   /// The same of one column per block of d dofs, which is local[i] [d, 2H+1] there and zero elsewhere:
   /// [n (2H+1), n / d].
   [[nodiscard]] Eigen::MatrixXd apply_to_blocks(const std::vector<Eigen::MatrixXd>& local, bool conjugated) const;
@@ -59,6 +61,10 @@ class HarmonicMatrices {
   [[nodiscard]] const std::vector<Eigen::MatrixXcd>& inner() const { return inner_; }                 ///< A_h
 
  private:
+  /// The product where none but these dofs are other than zero.
+  [[nodiscard]] Eigen::MatrixXd apply_from(const std::vector<Eigen::Index>& dofs, const Eigen::MatrixXd& x,
+                                           bool conjugated) const;
+
   std::shared_ptr<const Eigen::MatrixXd> base_, coupling_;
   std::vector<Eigen::MatrixXcd> inner_;
   std::vector<Eigen::MatrixXcd> dense_;

@@ -19,14 +19,16 @@ GmresResult gmres(const NearSystem& system, const Eigen::VectorXd& b, const Gmre
     return result;
   }
   // A directions = basis hessenberg, directions = P^-1 basis
-  Eigen::MatrixXd basis(b.size(), options.most + 1), directions(b.size(), options.most);
+  Eigen::MatrixXd basis(b.size(), options.most + 1), directions;
   Eigen::MatrixXd hessenberg = Eigen::MatrixXd::Zero(options.most + 1, options.most);
   basis.col(0) = b / length;
   Eigen::VectorXd combination;
   while (result.status == Status::iteration_limit && result.products < options.most) {
     const Eigen::Index k = result.products++;
-    directions.col(k) = system.near_solve(basis.col(k));
-    Eigen::VectorXd image = system.apply(directions.col(k));
+    const Eigen::VectorXd direction = system.near_solve(basis.col(k));
+    Eigen::VectorXd image = system.apply(direction, basis.col(k));
+    if (k == 0) directions.resize(direction.size(), options.most);
+    directions.col(k) = direction;
     if (!image.allFinite()) {
       result.status = Status::not_finite;
       return result;

@@ -7,10 +7,10 @@
 
 namespace dovetail::numerics {
 
-/// A x = b where A can only be applied, and P, which is near it, can be solved with.
+/// A x = b where A can only be applied, and P, which is near it, can be solved with. x may be longer than b.
 struct NearSystem {
-  std::function<Eigen::VectorXd(const Eigen::VectorXd& x)> apply;       ///< A x
-  std::function<Eigen::VectorXd(const Eigen::VectorXd& b)> near_solve;  ///< P^-1 b
+  std::function<Eigen::VectorXd(const Eigen::VectorXd& b)> near_solve;                       ///< x = P^-1 b
+  std::function<Eigen::VectorXd(const Eigen::VectorXd& x, const Eigen::VectorXd& b)> apply;  ///< A x, where P x = b
 };
 
 struct GmresOptions {

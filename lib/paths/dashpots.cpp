@@ -7,6 +7,7 @@ namespace dovetail::paths {
 std::shared_ptr<const dynamics::HarmonicSystem> Dashpots::system(double alpha) const {
   if (alpha == 0) return problem_.shared_system();
   auto damped = std::make_shared<dynamics::HarmonicSystem>(problem_.system());
+  damped->of_model = false;
   for (int h = 1; h <= damped->stiffness.harmonics(); ++h)
     damped->stiffness.add_to_diagonal(h, std::complex<double>(0, alpha * h) * strength_);
   return damped;

@@ -6,6 +6,22 @@
 #include "paths/ways.hpp"
 
 namespace dovetail::paths {
+namespace {
+
+/// That of a tangent lent, where it is of the same frequency and model.
+std::shared_ptr<const dynamics::HarmonicSystem> system_of(const steady::Joint& joint, double omega,
+                                                          const steady::Tangent* lent) {
+  if (lent != nullptr) {
+    const steady::Problem& of = lent->problem();
+    if (&of.model() == joint.model.get() && of.system().omega == omega && of.system().of_model &&
+        of.options().harmonics == joint.options.harmonics)
+      return of.shared_system();
+  }
+  return std::make_shared<const dynamics::HarmonicSystem>(
+      dynamics::harmonic_system(*joint.model, joint.options.harmonics, omega));
+}
+
+}  // namespace
 
 steady::State steady_state(const steady::Joint& joint, double omega, const Eigen::MatrixXd& guess,
                            const std::shared_ptr<const steady::Tangent>& reuse, const WayParams& ways) {
@@ -22,8 +38,7 @@ steady::State steady_state(const steady::Joint& joint, double omega, const Eigen
   without.omega = omega;
   without.status = Status::budget_spent;
   if (spent(joint.options.budget)) return without;
-  auto system = std::make_shared<const dynamics::HarmonicSystem>(
-      dynamics::harmonic_system(*joint.model, joint.options.harmonics, omega));
+  std::shared_ptr<const dynamics::HarmonicSystem> system = system_of(joint, omega, reuse.get());
   if (system->status != Status::converged) {
     without.status = system->status;
     return without;

@@ -35,8 +35,7 @@ bool FactoredJacobian::nearly_singular(double limit) const {
 
 double FactoredJacobian::product_operations() const {
   const auto dense = static_cast<double>(size());
-  // The stiffnesses are read once more for what is eliminated.
-  return steady::product_operations(dense * dense + 2 * point_->problem->system().stiffness.entries());
+  return steady::product_operations(dense * dense + point_->problem->system().stiffness.entries());
 }
 
 bool FactoredJacobian::serve(const Problem& other) const {

@@ -22,10 +22,11 @@ class FactoredJacobian {
   /// Of a point with its derivative, which is kept. O(size of the rest ^3).
   explicit FactoredJacobian(std::shared_ptr<const Point> point);
 
+  [[nodiscard]] const Point& point() const { return *point_; }
   [[nodiscard]] Status status() const { return lu_.status(); }
   [[nodiscard]] Eigen::Index size() const { return lu_.size(); }
   [[nodiscard]] double operations() const { return operations_; }  ///< that they took
-  /// Of a product with the Jacobian, and solving once.
+  /// Of a product with the Jacobian of a point near by, and solving once.
   [[nodiscard]] double product_operations() const;
   /// Smallest one of the matrices factorised.
   [[nodiscard]] double reciprocal_condition() const {

@@ -45,6 +45,7 @@ Attempt solve_level(const Joint& joint, double scale, const Eigen::MatrixXd& for
   for (const double share : kPreload.springs) {
     const double spring = share * joint.model->local_stiffness().maxCoeff();
     auto leaned = std::make_shared<dynamics::HarmonicSystem>(*system);
+    leaned->of_model = false;
     leaned->stiffness.add_to_diagonal(0, Eigen::VectorXcd::Constant(leaned->stiffness.size(), spring));
     leaned->force.col(0) += spring * anchor.col(0);
     if (attempt(problem.at(leaned), from)) from = level.point.displacement;

@@ -102,19 +102,10 @@ Eigen::MatrixXd SeparatedNodes::solve_open(const Eigen::MatrixXd& b, bool transp
     return base_.solve(b.reshaped(n, n > 0 ? b.size() / n : 0)).reshaped(b.rows(), b.cols()) -
            dynamics::apply_low_rank({.left = pushed_, .inner = condensed_.inner(), .right = pushed_}, b, transposed);
   Eigen::MatrixXd result(b.rows(), b.cols());
-  // Z_oo is symmetric: the transpose of its real form belongs to its conjugate.
-  const double sign = transposed ? 1 : -1;
-  Eigen::MatrixXcd amplitude(n, b.cols());
   for (std::size_t h = 0; h < factors_.size(); ++h) {
-    const Eigen::Index cosine = h == 0 ? 0 : 2 * static_cast<Eigen::Index>(h) - 1, sine = cosine + 1;
-    amplitude.real() = b.middleRows(cosine * n, n);
-    if (h == 0)
-      amplitude.imag().setZero();
-    else
-      amplitude.imag() = sign * b.middleRows(sine * n, n);
-    const Eigen::MatrixXcd solved = factors_[h].solve(amplitude);
-    result.middleRows(cosine * n, n) = solved.real();
-    if (h > 0) result.middleRows(sine * n, n) = sign * solved.imag();
+    const auto at = static_cast<Eigen::Index>(h);
+    // Z_oo is symmetric: the transpose of its real form belongs to its conjugate.
+    dynamics::put_amplitude(factors_[h].solve(dynamics::amplitude(b, n, at, transposed)), at, transposed, result);
   }
   return result;
 }

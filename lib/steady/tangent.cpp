@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "numerics/dense_product.hpp"
-#include "numerics/gmres.hpp"
+#include "steady/near_jacobian.hpp"
 #include "steady/params.hpp"
 #include "steady/work.hpp"
 
@@ -37,11 +37,7 @@ int Tangent::most_products() const {
 }
 
 std::optional<numerics::GmresResult> Tangent::solved_nearly(const Eigen::VectorXd& rhs, double tolerance) const {
-  const JacobianBlocks here = blocks(*point_);
-  numerics::GmresResult found = numerics::gmres(
-      {.apply = [&here](const Eigen::VectorXd& x) -> Eigen::VectorXd { return apply_jacobian(here, x); },
-       .near_solve = [this](const Eigen::VectorXd& b) -> Eigen::VectorXd { return near_->solve(b); }},
-      rhs, {.tolerance = tolerance, .most = most_products()});
+  numerics::GmresResult found = solve_near(*point_, *near_, rhs, {.tolerance = tolerance, .most = most_products()});
   if (problem().budget()) problem().budget()->spend_on_factors(found.products * near_->product_operations());
   if (found.status != Status::converged) return {};
   return found;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "numerics/gmres.hpp"
 #include "numerics/newton.hpp"
+#include "steady/near_jacobian.hpp"
 #include "steady/params.hpp"
 #include "wear/params.hpp"
 
@@ -73,11 +73,9 @@ std::optional<VectorXd> ImplicitStage::solved_nearly(const CoupledPoint& at, con
   const double product = factors_->product_operations();
   const double most = (kParams.products * factors_->operations() - spent_on_products_) / product;
   if (most < 1) return {};
-  const steady::JacobianBlocks here = steady::blocks(*at.eliminated());
   numerics::GmresResult found =
-      numerics::gmres({.apply = [&here](const VectorXd& x) -> VectorXd { return steady::apply_jacobian(here, x); },
-                       .near_solve = [this](const VectorXd& b) -> VectorXd { return factors_->solve(b); }},
-                      rhs, {.tolerance = tolerance, .most = static_cast<int>(std::min(most, kParams.most_products))});
+      steady::solve_near(*at.eliminated(), *factors_, rhs,
+                         {.tolerance = tolerance, .most = static_cast<int>(std::min(most, kParams.most_products))});
   spent_on_products_ += found.products * product;
   if (problem_.budget()) problem_.budget()->spend_on_factors(found.products * product);
   if (found.status != Status::converged) return {};

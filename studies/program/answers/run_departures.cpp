@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <ostream>
 
+#include "optimizer/candidate/matrices.hpp"
 #include "optimizer/departures.hpp"
 #include "optimizer/journal/journal.hpp"
 
@@ -37,13 +38,16 @@ std::vector<report::DepartureRecord> departures_of(const RunSite& site, const op
       known.push_back(record != journal.records().end());
       found.push_back(known.back() ? record->evaluation : optimizer::Evaluation{});
     }
-  std::vector<Departed> asked;
   std::vector<std::size_t> places;
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
-    if (known[i]) continue;
-    asked.push_back(wanted[i]);
-    places.push_back(i);
-  }
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    if (!known[i]) places.push_back(i);
+  // One after the other what has the same matrices: all that leaves those of a design, then one departure of both.
+  std::ranges::stable_sort(places, {}, [&](std::size_t place) {
+    const int number = wanted[place].departure;
+    return optimizer::share_matrices(departures[static_cast<std::size_t>(number)], {}) ? -1 : number;
+  });
+  std::vector<Departed> asked;
+  for (const std::size_t place : places) asked.push_back(wanted[place]);
   const auto told = [&](std::size_t place, optimizer::Evaluation evaluation) {
     annotate(study.problem, study.optimizer.constraint_tolerance, evaluation);
     journal.append(key_of(asked[place]), evaluation);

@@ -132,6 +132,22 @@ TEST(HarmonicMatrices, ApplyAlikeSharedAndDense) {
       EXPECT_LT((each->apply_to_blocks(local, conjugated) - shared.apply(blocks, conjugated)).norm(), 1e-12);
   }
   EXPECT_GT((shared.apply(x, true) - shared.apply(x)).norm(), 1e-3);  // damped
+  // Of few dofs, and in some rows only.
+  Eigen::MatrixXd few = Eigen::MatrixXd::Zero(9 * 7, 4);
+  const std::vector<Eigen::Index> dofs{3, 4, 7};
+  for (Eigen::Index k = 0; k < 7; ++k) {
+    few.row(k * 9 + 2) = x.row(k * 9 + 2);
+    few.row(k * 9 + 6) = x.row(k * 9 + 6);
+  }
+  for (const dynamics::HarmonicMatrices* each : {&shared, &std::as_const(dense)}) {
+    for (const bool conjugated : {false, true})
+      EXPECT_LT((each->apply(few, conjugated) + each->apply(x - few, conjugated) - each->apply(x, conjugated)).norm(),
+                1e-12);
+    const Eigen::MatrixXd all = each->apply(x), some = each->apply_at(dofs, x);
+    for (Eigen::Index k = 0; k < 7; ++k)
+      for (Eigen::Index i = 0; i < 3; ++i)
+        EXPECT_LT((some.row(k * 3 + i) - all.row(k * 9 + dofs[static_cast<std::size_t>(i)])).norm(), 1e-12);
+  }
   for (int h = 0; h <= 3; ++h) EXPECT_LT((shared.matrix(h) - dense.matrix(h)).norm(), 1e-14);
   EXPECT_LT((shared.rows(1, 3, 2) - dense.matrix(1).middleRows(3, 2)).norm(), 1e-12);
 }

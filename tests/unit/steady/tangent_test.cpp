@@ -5,6 +5,7 @@
 #include <random>
 
 #include "paths/steady_state.hpp"
+#include "steady/near_jacobian.hpp"
 #include "steady/solve.hpp"
 #include "tests/unit/steady/random_model.hpp"
 
@@ -115,6 +116,45 @@ TEST(Tangent, SolvesWithTheFactorsOfAPointNearBy) {
   // Many right-hand sides are worth factors of its own.
   EXPECT_LT((kept.solve(rhs) - exact.solve(rhs)).norm(), 1e-12 * rhs.norm());
   EXPECT_NE(&kept.nearest_factors(), &first.factors());
+}
+
+// An equal stiffness that is not known to be the same one is treated as another: the same answer on the longer way.
+TEST(NearJacobian, SolvesAlikeWhereTheStiffnessIsTheSameAndWhereItMayDiffer) {
+  for (const Damping damping : {Damping::proportional, Damping::within})
+    for (const auto& [tangential, released] : {std::pair{1, 0}, {2, 3}}) {
+      const auto model = std::make_shared<const dynamics::CondensedModel>(random_model(20, tangential, damping));
+      const steady::Condition condition{.released = [&, open = released] {
+        std::vector<char> nodes(20, 0);
+        std::fill_n(nodes.begin() + 5, open, 1);
+        return nodes;
+      }()};
+      const std::shared_ptr<const steady::Problem> of = problem(model, 1.3, condition);
+      const std::shared_ptr<const steady::Problem> again = problem(model, 1.3, condition);
+      const Eigen::Index nc = model->contact_size();
+      const Eigen::MatrixXd at = of->closed_start() + 0.02 * random_matrix(nc, 7, 5);
+      const steady::FactoredJacobian factors(point(of, at));
+      const std::shared_ptr<const steady::Point> near = point(of, at + 2e-2 * random_matrix(nc, 7, 7));
+      const std::shared_ptr<const steady::Point> same = point(again, near->displacement);
+      const Eigen::VectorXd rhs = random_matrix(7 * nc, 1, 8);
+      for (const double tolerance : {1e-2, 1e-10}) {
+        const numerics::GmresOptions options{.tolerance = tolerance, .most = 60};
+        const numerics::GmresResult quick = steady::solve_near(*near, factors, rhs, options);
+        const numerics::GmresResult whole = steady::solve_near(*same, factors, rhs, options);
+        ASSERT_EQ(quick.status, Status::converged);
+        ASSERT_EQ(whole.status, Status::converged);
+        EXPECT_GT(quick.products, tolerance < 1e-9 ? 3 : 0) << "little differs";
+        EXPECT_LE(quick.products, whole.products + 1);
+        const double left = (steady::jacobian(*near) * quick.x - rhs).norm() / rhs.norm();
+        EXPECT_LE(left, 1.001 * tolerance);
+        EXPECT_NEAR(left, quick.residual, 1e-3 * tolerance);
+        EXPECT_LT((quick.x - whole.x).norm(), 100 * tolerance * whole.x.norm());
+      }
+      EXPECT_EQ(steady::solve_near(*near, factors, rhs, {.most = 0}).status, Status::iteration_limit);
+      EXPECT_EQ(steady::solve_near(*near, factors, 0 * rhs, {}).x, 0 * rhs);
+      const numerics::GmresResult own = steady::solve_near(factors.point(), factors, rhs, {});
+      EXPECT_EQ(own.products, 1);
+      EXPECT_LT((factors.solve(rhs) - own.x).norm(), 1e-14 * own.x.norm());
+    }
 }
 
 // Where nothing near by helps, or nothing is left to save, the Jacobian is factorised.
