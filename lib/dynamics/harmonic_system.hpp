@@ -14,7 +14,7 @@ struct HarmonicSystem {
   std::vector<CondensedHarmonic> harmonics;  ///< [H+1]
   Eigen::MatrixXd force;                     ///< F [nc, 2H+1], N
   double force_scale = 0;  ///< norm of F over harmonics >= 1, or of F_0 when that is zero: residuals are relative to it
-  bool of_model = true;  ///< of the model alone, with nothing added to it
+  bool of_model = true;    ///< of the model alone, with nothing added to it
   Status status = Status::converged;
 };
 

@@ -18,9 +18,8 @@ Eigen::MatrixXd random_matrix(Eigen::Index rows, Eigen::Index columns, unsigned 
 }
 
 NearSystem system_of(const Eigen::MatrixXd& a, const Eigen::MatrixXd& near) {
-  return {
-      .near_solve = [lu = near.partialPivLu()](const Eigen::VectorXd& b) -> Eigen::VectorXd { return lu.solve(b); },
-      .apply = [a](const Eigen::VectorXd& x, const Eigen::VectorXd&) -> Eigen::VectorXd { return a * x; }};
+  return {.near_solve = [lu = near.partialPivLu()](const Eigen::VectorXd& b) -> Eigen::VectorXd { return lu.solve(b); },
+          .apply = [a](const Eigen::VectorXd& x, const Eigen::VectorXd&) -> Eigen::VectorXd { return a * x; }};
 }
 
 TEST(Gmres, TakesOneProductPerDirectionInWhichTheMatricesDiffer) {
