@@ -19,13 +19,14 @@ bool is_identity_row(const Eigen::MatrixXd& derivative, Eigen::Index l) {
 
 }  // namespace
 
-FactoredJacobian::FactoredJacobian(std::shared_ptr<const Point> point) : point_(std::move(point)) {
+FactoredJacobian::FactoredJacobian(std::shared_ptr<const Point> point, const FactoredJacobian* near)
+    : point_(std::move(point)) {
   assert(point_->has_derivative);
-  factorise(0);
+  factorise(0, near);
   // A body that floats in a trial state has no Jacobian to solve with: lean it slightly on its contact.
   if (separated_->status() != Status::converged || lu_.status() == Status::singular ||
       nearly_singular(SingularityParams{}.singular))
-    factorise(SingularityParams{}.regularised);
+    factorise(SingularityParams{}.regularised, nullptr);
 }
 
 bool FactoredJacobian::nearly_singular(double limit) const {
@@ -63,7 +64,7 @@ JacobianBlocks FactoredJacobian::kept_blocks() const {
   return blocks;
 }
 
-void FactoredJacobian::factorise(double regularisation) {
+void FactoredJacobian::factorise(double regularisation, const FactoredJacobian* near) {
   const Problem& of = *point_->problem;
   const Eigen::Index d = of.model().directions(), k = of.basis().coefficients();
   regularisation_ = regularisation;
@@ -74,7 +75,9 @@ void FactoredJacobian::factorise(double regularisation) {
     if (!separated) nodes_.push_back(i);
     for (Eigen::Index r = 0; r < d; ++r) (separated ? open : kept).push_back(i * d + r);
   }
-  separated_ = std::make_unique<const SeparatedNodes>(of.shared_system(), std::move(open), std::move(kept));
+  const bool lent = near != nullptr && near->separated_->are(of.system(), open);
+  separated_ = lent ? near->separated_
+                    : std::make_shared<const SeparatedNodes>(of.shared_system(), std::move(open), std::move(kept));
   if (separated_->status() != Status::converged) return;
   const JacobianBlocks blocks = kept_blocks();
   active_.clear();
@@ -97,7 +100,7 @@ void FactoredJacobian::factorise(double regularisation) {
   for (Eigen::Index j = 0; j < active; ++j)
     columns[static_cast<std::size_t>(active_[static_cast<std::size_t>(j)])] = matrix.col(j).data();
   assemble(blocks, active_, columns, regularisation);
-  operations_ = factorisation_operations(active) + separated_->operations();
+  operations_ = factorisation_operations(active) + (lent ? 0 : separated_->operations());
   if (of.budget()) of.budget()->spend_on_factors(operations_);
   lu_.factorise(std::move(matrix));
 }

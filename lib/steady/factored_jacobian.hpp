@@ -19,13 +19,14 @@ namespace dovetail::steady {
 /// harmonic by harmonic. Both are exact.
 class FactoredJacobian {
  public:
-  /// Of a point with its derivative, which is kept. O(size of the rest ^3).
-  explicit FactoredJacobian(std::shared_ptr<const Point> point);
+  /// Of a point with its derivative, which is kept. O(size of the rest ^3). The factors of a point near by lend what is
+  /// condensed where the same nodes are without force.
+  explicit FactoredJacobian(std::shared_ptr<const Point> point, const FactoredJacobian* near = nullptr);
 
   [[nodiscard]] const Point& point() const { return *point_; }
   [[nodiscard]] Status status() const { return lu_.status(); }
   [[nodiscard]] Eigen::Index size() const { return lu_.size(); }
-  [[nodiscard]] double operations() const { return operations_; }  ///< that they took
+  [[nodiscard]] double operations() const { return operations_; }  ///< that they took, but for what was lent
   /// Of a product with the Jacobian of a point near by, and solving once.
   [[nodiscard]] double product_operations() const;
   /// Smallest one of the matrices factorised.
@@ -51,11 +52,11 @@ class FactoredJacobian {
   [[nodiscard]] Eigen::MatrixXd solve_transposed(const Eigen::MatrixXd& rhs) const;
 
  private:
-  void factorise(double regularisation);
+  void factorise(double regularisation, const FactoredJacobian* near);
   [[nodiscard]] JacobianBlocks kept_blocks() const;
 
   std::shared_ptr<const Point> point_;
-  std::unique_ptr<const SeparatedNodes> separated_;
+  std::shared_ptr<const SeparatedNodes> separated_;
   std::vector<Eigen::Index> nodes_;            // kept ones
   std::vector<Eigen::Index> active_, direct_;  // rows of vec(U) of the kept dofs
   Eigen::VectorXd direct_diagonal_;            // eps of the eliminated rows

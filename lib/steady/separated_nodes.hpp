@@ -24,6 +24,10 @@ class SeparatedNodes {
   SeparatedNodes(std::shared_ptr<const dynamics::HarmonicSystem> system, std::vector<Eigen::Index> open,
                  std::vector<Eigen::Index> kept);
 
+  /// Whether they are these ones of this system.
+  [[nodiscard]] bool are(const dynamics::HarmonicSystem& system, const std::vector<Eigen::Index>& open) const {
+    return system_.get() == &system && open_ == open;
+  }
   /// `singular`: nothing holds the open part.
   [[nodiscard]] Status status() const { return status_; }
   /// Smallest estimate of 1 / (|Z_oo| |Z_oo^-1|) over the harmonics; 1 when nothing is open.

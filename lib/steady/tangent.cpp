@@ -26,7 +26,7 @@ Tangent::Tangent(std::shared_ptr<const Point> point, const Tangent* previous, Fa
 }
 
 const FactoredJacobian& Tangent::factors() const {
-  if (!factors_) factors_ = std::make_shared<const FactoredJacobian>(point_);
+  if (!factors_) factors_ = std::make_shared<const FactoredJacobian>(point_, near_.get());
   return *factors_;
 }
 

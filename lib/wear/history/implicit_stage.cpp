@@ -59,7 +59,8 @@ void ImplicitStage::factorise_at(const StageFactorsAt& at) {
   auto point = std::make_shared<steady::Point>();
   steady::evaluate(problem(at.depth), at.displacement, *point);
   steady::differentiate(*point);
-  auto factors = std::make_shared<const steady::FactoredJacobian>(CoupledPoint(*point, at.cycles).eliminated());
+  auto factors =
+      std::make_shared<const steady::FactoredJacobian>(CoupledPoint(*point, at.cycles).eliminated(), factors_.get());
   if (factors->status() != Status::converged) return;
   factors_ = std::move(factors);
   factored_ = last_ = std::move(point);
@@ -141,7 +142,7 @@ class ImplicitStage::Equations {
       step = with_depths(*moved);
       return Status::converged;
     }
-    auto factors = std::make_shared<const steady::FactoredJacobian>(near_.eliminated());
+    auto factors = std::make_shared<const steady::FactoredJacobian>(near_.eliminated(), stage_.factors_.get());
     if (factors->status() != Status::converged) return factors->status();
     ++stage_.jacobians_;
     stage_.factors_ = std::move(factors);

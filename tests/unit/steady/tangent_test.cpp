@@ -151,6 +151,11 @@ TEST(NearJacobian, SolvesAlikeWhereTheStiffnessIsTheSameAndWhereItMayDiffer) {
       }
       EXPECT_EQ(steady::solve_near(*near, factors, rhs, {.most = 0}).status, Status::iteration_limit);
       EXPECT_EQ(steady::solve_near(*near, factors, 0 * rhs, {}).x, 0 * rhs);
+      // What is condensed is lent where the system is known to be the same.
+      const steady::FactoredJacobian lent(near, &factors), made(near), other(same, &factors);
+      EXPECT_EQ(lent.solve(rhs), made.solve(rhs));
+      EXPECT_EQ(other.operations(), made.operations());
+      EXPECT_EQ(lent.operations() < made.operations(), released > 0);
       const numerics::GmresResult own = steady::solve_near(factors.point(), factors, rhs, {});
       EXPECT_EQ(own.products, 1);
       EXPECT_LT((factors.solve(rhs) - own.x).norm(), 1e-14 * own.x.norm());
