@@ -7,6 +7,16 @@ install(TARGETS ${targets} EXPORT dovetailTargets
   FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/dovetail)
 if(TARGET dovetail_program)
   install(TARGETS dovetail_program dovetail_mpi_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  # What its command line says of itself, for shells and manuals.
+  set(shell_dir ${PROJECT_BINARY_DIR}/shell)
+  install(CODE "file(MAKE_DIRECTORY ${shell_dir})
+    foreach(kind bash zsh man)
+      execute_process(COMMAND $<TARGET_FILE:dovetail_program> completion \${kind} OUTPUT_FILE ${shell_dir}/\${kind}
+        COMMAND_ERROR_IS_FATAL ANY)
+    endforeach()")
+  install(FILES ${shell_dir}/bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME dovetail)
+  install(FILES ${shell_dir}/zsh DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions RENAME _dovetail)
+  install(FILES ${shell_dir}/man DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 RENAME dovetail.1)
 endif()
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/dovetail)

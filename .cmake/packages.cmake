@@ -17,6 +17,7 @@ pkg_check_modules(IPOPT REQUIRED IMPORTED_TARGET ipopt)
 pkg_check_modules(MUPARSER REQUIRED IMPORTED_TARGET muparser)
 pkg_check_modules(OPENBLAS REQUIRED IMPORTED_TARGET openblas)
 pkg_check_modules(LAPACKE REQUIRED IMPORTED_TARGET lapacke)
+pkg_check_modules(HTTPLIB REQUIRED IMPORTED_TARGET cpp-httplib)
 pkg_check_modules(DXFLIB REQUIRED IMPORTED_TARGET dxflib)
 # Its runtime alone, which CHOLMOD uses: compiled with its flags, Eigen would start threads, too.
 find_package(OpenMP REQUIRED COMPONENTS CXX)

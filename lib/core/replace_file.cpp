@@ -9,6 +9,7 @@
 #include <cstring>
 #include <fstream>
 #include <string>
+#include <system_error>
 
 #include "core/errors.hpp"
 
@@ -65,11 +66,18 @@ class Temporary {
 }  // namespace
 
 void check_replaceable(const fs::path& target) {
-  std::error_code ignored;
+  std::error_code ignored, error;
   if (!target.has_filename()) refuse(target, "it names no file");
   if (fs::is_directory(target, ignored)) refuse(target, "it is a directory");
   const fs::path folder = target.has_parent_path() ? target.parent_path() : ".";
-  if (!fs::is_directory(folder, ignored)) refuse(target, "the directory " + folder.string() + " does not exist");
+  if (!fs::is_directory(folder, error))
+    refuse(target, error && error != std::errc::no_such_file_or_directory
+                       ? error.message()
+                       : "the directory " + folder.string() + " does not exist");
+  // A new file is made beside it; a device is written to.
+  const bool in_place = fs::exists(target, ignored) && !fs::is_regular_file(target, ignored);
+  if (::access(in_place ? target.c_str() : folder.c_str(), in_place ? W_OK : W_OK | X_OK) != 0)
+    refuse(target, std::strerror(errno));
 }
 
 void replace_file(const fs::path& target, const std::function<void(const fs::path& place)>& write) {

@@ -22,6 +22,14 @@ double jacobian_operations(const SolverSettings& solver, const CandidateModel& c
                                      solver.harmonics, solver.samples);
 }
 
+/// At rest the bodies hold themselves where the contact is held; in rotation the pull grows with what it moves.
+void note_lost_equilibrium(const Scene& scene, CandidateModel& candidate) {
+  if (scene.loading.speed == 0 || candidate.status.find(to_string(Status::singular)) == std::string::npos) return;
+  candidate.messages.push_back("At scene.speed_rpm = " + shortest(parameter(scene, "scene.speed_rpm")) +
+                               " no equilibrium exists: the centrifugal load grows faster with the displacements than "
+                               "the forces that hold them. Give a lower speed.");
+}
+
 std::map<std::string, double> sizes_of(const Scene& scene, const CandidateModel& candidate) {
   const fem::Mesh& mesh = candidate.mesh.sector.mesh;
   return {{"nodes", mesh.node_count()},
@@ -127,7 +135,10 @@ CandidateModel ModelBuilder::build(const Scene& scene) const {
   candidate.timings_s["mesh"] += watch.lap();
   candidate.matrices = store_->matrices(scene, candidate.mesh.sector, candidate.cells, candidate.timings_s);
   candidate.status = candidate.matrices.status;
-  if (!candidate.converged()) return candidate;
+  if (!candidate.converged()) {
+    note_lost_equilibrium(scene, candidate);
+    return candidate;
+  }
   watch = {};
   renew_budget(scene.solver, candidate);
   lay_contact(scene, cells, candidate);

@@ -63,8 +63,8 @@ std::string fingerprint(const Problem& problem, const OptimizerOptions& options,
   }
   text += ";options";
   for (const Field<OptimizerOptions>& field : option_table<OptimizerOptions>()) {
-    if (field.key == "max_evaluations" || field.key == "restarts" || field.key == "departures" ||
-        field.key.starts_with("verify"))
+    if (field.key == "max_evaluations" || field.key == "time_limit_s" || field.key == "restarts" ||
+        field.key == "departures" || field.key.starts_with("verify"))
       continue;
     // Keys that came later count where they are not what they are by default: older runs can be resumed.
     if ((field.key == "population" || field.key == "front_points") &&

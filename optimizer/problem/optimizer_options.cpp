@@ -23,6 +23,12 @@ Fields fields_of_the_search() {
        .member = &O::max_evaluations,
        .range = {.lower = 1},
        .help = "Largest number of different candidates, start and scan included."},
+      {.key = "time_limit_s",
+       .member = &O::time_limit,
+       .range = kNonNegative,
+       .help =
+           "Time of a run, in s, after which no candidate is begun; what is handed over is computed all the same, and "
+           "--resume goes on; 0: no limit. That of one evaluation is solver.time_limit_s."},
       {.key = "scan_evaluations",
        .member = &O::scan_evaluations,
        .range = kNonNegative,

@@ -73,6 +73,7 @@ struct OptimizerOptions {
   int seed = 1;                  ///< >= 0
   int population = 0;            ///< candidates of a generation of cmaes, de, nsga2; 0: by the number of variables
   int front_points = 12;         ///< >= 3; of a front, handed over with bars; runs of a local algorithm that make it
+  double time_limit = 0;         ///< >= 0; s of the run, after which no evaluation begins; 0: none
   double tolerance = 1e-6;       ///< > 0; relative change of the objective at which gradient methods stop
   double step_tolerance = 1e-4;  ///< > 0, <= 0.1; step at which a local algorithm stops
   double noise =

@@ -67,10 +67,11 @@ struct RunHooks {
   Journal* journal = nullptr;                          ///< answers what it holds, records what is new
   std::function<void(const Progress&)> progress = {};  ///< may throw: the run ends and the exception reaches the caller
   const std::atomic<bool>* stop = nullptr;             ///< looked at between evaluations
-  FinerEvaluator finer = {};                           ///< without: limits are kept on the mesh of the search alone
-  BatchEvaluator many = {};                            ///< in place of the evaluator: several candidates at once
-  Journal* finer_journal = nullptr;                    ///< of it; x is followed by the level
-  std::optional<Part> part = {};  ///< start and that part of the scan, and no search: others compute the rest
+  std::function<bool()> time_over = {};  ///< no candidate is begun where it says so: the budget is used up
+  FinerEvaluator finer = {};             ///< without: limits are kept on the mesh of the search alone
+  BatchEvaluator many = {};              ///< in place of the evaluator: several candidates at once
+  Journal* finer_journal = nullptr;      ///< of it; x is followed by the level
+  std::optional<Part> part = {};         ///< start and that part of the scan, and no search: others compute the rest
 };
 
 struct SearchStatistics {

@@ -66,7 +66,7 @@ std::vector<std::size_t> EvaluationSession::evaluate_all(const std::vector<std::
       ++statistics_.repeated;
       continue;
     }
-    if (known + pending.size() >= limit_) {
+    if (known + pending.size() >= limit_ || (time_over() && !in_journal_.find(x))) {
       budget_ends = true;
       break;
     }
@@ -97,6 +97,7 @@ void EvaluationSession::compute(std::vector<Pending>& pending, const std::string
   for (Pending& candidate : pending) {
     stop_if_asked();
     if (candidate.known == nullptr) {
+      if (time_over()) throw StopSearch{Status::iteration_limit};
       call_evaluator(candidate);
       if (candidate.error) std::rethrow_exception(candidate.error);
     }
@@ -124,12 +125,17 @@ void EvaluationSession::compute_at_once(std::vector<Pending>& pending, const std
     places[place]->evaluation = std::move(evaluation);
     places[place]->done = true;
     commit_those_in_order();
-    return hooks_.stop == nullptr || !hooks_.stop->load();
+    return (hooks_.stop == nullptr || !hooks_.stop->load()) && !time_over();
   });
   // Of a run that was stopped, also those behind one that was not begun.
+  bool all = true;
   for (; next != pending.end(); ++next)
-    if (next->done) commit(*next, phase);
+    if (next->done)
+      commit(*next, phase);
+    else
+      all = false;
   stop_if_asked();
+  if (!all) throw StopSearch{Status::iteration_limit};
 }
 
 void EvaluationSession::call_evaluator(Pending& candidate) const {

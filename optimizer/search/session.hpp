@@ -81,6 +81,8 @@ class EvaluationSession {
   void call_evaluator(Pending& candidate) const;
   void commit(Pending& candidate, const std::string& phase);
   void judge_again();
+  /// The start is computed whatever the time.
+  [[nodiscard]] bool time_over() const { return hooks_.time_over && !candidates_.empty() && hooks_.time_over(); }
   [[nodiscard]] Judgement judged(std::size_t index, const Evaluation& evaluation) const;
 
   const Problem& problem_;

@@ -11,6 +11,9 @@ namespace dovetail::studies {
 /// and the limits, kept when <= 0. Unknown values are empty.
 [[nodiscard]] std::string candidate_table(const report::RunRecord& record);
 
+/// A text of such a table, in quotes where a reader would split it.
+[[nodiscard]] std::string csv_cell(const std::string& text);
+
 /// A number of such a table: the shortest text that reads back to the same double; empty unless it is finite.
 [[nodiscard]] std::string table_number(double value);
 

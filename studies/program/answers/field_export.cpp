@@ -52,7 +52,10 @@ void export_fields(const report::DesignRecord& design, const std::filesystem::pa
 
 void export_history(const report::DesignRecord& design, const std::filesystem::path& file) {
   if (!design.history || design.history->profile_states.empty() || design.fields.flank_nodes.empty())
-    refuse("pvd", "there is no wear history of this design: it is " + design.status);
+    refuse("pvd", optimizer::converged(design.status) &&
+                          std::ranges::all_of(design.contact.depth_m, [](double d) { return d == 0; })
+                      ? "the joint does not wear: there is no history to write; --format vtu writes its fields"
+                      : "there is no wear history of this design: it is " + design.status);
   const report::HistoryRecord& history = *design.history;
   const std::size_t nodes = design.contact.flank.size();
   std::string text =

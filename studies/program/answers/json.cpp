@@ -5,6 +5,7 @@
 #include "optimizer/journal/evaluation_json.hpp"
 #include "optimizer/mission/mission_result.hpp"
 #include "optimizer/problem/load_case.hpp"
+#include "studies/program/answers/version.hpp"
 #include "studies/program/engine/json_values.hpp"
 
 namespace dovetail::studies {
@@ -52,7 +53,8 @@ void take_mission_out(Json& json) {
 }  // namespace
 
 std::string evaluation_json(const optimizer::Evaluation& evaluation, const nlohmann::ordered_json* accuracy) {
-  Json json = json_of(evaluation);
+  Json json{{"version", kAnswerVersion}};
+  json.update(json_of(evaluation));
   if (evaluation.derivatives.empty()) json.erase("derivatives");
   take_cases_out(json);
   take_mission_out(json);

@@ -1,3 +1,4 @@
+#include "studies/program/answers/version.hpp"
 #include "studies/program/engine/json_values.hpp"
 #include "studies/program/engine/response_curve.hpp"
 
@@ -178,7 +179,7 @@ std::string response_json(const ResponseCurve& curve) {
     if (state.status == Status::converged) return state.wear_rate;
     return Eigen::VectorXd::Constant(std::max(curve.penalty.normal.size(), state.wear_rate.size()), kUnknown);
   };
-  Json json;
+  Json json{{"version", kAnswerVersion}};
   const auto points = static_cast<std::ptrdiff_t>(curve.states.size());  // fewer than asked for when interrupted
   json["frequency_hz"] = json_of(std::vector(curve.frequency_hz.begin(), curve.frequency_hz.begin() + points));
   add_columns(json, curve.states, Column("status", &State::status), Column("iterations", &State::iterations));

@@ -19,9 +19,10 @@ std::vector<report::DepartureRecord> departures_of(const RunSite& site, const op
   optimizer::Journal journal = optimizer::Journal::renew(site.directory / "departures.jsonl", fingerprint);
   std::vector<std::size_t> designs{*result.best};
   if (*result.best != 0) designs.push_back(0);
-  site.err << fmt::format("dovetail: looking how far {} where friction, force, speed and mismatch are others\n",
-                          designs.size() == 1 ? "the best design holds" : "best design and start hold")
-           << std::flush;
+  site.teller.remark() << fmt::format(
+                              "dovetail: looking how far {} where friction, force, speed and mismatch are others\n",
+                              designs.size() == 1 ? "the best design holds" : "best design and start hold")
+                       << std::flush;
   const auto departures = optimizer::usual_departures();
   std::vector<Departed> wanted;
   std::vector<optimizer::Evaluation> found;
@@ -48,13 +49,18 @@ std::vector<report::DepartureRecord> departures_of(const RunSite& site, const op
   });
   std::vector<Departed> asked;
   for (const std::size_t place : places) asked.push_back(wanted[place]);
+  int done = 0;
   const auto told = [&](std::size_t place, optimizer::Evaluation evaluation) {
+    site.teller.step(++done);
     annotate(study.problem, study.optimizer.constraint_tolerance, evaluation);
     journal.append(key_of(asked[place]), evaluation);
     found[places[place]] = std::move(evaluation);
     known[places[place]] = true;
     return !interrupt.requested();
   };
+  if (!asked.empty())
+    site.teller.begin("looking where friction, force, speed and mismatch are others",
+                      expected_s(site, result, Work::evaluate, asked.size()), static_cast<int>(asked.size()));
   if (site.engine.departed_at_once)
     site.engine.departed_at_once(asked, told);
   else

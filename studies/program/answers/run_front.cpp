@@ -61,7 +61,8 @@ void add_front_bars(const RunSite& site, const std::string& fingerprint, const O
   // The search takes the direct worn state; what a history makes of it is within the bar.
   const auto take = [&](std::size_t index, const Evaluation& barred) {
     if (!barred.converged()) {  // parts of bars are none
-      site.err << fmt::format("dovetail: no error bars of evaluation {}: {}\n", index + 1, barred.status) << std::flush;
+      site.teller.remark() << fmt::format("dovetail: no error bars of evaluation {}: {}\n", index + 1, barred.status)
+                           << std::flush;
       return;
     }
     Evaluation& own = result.evaluations[index].evaluation;
@@ -88,9 +89,14 @@ void add_front_bars(const RunSite& site, const std::string& fingerprint, const O
     }
   }
   if (asked.empty()) return;
-  site.err << fmt::format("dovetail: error bars of {} of the {} points of the front\n", asked.size(), terms.size())
-           << std::flush;
+  site.teller.remark() << fmt::format("dovetail: error bars of {} of the {} points of the front\n", asked.size(),
+                                      terms.size())
+                       << std::flush;
+  int done = 0;
+  site.teller.begin("error bars of the front", expected_s(site, result, Work::bars, asked.size()),
+                    static_cast<int>(asked.size()));
   const auto told = [&](std::size_t place, const Evaluation& evaluation) {
+    site.teller.step(++done);
     journal.append(asked[place], evaluation);
     take(places[place], evaluation);
     return !interrupt.requested();

@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "core/replace_file.hpp"
+#include "optimizer/evaluation_cost.hpp"
+#include "optimizer/scene/scene_kind.hpp"
 #include "optimizer/workers/memory.hpp"
 #include "studies/program/answers/candidate_table.hpp"
 #include "studies/program/answers/field_export.hpp"
@@ -64,6 +66,29 @@ void take_over(const Study& study, optimizer::Evaluation seen, optimizer::Candid
   candidate.judgement = now;
 }
 
+}  // namespace
+
+double expected_s(const RunSite& site, const OptimizationResult& result, Work what, std::size_t count) {
+  double seconds = 0;
+  int timed = 0;
+  for (const optimizer::Candidate& candidate : result.evaluations)
+    if (const auto total = candidate.evaluation.timings_s.find("total");
+        total != candidate.evaluation.timings_s.end()) {
+      seconds += total->second;
+      ++timed;
+    }
+  if (timed == 0 || count == 0) return 0;
+  const optimizer::WorkParams work = optimizer::work_foreseen(site.study.scene.kind->in_space);
+  const double times = what == Work::evaluate ? 1
+                       : what == Work::bars   ? work.bars
+                       : what == Work::verify ? work.verify
+                                              : work.describe;
+  const std::size_t at_once = site.pool != nullptr ? site.pool->size() : 1;
+  return seconds / timed * times * static_cast<double>((count + at_once - 1) / at_once);
+}
+
+namespace {
+
 WrittenRun record_of(const RunSite& site, OptimizationResult result, double seconds) {
   const Study& study = site.study;
   const RunEngine& engine = site.engine;
@@ -98,8 +123,9 @@ WrittenRun record_of(const RunSite& site, OptimizationResult result, double seco
     design->notes.insert(design->notes.begin() + known, messages.begin() + known, messages.end());
   };
   std::future<DescribedDesign> of_best, of_start;
-  if (engine.describe && result.best) of_best = described(*result.best);
-  if (engine.describe && !result.evaluations.empty() && !start_is_best) of_start = described(0);
+  const bool describes = engine.describe && site.describes;
+  if (describes && result.best) of_best = described(*result.best);
+  if (describes && !result.evaluations.empty() && !start_is_best) of_start = described(0);
   if (of_best.valid()) look(*result.best, std::move(of_best), best);
   if (of_start.valid())
     look(0, std::move(of_start), baseline);
@@ -132,7 +158,10 @@ WrittenRun write_run(const RunSite& site, const OptimizationResult& result, doub
     replace_file(site.directory / "best.toml",
                  with_values(parse_document(study.text, study.file), variable_values(study, best)));
   }
+  if (site.describes && site.engine.describe)
+    site.teller.begin("describing start and best design", expected_s(site, result, Work::describe, 2));
   WrittenRun written = record_of(site, result, seconds);
+  site.teller.begin("writing results and report");
   report::RunRecord& record = written.record;
   if (result.front) record.front = front_record(study.problem, result);
   if (study.problem.front) write_front(site.directory, study, result);
@@ -151,13 +180,13 @@ WrittenRun write_run(const RunSite& site, const OptimizationResult& result, doub
       else if (!has_fields(format))
         export_geometry(best, format, {}, file);
       else if (!fields || (format == ExportFormat::pvd && !record.best_design->history))
-        site.err << "dovetail: " << file.string() << ": not written: the best design has no "
-                 << (fields ? "wear history" : "fields") << "\n";
+        site.teller.remark() << "dovetail: " << file.string() << ": not written: the best design has no "
+                             << (fields ? "wear history" : "fields") << "\n";
       else
         (format == ExportFormat::pvd ? export_history : export_fields)(*record.best_design, file);
     } catch (const InputError& error) {
       // The run is over, and what it found is written.
-      site.err << "dovetail: " << file.string() << ": not written: " << error.what() << "\n";
+      site.teller.remark() << "dovetail: " << file.string() << ": not written: " << error.what() << "\n";
     }
   }
   return written;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <iosfwd>
 #include <map>
 #include <optional>
 #include <string>
@@ -9,6 +8,7 @@
 #include "optimizer/accuracy/forecast.hpp"
 #include "optimizer/search/run.hpp"
 #include "optimizer/workers/worker_pool.hpp"
+#include "studies/program/answers/teller.hpp"
 #include "studies/program/engine/run_engine.hpp"
 
 namespace dovetail::studies {
@@ -18,13 +18,20 @@ struct RunSite {
   const Study& study;
   const RunEngine& engine;
   std::filesystem::path directory;
-  std::ostream& err;
+  Teller& teller;
   std::string settings = {};  ///< a sentence on those of start and best design where the search had others
   std::map<std::string, std::string> chosen = {};          ///< those that an accuracy chose, key -> value as text
   std::optional<optimizer::AccuracyGoal> goal = {};        ///< what is asked of start and best design
   std::map<std::size_t, optimizer::BarParts> raised = {};  ///< parts of bars of evaluations, by rounds of a choice
   optimizer::WorkerPool* pool = nullptr;                   ///< who works on pieces, if there are others
+  bool describes = true;  ///< start and best design are looked at with bars, history and curves: not of a run cut short
 };
+
+/// Work on one design, beside a candidate of the search.
+enum class Work { evaluate, bars, verify, describe };
+/// How long so much of it takes, s, by what candidates took; 0 where nobody knows.
+[[nodiscard]] double expected_s(const RunSite& site, const optimizer::OptimizationResult& result, Work what,
+                                std::size_t count);
 
 struct WrittenRun {
   report::RunRecord record;

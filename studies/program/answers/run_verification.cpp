@@ -133,7 +133,10 @@ std::vector<VerificationRecord> verify_best(const RunSite& site, const optimizer
     }
   std::vector<bool> there(records.size(), true);
   for (const std::size_t place : open) there[place] = false;
+  int done = 0;
   const auto told = [&](std::size_t place, VerificationRecord found) {
+    site.teller.step(++done);
+    site.teller.event("verification", {{"evaluation", records[open[place]].evaluation + 1}, {"status", found.status}});
     const std::size_t at = open[place];
     found.load_case = records[at].load_case;
     found.evaluation = records[at].evaluation;
@@ -144,10 +147,14 @@ std::vector<VerificationRecord> verify_best(const RunSite& site, const optimizer
   };
   const auto begins = [&](std::size_t at) {
     const std::string& load = records[at].load_case;
-    site.err << fmt::format("dovetail: verifying evaluation {}{} by its wear history ({} of {})\n",
-                            records[at].evaluation + 1, load.empty() ? "" : " in case " + load, at + 1, records.size())
-             << std::flush;
+    site.teller.remark() << fmt::format("dovetail: verifying evaluation {}{} by its wear history ({} of {})\n",
+                                        records[at].evaluation + 1, load.empty() ? "" : " in case " + load, at + 1,
+                                        records.size())
+                         << std::flush;
   };
+  if (!open.empty())
+    site.teller.begin("verifying designs by their wear history", expected_s(site, result, Work::verify, open.size()),
+                      static_cast<int>(open.size()));
   if (site.pool != nullptr) {
     std::vector<Verified> asked;
     for (const std::size_t at : open) {

@@ -1,5 +1,6 @@
 // The answer of the command wear as JSON.
 #include "studies/program/answers/json.hpp"
+#include "studies/program/answers/version.hpp"
 #include "studies/program/engine/json_values.hpp"
 #include "studies/program/engine/wear_methods.hpp"
 
@@ -132,7 +133,7 @@ void add_verdict(const wear::Asymptote& asymptote, Json& json) {
 }  // namespace
 
 std::string wear_json(const WearQuestion& question, const WearAnswer& answer) {
-  Json json;
+  Json json{{"version", kAnswerVersion}};
   json["method"] = json_of(answer.history ? WearMethod::history : WearMethod::asymptote);
   json["status"] = json_of(answer.status);
   if (answer.status == wear::Verdict::not_converged)

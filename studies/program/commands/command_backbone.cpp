@@ -6,8 +6,9 @@
 #include <cmath>
 #include <ostream>
 
+#include "studies/program/answers/teller.hpp"
+#include "studies/program/answers/version.hpp"
 #include "studies/program/commands/commands.hpp"
-#include "studies/program/commands/progress.hpp"
 #include "studies/program/engine/engine.hpp"
 #include "studies/program/engine/interrupt.hpp"
 #include "studies/program/engine/json_values.hpp"
@@ -52,7 +53,7 @@ paths::BackboneFamily worn_family(const steady::Joint& joint, double omega, cons
 
 std::string backbone_json(const BackboneOptions& options, const LoadedModel& loaded, int output,
                           const paths::Backbone& found) {
-  Json json;
+  Json json{{"version", kAnswerVersion}};
   json["over"] = json_of(options.over);
   json["output"] = loaded.model.output_names[static_cast<std::size_t>(output)];
   using Point = paths::BackbonePoint;
@@ -90,7 +91,9 @@ std::string table(const BackboneOptions& options, const paths::Backbone& found) 
 int run_backbone(const BackboneOptions& options, const Streams& streams) {
   const std::vector<double> values = parameters(options);
   if (options.solver.automatic()) refuse("--harmonics, --samples", "must be whole numbers for a backbone", "auto");
-  LoadedModel loaded = load_model(options.input, options.set, options.solver, &streams.err);
+  Teller teller(streams.err, options.tell);
+  teller.begin("the reduced model");
+  LoadedModel loaded = load_model(options.input, options.set, options.solver, &teller.remark());
   if (!loaded.failure.empty()) return not_converged(options.input, "not converged: " + loaded.failure, streams);
   paths::BackboneOptions settings;
   const int output = output_index(options, loaded);
@@ -104,16 +107,16 @@ int run_backbone(const BackboneOptions& options, const Streams& streams) {
   const paths::BackboneFamily family = options.over == BackboneOver::wear
                                            ? worn_family(joint, omega, settings.resonance, options)
                                            : paths::excitation_levels(joint);
-  const bool terminal = error_is_terminal();
-  const paths::Backbone found =
-      paths::backbone(family, values, omega, settings, [&](const paths::BackbonePoint& point) {
-        if (terminal) streams.err << fmt::format("\r\033[K{:.6g}", point.parameter) << std::flush;
-        return !interrupt.requested();
-      });
-  if (terminal) streams.err << "\r\033[K" << std::flush;
+  teller.begin("resonances", 0, options.points);
+  int done = 0;
+  const paths::Backbone found = paths::backbone(family, values, omega, settings, [&](const paths::BackbonePoint&) {
+    teller.step(++done);
+    return !interrupt.requested();
+  });
+  teller.end();
   deliver_json(options.json, backbone_json(options, loaded, output, found), streams);
   if (options.json.empty()) streams.out << table(options, found);
-  if (interrupt.requested()) return kInterrupted;
+  if (interrupt.requested()) return interrupted(fmt::format("{} of {} levels", done, options.points), streams);
   const auto failed = std::count_if(found.points.begin(), found.points.end(),
                                     [](const auto& point) { return point.status != Status::converged; });
   if (failed == 0) return kDone;

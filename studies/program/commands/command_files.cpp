@@ -16,6 +16,7 @@
 #include "studies/program/commands/commands.hpp"
 #include "studies/program/engine/engine.hpp"
 #include "studies/program/engine/model_toml.hpp"
+#include "studies/program/engine/run_folder.hpp"
 #include "studies/program/study_file/best_file.hpp"
 #include "studies/program/study_file/export.hpp"
 #include "studies/program/study_file/refusal.hpp"
@@ -26,15 +27,6 @@ namespace dovetail::studies {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A file of a run's directory. Throws InputError when it is not there.
-fs::path run_file(const std::string& directory, const std::string& name, const std::string& what) {
-  std::error_code ignored;
-  fs::path file = fs::path(directory) / name;
-  if (!fs::is_directory(directory, ignored)) refuse(directory, "is not the directory of a run");
-  if (!fs::exists(file, ignored)) refuse(directory, "holds no " + what + " (" + name + ")");
-  return file;
-}
 
 report::RunRecord results_of(const std::string& directory) {
   return report::read_results(run_file(directory, "results.h5", "results"));
@@ -81,8 +73,11 @@ class Exported {
       if (record.best_design && record.best_design->fields.mesh.element_count() > 0) return *record.best_design;
       refuse(options_.input, "holds no fields of a best design");
     }
-    report::DesignRecord design = describe_fields(study(), history);
+    const Study study = this->study();
+    report::DesignRecord design = describe_fields(study, history);
     if (design.fields.mesh.element_count() > 0) return design;
+    if (optimizer::outcome_of(design.status) == optimizer::Outcome::infeasible)
+      throw infeasible(options_.input, broken_rules(optimizer::in_first_case(study.scene, study.problem.cases)));
     refuse(options_.input, "the design has no fields: " + design.status);
   }
 
@@ -157,7 +152,16 @@ int run_export(const ExportOptions& options, const Streams& streams) {
     const Study study = exported.study();
     export_solids(optimizer::in_first_case(study.scene, study.problem.cases), *format, &design.contact, options.file);
   } else {
-    export_geometry(exported.study().scene, *format, options.deck, options.file);
+    const optimizer::Scene scene = exported.study().scene;
+    const std::vector<std::string> broken = broken_rules(scene);
+    try {
+      export_geometry(scene, *format, options.deck, options.file);
+    } catch (const InputError&) {
+      if (broken.empty()) throw;
+      throw infeasible(options.input, broken);
+    }
+    for (const std::string& rule : broken)
+      streams.err << "dovetail: " << options.input << ": the design is infeasible: " << rule << "\n";
   }
   streams.out << options.file << ": written\n";
   return kDone;

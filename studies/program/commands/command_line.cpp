@@ -14,6 +14,7 @@
 #include "studies/program/answers/version.hpp"
 #include "studies/program/commands/commands.hpp"
 #include "studies/program/commands/help.hpp"
+#include "studies/program/commands/shell_files.hpp"
 
 namespace dovetail::studies {
 namespace {
@@ -36,7 +37,9 @@ void add_option(CLI::App& command, S& options, const Option<S>& row) {
           // A named one is repeated; words without a name follow each other.
           if constexpr (std::is_same_v<T, std::vector<std::string>>)
             if (row.name.starts_with("-"))
-              added->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->allow_extra_args(false);
+              added->expected(row.values)
+                  ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+                  ->allow_extra_args(false);
           if constexpr (std::is_same_v<T, std::vector<int>>) added->delimiter(',');
           return added;
         }
@@ -81,6 +84,16 @@ void add_commands(CLI::App& app, Chosen& chosen, const PoolFactory& pools) {
   add_command<WearOptions>(app, chosen, help::wear(), run_wear);
   add_command<ImportOptions>(app, chosen, help::import_model(), run_import);
   add_command<ExportOptions>(app, chosen, help::export_files(), run_export);
+  add_command<RunsOptions>(app, chosen, help::runs(), run_runs);
+  add_command<ServeOptions>(app, chosen, help::serve(), run_serve);
+  add_command<SchemaOptions>(app, chosen, help::schema(), run_schema);
+  add_command<CompletionOptions>(app, chosen, help::completion(),
+                                 [&app](const CompletionOptions& options, const Streams& streams) {
+                                   streams.out << (options.file == ShellFile::bash  ? bash_completion(app)
+                                                   : options.file == ShellFile::zsh ? zsh_completion(app)
+                                                                                    : manual_page(app));
+                                   return kDone;
+                                 });
   add_command<MergeOptions>(app, chosen, help::merge(), run_merge);
   add_command<ReportOptions>(app, chosen, help::report(), run_report);
 }

@@ -6,8 +6,8 @@
 #include <ostream>
 
 #include "paths/frequency_response.hpp"
+#include "studies/program/answers/teller.hpp"
 #include "studies/program/commands/commands.hpp"
-#include "studies/program/commands/progress.hpp"
 #include "studies/program/engine/engine.hpp"
 #include "studies/program/engine/interrupt.hpp"
 #include "studies/program/engine/response_curve.hpp"
@@ -31,8 +31,8 @@ int most_points(int points) {
 /// Computes the curve point by point, with what is asked for at each; shows progress and stops when asked to.
 class CurveRun {
  public:
-  CurveRun(const LoadedModel& loaded, const ResponseOptions& options, const Streams& streams)
-      : loaded_(loaded), options_(options), streams_(streams), terminal_(error_is_terminal()) {
+  CurveRun(const LoadedModel& loaded, const ResponseOptions& options, Teller& teller)
+      : loaded_(loaded), options_(options), teller_(teller) {
     curve_.output_names = loaded.model.output_names;
     curve_.settings = loaded.joint.options;
     curve_.choice = options.choice;
@@ -40,9 +40,7 @@ class CurveRun {
         contact::pseudo_penalty(loaded.joint.model->local_stiffness(), loaded.joint.model->directions(),
                                 loaded.joint.options.normal_penalty, loaded.joint.options.tangential_penalty);
   }
-  ~CurveRun() {
-    if (terminal_) streams_.err << "\r\033[K" << std::flush;
-  }
+  ~CurveRun() { teller_.end(); }
   CurveRun(const CurveRun&) = delete;
   CurveRun& operator=(const CurveRun&) = delete;
 
@@ -50,9 +48,9 @@ class CurveRun {
     std::vector<double> omega;
     for (const double f : hz) omega.push_back(kTurn * f);
     curve_.frequency_hz = hz;
-    curve_.states = paths::frequency_response(loaded_.joint, omega, [&](std::size_t, const steady::State& state) {
-      return take(state, interrupt, hz.size());
-    });
+    teller_.begin("frequencies", 0, static_cast<int>(hz.size()));
+    curve_.states = paths::frequency_response(
+        loaded_.joint, omega, [&](std::size_t, const steady::State& state) { return take(state, interrupt); });
     curve_.analyses.resize(curve_.states.size());
     return std::move(curve_);
   }
@@ -64,9 +62,10 @@ class CurveRun {
     if (options_.points > 1)
       follow.largest_parameter_step = std::min(follow.largest_parameter_step, 1.0 / (options_.points - 1));
     follow.max_points = most_points(options_.points);
+    teller_.begin("following the response");
     curve_.branch =
         paths::continuation({loaded_.joint.model, {}, steady}, kTurn * options_.from_hz, kTurn * options_.to_hz, follow,
-                            [&](const branches::BranchPoint& point) { return take(point.state, interrupt, 0); });
+                            [&](const branches::BranchPoint& point) { return take(point.state, interrupt); });
     require_end();
     for (branches::BranchPoint& point : curve_.branch->points) {
       curve_.frequency_hz.push_back(hertz(point.state.omega));
@@ -77,12 +76,8 @@ class CurveRun {
   }
 
  private:
-  bool take(const steady::State& state, const OrderlyInterrupt& interrupt, std::size_t all) {
-    ++done_;
-    if (terminal_)
-      streams_.err << (all > 0 ? fmt::format("\r\033[Kfrequency {}/{}", done_, all)
-                               : fmt::format("\r\033[Kpoint {}, {:.6g} Hz", done_, hertz(state.omega)))
-                   << std::flush;
+  bool take(const steady::State& state, const OrderlyInterrupt& interrupt) {
+    teller_.step(++done_);
     if (options_.choice.any()) curve_.analyses.push_back(analyse(loaded_, state, options_.choice));
     return !interrupt.requested();
   }
@@ -104,9 +99,8 @@ class CurveRun {
 
   const LoadedModel& loaded_;
   const ResponseOptions& options_;
-  const Streams& streams_;
-  bool terminal_;
-  std::size_t done_ = 0;
+  Teller& teller_;
+  int done_ = 0;
   ResponseCurve curve_;
 };
 
@@ -149,23 +143,27 @@ bool contact_changes(const ResponseCurve& curve) {
 
 int run_response(const ResponseOptions& options, const Streams& streams) {
   const std::vector<double> hz = frequencies(options);
-  LoadedModel loaded = load_model(options.input, options.set, options.solver, &streams.err);
+  Teller teller(streams.err, options.tell);
+  teller.begin("the reduced model");
+  LoadedModel loaded = load_model(options.input, options.set, options.solver, &teller.remark());
   const auto complain = [&](const std::string& what) { return not_converged(options.input, what, streams); };
   if (!loaded.failure.empty()) return complain("not converged: " + loaded.failure);
 
   const OrderlyInterrupt interrupt;
   const std::optional<Status> automatic = choose_truncation(loaded, hz, options.solver);
-  ResponseCurve curve = options.arclength ? CurveRun(loaded, options, streams).along(interrupt)
-                                          : CurveRun(loaded, options, streams).at(hz, interrupt);
+  ResponseCurve curve = options.arclength ? CurveRun(loaded, options, teller).along(interrupt)
+                                          : CurveRun(loaded, options, teller).at(hz, interrupt);
   curve.automatic = automatic;
   curve.accuracy = accuracy(options.solver);
   deliver_json(options.json, response_json(curve), streams);
   if (options.json.empty()) streams.out << response_table(curve);
-  if (interrupt.requested()) return kInterrupted;
+  if (interrupt.requested())
+    return interrupted(fmt::format("{} of {} frequencies", curve.states.size(), hz.size()), streams);
   if (!loaded.joint.model->massless_contact() && contact_changes(curve))
-    streams.err << "dovetail: " << options.input
-                << ": remark: contact dofs carry mass and slip or lift off: the harmonics converge slowly there and "
-                   "lift-off has no unique answer; move that mass inward, or look at --error-bars\n";
+    teller.remark()
+        << "dovetail: " << options.input
+        << ": remark: contact dofs carry mass and slip or lift off: the harmonics converge slowly there and "
+           "lift-off has no unique answer; move that mass inward, or look at --error-bars\n";
 
   int status = kDone;
   if (const std::string failed = failures(curve); !failed.empty()) status = complain(failed);

@@ -1,9 +1,7 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <ostream>
@@ -16,24 +14,33 @@
 #include "optimizer/search/run.hpp"
 #include "optimizer/workers/forked_pool.hpp"
 #include "optimizer/workers/memory.hpp"
+#include "studies/program/answers/finished_run.hpp"
 #include "studies/program/answers/run_departures.hpp"
 #include "studies/program/answers/run_front.hpp"
 #include "studies/program/answers/run_output.hpp"
 #include "studies/program/answers/run_verification.hpp"
+#include "studies/program/answers/run_words.hpp"
+#include "studies/program/answers/search_progress.hpp"
 #include "studies/program/answers/version.hpp"
 #include "studies/program/commands/commands.hpp"
-#include "studies/program/commands/progress.hpp"
 #include "studies/program/commands/settled_run.hpp"
+#include "studies/program/engine/engine.hpp"
 #include "studies/program/engine/interrupt.hpp"
+#include "studies/program/engine/json_values.hpp"
 #include "studies/program/engine/pieces.hpp"
+#include "studies/program/study_file/best_file.hpp"
 #include "studies/program/study_file/refusal.hpp"
-#include "studies/report/words/report_words.hpp"
 
 namespace dovetail::studies {
 namespace {
 
 namespace fs = std::filesystem;
 using optimizer::OptimizationResult;
+
+using Clock = std::chrono::steady_clock;
+double seconds_of(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
 
 /// Edges of a mesh over those of another from which on one verifies the other: less and both may err alike.
 constexpr double kFiner = 1.5;
@@ -77,92 +84,6 @@ fs::path prepare_directory(const RunOptions& options, const Study& study, std::o
   return directory;
 }
 
-std::string with_bar(double value, double bar, const char* unit = "") {
-  return std::isfinite(bar) ? fmt::format("{:.4g} +- {:.2g}{}", value, bar, unit)
-                            : fmt::format("{:.6g}{}", value, unit);
-}
-
-/// How far the best design stays from its limits, in per cent of them, here and on finer meshes.
-std::string limits_kept(const report::RunRecord& record) {
-  std::string text;
-  const std::vector<std::string> names = constraint_names(record.problem);
-  const report::EvaluationRecord& best = record.evaluations[*record.best];
-  const optimizer::JudgementBars bars = judgement_bars(record.problem, best.responses, best.error_estimates);
-  for (std::size_t j = 0; j < names.size(); ++j) {
-    std::string finer;
-    for (const report::FinerRecord& check : record.finer)
-      if (check.evaluation == static_cast<std::int64_t>(*record.best))
-        finer += fmt::format(", {:.3g} % on {} edges", -100 * check.constraints[j], check.flank_elements);
-    const double room = -100 * best.constraints[j], bar = 100 * bars.constraints[j];
-    text += fmt::format("  {} {} by {} of its limit{}{}\n", names[j], room < 0 ? "broken" : "kept",
-                        with_bar(std::abs(room), bar, " %"), finer, std::abs(room) < bar ? ": undecided" : "");
-  }
-  return text;
-}
-
-std::string conclusion(const Study& study, const OptimizationResult& result, const report::RunRecord& record,
-                       const fs::path& directory) {
-  const optimizer::SearchStatistics& counts = result.statistics;
-  const auto all = static_cast<int>(result.evaluations.size());
-  const auto count = [&](const auto& of) { return static_cast<int>(std::ranges::count_if(result.evaluations, of)); };
-  const int feasible = count([](const optimizer::Candidate& c) { return c.judgement.feasible; });
-  const int failed =
-      count([](const optimizer::Candidate& c) { return !c.evaluation.converged() && !c.evaluation.infeasible(); });
-  std::string text = fmt::format(
-      "{}: {} evaluations, {} of them stored before; {} feasible, {} break a limit or a rule, {} failed; {}\n",
-      study.name, all, counts.replayed, feasible, all - feasible - failed, failed,
-      result.message.empty() ? std::string(to_string(result.status)) : result.message);
-  if (counts.unused_records > 0)
-    text += fmt::format("{} stored evaluations were not asked for again: this search took another way\n",
-                        counts.unused_records);
-  if (!result.best) return text;
-  const auto objective = [&](const report::EvaluationRecord& of) {
-    return with_bar(of.objective, judgement_bars(record.problem, of.responses, of.error_estimates).objective);
-  };
-  if (record.front)
-    text +=
-        front_words(record) + fmt::format("compromise, nearest to the best of each: evaluation {}\n", *result.best + 1);
-  else
-    text += fmt::format("best objective {} (evaluation {}), start {}\n", objective(record.evaluations[*record.best]),
-                        *result.best + 1, objective(record.evaluations.front()));
-  for (const auto& [key, value] : variable_values(study, result.evaluations[*result.best]))
-    text += fmt::format("  {} = {:.6g}\n", key, value);
-  return text + limits_kept(record) + fmt::format("written to {}\n", directory.string());
-}
-
-std::string verified(const std::vector<report::VerificationRecord>& verifications) {
-  std::string text;
-  for (const report::VerificationRecord& v : verifications) {
-    const auto known = [](bool is, double volume) { return is ? fmt::format("{:.6g} m^3", volume) : "not known"; };
-    text += fmt::format("evaluation {}{} by its wear history: {}, directly {:.6g} m^3, on {} edges {} ({})\n",
-                        v.evaluation + 1, v.load_case.empty() ? "" : " in case " + v.load_case,
-                        known(v.history_known(), v.history_volume_m3), v.search_volume_m3, v.flank_elements,
-                        known(v.finer_known(), v.direct_volume_m3), v.agreement());
-  }
-  return text;
-}
-
-/// Where else the best design keeps its limits.
-std::string held(const report::RunRecord& record) {
-  std::string broken;
-  std::size_t all = 0, kept = 0;
-  for (const report::DepartureRecord& there : record.departures) {
-    if (!record.best || there.evaluation != static_cast<std::int64_t>(*record.best)) continue;
-    ++all;
-    const bool keeps =
-        optimizer::converged(there.status) && std::ranges::all_of(there.constraints, [](double c) { return c <= 0; });
-    kept += keeps ? 1 : 0;
-    if (!keeps) broken += (broken.empty() ? "; not with " : ", ") + there.departure;
-  }
-  return all == 0 ? "" : fmt::format("keeps its limits in {} of {} other conditions{}\n", kept, all, broken);
-}
-
-/// "; none keeps A and B", or nothing.
-std::string listed_unkept(const report::RunRecord& record) {
-  const std::vector<std::string> never = report::never_kept(record);
-  return never.empty() ? "" : fmt::format("; none keeps {}", fmt::join(never, ", nor "));
-}
-
 /// A rule that is broken at the start and at both ends of every variable by as much: a search would find nothing.
 void refuse_hopeless(const Study& study, const RunEngine& engine) {
   if (!engine.rules) return;
@@ -192,29 +113,6 @@ void refuse_hopeless(const Study& study, const RunEngine& engine) {
   hopeless.raise();
 }
 
-/// What keeps the best design from being an answer, or nothing.
-std::string shortcoming(const Study& study, const OptimizationResult& result, const WrittenRun& written) {
-  const report::RunRecord& record = written.record;
-  if (!result.best)
-    return fmt::format("{}: no feasible design was found in {} evaluations{}", study.file, result.evaluations.size(),
-                       listed_unkept(record));
-  const bool stands = !record.best_design || optimizer::converged(record.best_design->status);
-  if (!stands || !record.evaluations[*result.best].feasible)
-    return fmt::format("the best design, evaluation {}, looked at with bars and its wear history: {}", *result.best + 1,
-                       stands ? "breaks a limit" : record.best_design->status);
-  for (const report::VerificationRecord& v : record.verifications)
-    if (v.evaluation == static_cast<std::int64_t>(*result.best) && !optimizer::converged(v.status))
-      return fmt::format("the verification of the best design, evaluation {}: {}", v.evaluation + 1, v.status);
-  if (!written.inaccurate.empty())
-    return fmt::format(
-        "the best design, evaluation {}: {}{}", *result.best + 1, written.inaccurate,
-        study.optimizer.verify_accuracy > 0
-            ? ""
-            : " (settings were chosen before the search; [optimizer] verify_accuracy has them chosen at the "
-              "best design, too)");
-  return {};
-}
-
 std::string fingerprint_of(const Study& study) {
   std::string physics = std::string("dovetail ") + version() + "\n" + physics_text(study.scene);
   for (const auto& [key, value] : study.linked) physics += key + " follows: " + value + "\n";
@@ -232,33 +130,70 @@ std::string settings_words(const Study& searched, const SettledStudy& handed) {
       searched.scene.solver.modes);
 }
 
-/// The search, with its journals in the directory.
-OptimizationResult searched(const RunSite& site, bool resume, const std::optional<optimizer::Part>& part,
-                            const std::string& fingerprint, const OrderlyInterrupt& interrupt) {
+struct Searched {
+  OptimizationResult result;
+  bool late = false;  ///< the time of the run was over before it ended
+};
+
+/// The search, with its journals in the directory, of a run that began then.
+Searched searched(const RunSite& site, Clock::time_point begin, bool resume, const std::optional<optimizer::Part>& part,
+                  const std::string& fingerprint, const OrderlyInterrupt& interrupt) {
   const auto opened = [&](const char* name) {
     const fs::path file = site.directory / name;
     optimizer::Journal journal =
         resume ? optimizer::Journal::resume(file, fingerprint) : optimizer::Journal::create(file, fingerprint);
-    if (!journal.note().empty()) site.err << "dovetail: " << journal.note() << "\n";
+    if (!journal.note().empty()) site.teller.remark() << "dovetail: " << journal.note() << "\n";
     return journal;
   };
   optimizer::Journal journal = opened("journal.jsonl"), finer_journal = opened("finer.jsonl");
   replace_file(site.directory / "study.toml", site.study.text);
-  RunProgress progress(site.err, error_is_terminal(), site.study.optimizer.max_evaluations, site.study.problem.front);
+  SearchProgress progress(site.teller, site.study.problem, site.study.optimizer.max_evaluations,
+                          site.directory.string(), site.pool != nullptr);
+  const double limit = site.study.optimizer.time_limit;
+  bool late = false;
   optimizer::RunHooks hooks{.journal = &journal,
                             .progress = [&](const optimizer::Progress& at) { progress(at); },
                             .stop = &interrupt.flag(),
                             .finer = {},
                             .finer_journal = &finer_journal,
                             .part = part};
+  if (limit > 0) hooks.time_over = [&] { return late = late || seconds_of(begin) >= limit; };
   hooks.many = site.engine.many;
   if (site.engine.finer)
     hooks.finer = [&](std::span<const double> x, int level) {
-      progress.note(fmt::format("looking at the limits on a mesh with {} edges per flank",
-                                site.study.scene.mesh.flank_elements << level));
+      const int edges = site.study.scene.mesh.flank_elements << level;
+      site.teller.event("finer", {{"flank_elements", edges}});
+      site.teller.status(
+          [edges](double seconds) {
+            return fmt::format("looking at the limits on a mesh with {} edges per flank", edges) +
+                   (seconds < 1 ? "" : ": " + time_words(seconds));
+          },
+          fmt::format("the look at a mesh with {} edges per flank", edges));
       return site.engine.finer(x, level);
     };
-  return optimizer::run_optimization(site.study.problem, site.engine.evaluate, site.study.optimizer, hooks);
+  OptimizationResult result =
+      optimizer::run_optimization(site.study.problem, site.engine.evaluate, site.study.optimizer, hooks);
+  if (late && !interrupt.requested())
+    result.message = fmt::format("optimizer.time_limit_s = {:g} is over; --resume goes on", limit);
+  site.teller.end();
+  return {.result = std::move(result), .late = late};
+}
+
+/// Everything a run is about: the same once more has nothing to do.
+std::string question_of(const Study& study) {
+  return optimizer::fingerprint(study.problem, study.optimizer, std::string(version()) + "\n" + study.text);
+}
+
+/// A part of a scan is over, or interrupted.
+std::string part_words(const Study& study, const optimizer::Part& part, std::size_t done, const fs::path& directory,
+                       bool interrupted) {
+  const int all = optimizer::scan_size(study.optimizer, study.problem.space.size());
+  const int own = 1 + (all - part.number + part.of) / part.of;  // with the start
+  if (interrupted)
+    return fmt::format("{}: interrupted in part {} of {} of the scan: {} of its {} evaluations are kept in {}\n",
+                       study.name, part.number, part.of, done, own, directory.string());
+  return fmt::format("{}: part {} of {} of the scan, {} evaluations in {}\n", study.name, part.number, part.of, done,
+                     directory.string());
 }
 
 }  // namespace
@@ -272,35 +207,37 @@ std::unique_ptr<optimizer::WorkerPool> processes(const RunOptions& options, cons
                                                  options.jobs ? optimizer::FreeMemory() : optimizer::free_memory);
 }
 
-int run_study(const RunOptions& options, const Streams& streams, const RunEngineFactory& make_engine,
-              const PoolFactory& pools) {
-  const auto begin = std::chrono::steady_clock::now();
-  const Study asked = load_study(options.study);
-  require_runnable(asked);
+namespace {
+
+/// A run from its settings to what it hands over.
+int computed(const RunOptions& options, const Study& asked, const fs::path& directory, const Streams& streams,
+             Teller& teller, const RunEngineFactory& make_engine, const PoolFactory& pools) {
+  const auto begin = Clock::now();
   const std::optional<optimizer::Part> part = part_of(options, asked);
-  for (const std::string& warning : warnings(asked)) streams.err << options.study << ": warning: " << warning << "\n";
-  const fs::path directory = prepare_directory(options, asked, streams.err);
-  const SettledStudy settled = settled_run(asked, directory, options.resume, make_engine, streams.err);
+  teller.keeps("what is finished is kept in " + directory.string() + "; the same command with --resume goes on");
+  const SettledStudy settled = settled_run(asked, directory, options.resume, make_engine, teller);
   const Study& study = settled.study;
   const std::unique_ptr<optimizer::WorkerPool> pool = pools(options, workers_with(make_engine));
+  teller.begin("meshing the reference design");
   const RunEngine alone = make_engine(study);
   refuse_hopeless(study, alone);
   if (pool) pool->prepare(description_of(study));
   const RunEngine engine = pool ? at_work(study, alone, *pool) : alone;
-  const RunSite site{.study = study, .engine = engine, .directory = directory, .err = streams.err, .pool = pool.get()};
+  const RunSite site{.study = study, .engine = engine, .directory = directory, .teller = teller, .pool = pool.get()};
   const OrderlyInterrupt interrupt;
-  OptimizationResult result = searched(site, options.resume, part, fingerprint_of(study), interrupt);
+  auto [result, late] = searched(site, begin, options.resume, part, fingerprint_of(study), interrupt);
   if (part) {
-    streams.out << fmt::format("{}: part {} of {} of the scan, {} evaluations in {}\n", study.name, part->number,
-                               part->of, result.evaluations.size(), directory.string());
-    return interrupt.requested() ? kInterrupted : kDone;
+    streams.out << part_words(study, *part, result.evaluations.size(), directory, interrupt.requested());
+    if (!interrupt.requested()) return kDone;
+    streams.err << "dovetail: the same command with --resume goes on with this part\n";
+    return kInterrupted;
   }
   add_front_bars(site, fingerprint_of(study), interrupt, result);
 
   // What is handed over may ask for more than the search.
   const bool settles = result.best && !interrupt.requested();
   const SettledStudy over = settles ? settled_best(asked, study, result.evaluations[*result.best], directory,
-                                                   options.resume, interrupt, streams.err)
+                                                   options.resume, interrupt, teller)
                                     : SettledStudy{.study = study};
   const Study& handed = over.study;
   const std::string settings = settings_words(study, over);
@@ -311,15 +248,15 @@ int run_study(const RunOptions& options, const Streams& streams, const RunEngine
   std::map<std::size_t, optimizer::BarParts> raised;
   if (as_searched) raised[0] = settled.raised;
   if (!over.raised.empty()) raised[*result.best] = over.raised;
-  const RunSite end{.study = handed,
-                    .engine = closer,
-                    .directory = directory,
-                    .err = streams.err,
-                    .settings = settings,
-                    .chosen = chosen_settings(asked, settled, over),
-                    .goal = goal_at_best(asked),
-                    .raised = raised,
-                    .pool = pool.get()};
+  RunSite end{.study = handed,
+              .engine = closer,
+              .directory = directory,
+              .teller = teller,
+              .settings = settings,
+              .chosen = chosen_settings(asked, settled, over),
+              .goal = goal_at_best(asked),
+              .raised = raised,
+              .pool = pool.get()};
   std::vector<report::VerificationRecord> verifications;
   // Settings that are handed over verify those of the search where they are finer.
   const bool finer = handed.scene.mesh.flank_elements >= kFiner * study.scene.mesh.flank_elements;
@@ -331,21 +268,55 @@ int run_study(const RunOptions& options, const Streams& streams, const RunEngine
 
   if (pool) pool->prepare(description_of(handed));  // who has nothing left to do gives his memory back
 
-  if (interrupt.requested())
-    streams.err << "dovetail: interrupted; writing what is finished (Ctrl-C again ends at once)" << std::endl;
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  const WrittenRun written = write_run(end, result, seconds, verifications, departures);
-  streams.out << conclusion(study, result, written.record, site.directory) << verified(verifications)
-              << held(written.record);
+  end.describes = !interrupt.requested();
+  const WrittenRun written = write_run(end, result, seconds_of(begin), verifications, departures);
+  teller.end();
+  const std::string answer =
+      conclusion(study, result, written.record, directory) + verified_words(verifications) + held_words(written.record);
+  streams.out << answer;
   if (interrupt.requested()) {
-    streams.err << "dovetail: everything finished is kept; go on with --resume\n";
+    streams.err << fmt::format(
+        "dovetail: interrupted; {} evaluations are kept in {}; the same command with --resume "
+        "goes on\n",
+        result.evaluations.size(), directory.string());
     return kInterrupted;
   }
   if (const std::string open = shortcoming(study, result, written); !open.empty()) {
     streams.err << "dovetail: " << open << "\n";
     return kNotConverged;
   }
-  return result.status == Status::converged || result.status == Status::iteration_limit ? kDone : kNotConverged;
+  if (result.status != Status::converged && result.status != Status::iteration_limit) return kNotConverged;
+  if (!late) keep_finished(directory, question_of(asked), answer);
+  return kDone;
+}
+
+}  // namespace
+
+int run_study(const RunOptions& options, const Streams& streams, const RunEngineFactory& make_engine,
+              const PoolFactory& pools) {
+  Teller teller(streams.err, options.tell, true);
+  const Study asked = load_rewritten_study(options.study, overrides(options.set));
+  require_runnable(asked);
+  static_cast<void>(part_of(options, asked));
+  for (const std::string& warning : warnings(asked))
+    teller.remark() << options.study << ": warning: " << warning << "\n";
+  const fs::path directory = prepare_directory(options, asked, teller.remark());
+  teller.event("begin", {{"version", 1},
+                         {"program", version()},
+                         {"study", options.study},
+                         {"directory", directory.string()},
+                         {"max_evaluations", asked.optimizer.max_evaluations}});
+  int status = kDone;
+  if (const std::optional<std::string> before =
+          options.resume && options.part.empty() ? finished_before(directory, question_of(asked)) : std::nullopt) {
+    teller.remark() << "dovetail: " << directory.string() << ": this run is finished; nothing is computed again\n";
+    streams.out << *before;
+  } else {
+    forget_finished(directory);
+    status = computed(options, asked, directory, streams, teller, make_engine, pools);
+  }
+  teller.event("end", {{"exit_status", status}});
+  return status;
 }
 
 }  // namespace dovetail::studies

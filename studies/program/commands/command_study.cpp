@@ -13,13 +13,20 @@
 
 #include "core/replace_file.hpp"
 #include "optimizer/cases.hpp"
+#include "optimizer/evaluation_cost.hpp"
 #include "optimizer/problem/problem.hpp"
 #include "optimizer/responses/response_table.hpp"
+#include "optimizer/scene/scene_kind.hpp"
 #include "reduction/model_file.hpp"
 #include "studies/program/answers/accuracy_json.hpp"
+#include "studies/program/answers/dakota.hpp"
 #include "studies/program/answers/json.hpp"
+#include "studies/program/answers/schema.hpp"
+#include "studies/program/answers/teller.hpp"
 #include "studies/program/commands/commands.hpp"
 #include "studies/program/engine/engine.hpp"
+#include "studies/program/engine/interrupt.hpp"
+#include "studies/program/engine/run_folder.hpp"
 #include "studies/program/engine/settled_study.hpp"
 #include "studies/program/study_file/materials.hpp"
 #include "studies/program/study_file/refusal.hpp"
@@ -34,36 +41,30 @@ void deliver_json(const std::string& where, const std::string& text, const Strea
   if (!streams.out) refuse("standard output", "cannot be written");
 }
 
+int interrupted(const std::string& kept, const Streams& streams) {
+  streams.err << "dovetail: interrupted; the answer has " << kept << "\n";
+  return kInterrupted;
+}
+
 int not_converged(const std::string& input, const std::string& what, const Streams& streams) {
   streams.err << "dovetail: " << input << ": " << what << "\n";
   return kNotConverged;
 }
 
-int run_check(const CheckOptions& options, const Streams& streams) {
-  const Study study = load_study(options.study, overrides(options.set));
-  const optimizer::Problem& problem = study.problem;
-  const std::vector<std::string> doubts = warnings(study);
-  for (const std::string& doubt : doubts)
-    streams.err << options.study << (options.strict ? ": " : ": warning: ") << doubt << "\n";
-  if (options.strict && !doubts.empty()) return kWrongInput;
-  const auto counted = [](std::size_t count, const char* what) {
-    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-  };
-  streams.out << fmt::format("{}: valid; {}, {}, {}{}\n", options.study, counted(problem.space.size(), "variable"),
-                             counted(problem.objective.size(), "objective") + (problem.front ? " for a front" : ""),
-                             counted(problem.constraints.size(), "constraint"),
-                             problem.cases.empty() ? "" : ", " + counted(problem.cases.size(), "case"));
-  return kDone;
-}
-
 int run_new(const NewOptions& options, const Streams& streams) {
   const std::filesystem::path file(options.file);
-  if (std::filesystem::exists(file)) refuse(options.file, "exists already; choose another name");
+  std::error_code ignored;
+  if (std::filesystem::exists(file, ignored)) refuse(options.file, "exists already; choose another name");
   std::string title = file.stem().string();
   for (char& c : title)
     if (c == '"' || c == '\\' || static_cast<unsigned char>(c) < 0x20) c = ' ';
-  replace_file(file, study_template(title));
+  replace_file(file, study_template(title, options.kind));
   streams.out << fmt::format("{}: written; try `dovetail evaluate {}`\n", options.file, options.file);
+  return kDone;
+}
+
+int run_schema(const SchemaOptions& options, const Streams& streams) {
+  streams.out << (options.of == SchemaOf::study ? study_schema() : evaluation_schema());
   return kDone;
 }
 
@@ -119,6 +120,9 @@ std::string evaluation_table(const optimizer::Evaluation& evaluation) {
   const bool all =
       std::ranges::all_of(undecided, [&](const auto& name) { return evaluation.constraints.contains(name); });
   text += all ? "\n" : ", as far as limits are judged\n";
+  for (const auto& [name, value] : evaluation.constraints)
+    if (value > 0 && !name.starts_with(optimizer::kRulePrefix))
+      text += fmt::format("breaks    {} by {:.3g} % of its limit\n", name, 100 * value);
   if (!evaluation.responses.empty()) text += "\nresponses\n";
   for (const std::string& name : optimizer::response_names()) {
     const auto value = evaluation.responses.find(name);
@@ -183,8 +187,22 @@ void refuse_automatic(const SolverChoice& solver) {
 }  // namespace
 
 int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
-  Study study = load_study(options.study, overrides(options.set, options.solver));
-  for (const std::string& warning : warnings(study)) streams.err << options.study << ": warning: " << warning << "\n";
+  Teller teller(streams.err, options.tell);
+  std::vector<std::string> set = options.set;
+  std::optional<DakotaQuestion> dakota;
+  if (!options.dakota.empty()) {
+    dakota = read_dakota(options.dakota.front());
+    check_replaceable(options.dakota.back());
+    set.insert(set.end(), dakota->set.begin(), dakota->set.end());
+    // Dakota takes it as a design that failed, and nothing needs to be computed.
+    if (dakota->asks_for_derivatives()) {
+      replace_file(options.dakota.back(), dakota_results(*dakota, {}));
+      return not_converged(options.dakota.front(), "derivatives are asked for, and there are none", streams);
+    }
+  }
+  Study study = load_study(study_or_best(options.study, &teller.remark()), overrides(set, options.solver));
+  for (const std::string& warning : warnings(study))
+    teller.remark() << options.study << ": warning: " << warning << "\n";
   if (study.scene.solver.accuracy > 0) refuse_automatic(options.solver);
   const Study asked = study;
   const optimizer::Stage until = options.unworn ? optimizer::Stage::unworn : optimizer::Stage::worn_resonance;
@@ -192,13 +210,14 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
       study.scene.solver.accuracy > 0 ? accuracy_goal(study, until) : truncation_goal(study, options.solver, until);
   if (goal) goal->many = false;
   if (asked.scene.solver.accuracy > 0 && !goal)
-    streams.err
+    teller.remark()
         << options.study
         << ": warning: solver.accuracy chooses nothing here: with --unworn none of the responses that objective "
            "and constraints name is computed\n";
+  if (goal) teller.begin("choosing settings");
   const std::optional<optimizer::SettingsChoice> choice =
       settle(study, goal, [&](const optimizer::SettingsTried& tried) {
-        streams.err << "dovetail: " << round_words(asked, tried) << "\n";
+        teller.remark() << "dovetail: " << round_words(asked, tried) << "\n";
         return true;
       });
   const optimizer::Purpose purpose{
@@ -206,6 +225,8 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
   const std::vector<optimizer::MissionCases> missions =
       options.unworn ? std::vector<optimizer::MissionCases>() : study_missions(study, true);
   const auto computed = [&] {
+    const double work = optimizer::work_foreseen(study.scene.kind->in_space).bars;
+    teller.begin("computing the design", teller.shows() ? (purpose.bars ? work : 1) * expected_cost(study).seconds : 0);
     const auto evaluator = scene_evaluator(study);
     return optimizer::evaluated_in_cases(
         study.problem.cases, study.scene,
@@ -219,6 +240,7 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
   const bool one_case = study.problem.cases.empty() && missions.empty();
   optimizer::Evaluation evaluation =
       choice && one_case && answers(*choice, *goal, purpose) ? choice->evaluation : computed();
+  teller.end();
   if (choice) optimizer::raise_bars(choice->raised, evaluation);
   std::string inaccurate = choice ? accuracy_complaint(asked, *choice) : std::string();
   // A history may end elsewhere than where the rounds were; where bars were not asked for the rounds have some.
@@ -229,7 +251,7 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
   if (!held.reached) inaccurate = held.words;
   if (choice)
     for (const std::string& words : {taken_words(asked, *choice), digit_words(*choice)})
-      if (!words.empty()) streams.err << "dovetail: " << words << "\n";
+      if (!words.empty()) teller.remark() << "dovetail: " << words << "\n";
   if (!inaccurate.empty() && !evaluation.infeasible()) evaluation.messages.push_back(inaccurate);
   const std::optional<optimizer::Dominant> whole =
       choice && !goal->of_truncation ? whole_bar(*goal, evaluation, purpose.history) : std::nullopt;
@@ -248,9 +270,10 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
                              {"relative_bar", whole->relative},
                              {"asked", whole->asked}};
   deliver_json(options.json, evaluation_json(evaluation, choice ? &accuracy : nullptr), streams);
+  if (dakota) replace_file(options.dakota.back(), dakota_results(*dakota, evaluation));
   if (options.json != "-") streams.out << evaluation_table(evaluation) << case_table(study.problem, evaluation);
   if (evaluation.infeasible()) throw infeasible(options.study, evaluation.messages);
-  for (const std::string& message : evaluation.messages) streams.err << "dovetail: " << message << "\n";
+  for (const std::string& message : evaluation.messages) teller.remark() << "dovetail: " << message << "\n";
   if (evaluation.converged())
     return choice && (choice->status != Status::converged || !held.reached) ? kNotConverged : kDone;
   const auto ends_in = [&](auto why) { return evaluation.status.ends_with(to_string(why)); };

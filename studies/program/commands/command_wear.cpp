@@ -1,14 +1,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <optional>
 #include <ostream>
 #include <utility>
 
 #include "studies/program/answers/json.hpp"
+#include "studies/program/answers/teller.hpp"
 #include "studies/program/commands/commands.hpp"
-#include "studies/program/commands/progress.hpp"
 #include "studies/program/engine/engine.hpp"
 #include "studies/program/engine/interrupt.hpp"
 #include "studies/program/engine/truncation_choice.hpp"
@@ -150,11 +151,16 @@ struct WearResult {
   std::optional<WearBand> band = {};
 };
 
-WearResult computed(const WearOptions& options, const LoadedModel& loaded, WearStart at, const wear::Watcher& watcher) {
+/// Worn states that a spread computes, about: it foresees its time.
+constexpr double kMembers = 12;
+
+WearResult computed(const WearOptions& options, const LoadedModel& loaded, WearStart at, const wear::Watcher& watcher,
+                    Teller& teller) {
   WearResult result{.question = {.frequency_hz = at.hz, .follow = *options.follow, .settings = loaded.joint.options},
                     .answer = {}};
   WearQuestion& question = result.question;
   WearAnswer& answer = result.answer;
+  const auto begin = std::chrono::steady_clock::now();
   if (options.follow == Drive::band) {
     result.band = wear_band(options, loaded, watcher);
     answer = result.band->answer;
@@ -165,8 +171,12 @@ WearResult computed(const WearOptions& options, const LoadedModel& loaded, WearS
   }
   if (answer.history && options.curves.value_or(0) > 0)
     answer.curves = worn_curves(options, loaded, *answer.history, watcher);
-  if (options.error_bars) question.bars = worn_bars(options, loaded, at, answer, watcher);
-  if (options.spread) question.spread = worn_spread(options, loaded, at, answer, watcher);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const wear::Watcher quietly{.stop = watcher.stop, .progress = {}};
+  if (options.error_bars) teller.begin("error bars");
+  if (options.error_bars) question.bars = worn_bars(options, loaded, at, answer, quietly);
+  if (options.spread) teller.begin("the spread", kMembers * seconds);
+  if (options.spread) question.spread = worn_spread(options, loaded, at, answer, quietly);
   return result;
 }
 
@@ -192,7 +202,9 @@ void present(const WearOptions& options, WearResult& result, const Streams& stre
 int run_wear(const WearOptions& given, const Streams& streams) {
   std::optional<wear::Follow> follow;
   if (given.follow) follow = given.follow == Drive::resonance ? wear::Follow::resonance : wear::Follow::fixed;
-  LoadedModel loaded = load_model(given.input, given.set, given.solver, &streams.err, follow);
+  Teller teller(streams.err, given.tell);
+  teller.begin("the reduced model");
+  LoadedModel loaded = load_model(given.input, given.set, given.solver, &teller.remark(), follow);
   const WearOptions options = with_choices(given, loaded);
   const auto failed = [&](const std::string& why) { return not_converged(options.input, why, streams); };
   const auto stateless = [&](Status status, const std::string& why, int solves) {
@@ -203,6 +215,7 @@ int run_wear(const WearOptions& given, const Streams& streams) {
   };
   if (!loaded.failure.empty()) return stateless(Status::iteration_limit, loaded.failure, 0);
   check_model(options, loaded);
+  teller.begin("the unworn resonance");
   WearStart at = begin(options, loaded);
   std::optional<Status> automatic;
   if (at.found() && options.solver.automatic()) {
@@ -215,19 +228,18 @@ int run_wear(const WearOptions& given, const Streams& streams) {
                      at.resonance->solves);
 
   const OrderlyInterrupt interrupt;
-  const bool terminal = error_is_terminal();
   wear::Watcher watcher{.stop = [&] { return interrupt.requested(); }};
-  if (terminal)
-    watcher.progress = [&](int step, double volume, double rate) {
-      streams.err << fmt::format("\r\033[Kstep {}, worn volume {:.4g} m^3, largest rate {:.3g} m per cycle", step,
-                                 volume, rate)
-                  << std::flush;
-    };
-  WearResult result = computed(options, loaded, at, watcher);
-  if (terminal) streams.err << "\r\033[K" << std::flush;
+  watcher.progress = [&](int step, double volume, double rate) {
+    const std::string words =
+        fmt::format("step {}, worn volume {:.4g} m^3, largest rate {:.3g} m per cycle", step, volume, rate);
+    teller.status([words](double) { return words; }, "the step of the history at hand");
+  };
+  teller.begin("the worn state");
+  WearResult result = computed(options, loaded, at, watcher, teller);
+  teller.end();
   if (automatic) result.question.automatic = WearQuestion::Automatic{*automatic, accuracy(options.solver)};
   present(options, result, streams);
-  if (interrupt.requested()) return kInterrupted;
+  if (interrupt.requested()) return interrupted("the states found so far", streams);
   if (const int end = verdict(options.input, result.question, result.answer, streams); end != kDone) return end;
   if (automatic && *automatic != Status::converged)
     return failed(truncation_complaint(*automatic, loaded.joint.options, options.solver));

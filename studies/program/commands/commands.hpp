@@ -13,8 +13,10 @@
 #include "studies/program/commands/option.hpp"
 #include "studies/program/engine/run_engine.hpp"
 #include "studies/program/questions/analysis_choice.hpp"
+#include "studies/program/questions/tell_choice.hpp"
 #include "studies/program/questions/wear_options.hpp"
 #include "studies/program/study_file/study.hpp"
+#include "studies/program/study_file/study_template.hpp"
 
 namespace dovetail::studies {
 
@@ -42,6 +44,7 @@ int run_check(const CheckOptions& options, const Streams& streams);
 
 struct NewOptions {
   std::string file;
+  Template kind = Template::section;
 };
 int run_new(const NewOptions& options, const Streams& streams);
 
@@ -56,6 +59,8 @@ struct EvaluateOptions {
   SolverChoice solver;
   std::string json;  ///< file, "-" for standard output, empty for a table on standard output
   bool no_bars = false, no_history = false, unworn = false;
+  std::vector<std::string> dakota = {};  ///< its parameters file, and the results file it reads
+  TellChoice tell = {};
 };
 int run_evaluate(const EvaluateOptions& options, const Streams& streams);
 
@@ -75,6 +80,7 @@ struct ResponseOptions {
   bool arclength = false;
   AnalysisChoice choice;
   std::string json;
+  TellChoice tell = {};
 };
 int run_response(const ResponseOptions& options, const Streams& streams);
 
@@ -101,6 +107,7 @@ struct BackboneOptions {
   std::string output;                  ///< empty: the first
   std::optional<double> frequency_hz;  ///< where the first resonance is searched
   std::string json;
+  TellChoice tell = {};
 };
 int run_backbone(const BackboneOptions& options, const Streams& streams);
 
@@ -108,11 +115,13 @@ int run_wear(const WearOptions& options, const Streams& streams);
 
 struct RunOptions {
   std::string study;
-  std::string directory;  ///< empty: results/NAME
+  std::vector<std::string> set = {};  ///< KEY=VALUE, as given with --set
+  std::string directory;              ///< empty: results/NAME
   bool resume = false;
   std::optional<int> jobs = {};  ///< processes that work at once; absent: one for each core, as far as memory goes
   double patience = 3600;        ///< s; one that takes longer for a candidate is given up
   std::string part = {};         ///< "K/N": start and the K-th of N parts of the scan alone; empty: the whole run
+  TellChoice tell = {};
 };
 /// Makes others who work on the pieces of a run; null: the run does them itself.
 using PoolFactory =
@@ -122,6 +131,39 @@ using PoolFactory =
                                                                const optimizer::WorkerFactory& factory);
 int run_study(const RunOptions& options, const Streams& streams, const RunEngineFactory& engine,
               const PoolFactory& pools = processes);
+
+struct RunsOptions {
+  std::vector<std::string> directories;
+  std::string csv, json;  ///< files, "-" for standard output
+};
+int run_runs(const RunsOptions& options, const Streams& streams);
+
+struct ServeOptions {
+  std::string study;
+  std::vector<std::string> set;  ///< KEY=VALUE, as given with --set
+  int port = 4242;               ///< 0: one that is free
+  std::string host = "127.0.0.1";
+};
+int run_serve(const ServeOptions& options, const Streams& streams);
+
+/// What a schema is of.
+enum class SchemaOf { study, evaluate };
+constexpr EnumNames<SchemaOf, 2> enum_names(SchemaOf) {
+  return {{{SchemaOf::study, "study"}, {SchemaOf::evaluate, "evaluate"}}};
+}
+struct SchemaOptions {
+  SchemaOf of = SchemaOf::study;
+};
+int run_schema(const SchemaOptions& options, const Streams& streams);
+
+/// What the command line is written down as.
+enum class ShellFile { bash, zsh, man };
+constexpr EnumNames<ShellFile, 3> enum_names(ShellFile) {
+  return {{{ShellFile::bash, "bash"}, {ShellFile::zsh, "zsh"}, {ShellFile::man, "man"}}};
+}
+struct CompletionOptions {
+  ShellFile file = ShellFile::bash;
+};
 
 /// The format of the command export that writes a reduced model, not a drawing.
 inline constexpr std::string_view kMatrixMarket = "matrix-market";
@@ -199,6 +241,14 @@ std::span<const Option<WearOptions>> command_options<WearOptions>();
 template <>
 std::span<const Option<RunOptions>> command_options<RunOptions>();
 template <>
+std::span<const Option<ServeOptions>> command_options<ServeOptions>();
+template <>
+std::span<const Option<SchemaOptions>> command_options<SchemaOptions>();
+template <>
+std::span<const Option<CompletionOptions>> command_options<CompletionOptions>();
+template <>
+std::span<const Option<RunsOptions>> command_options<RunsOptions>();
+template <>
 std::span<const Option<ImportOptions>> command_options<ImportOptions>();
 template <>
 std::span<const Option<ExportOptions>> command_options<ExportOptions>();
@@ -209,12 +259,17 @@ std::span<const Option<MergeOptions>> command_options<MergeOptions>();
 template <>
 std::span<const Option<SolverChoice>> command_options<SolverChoice>();
 template <>
+std::span<const Option<TellChoice>> command_options<TellChoice>();
+template <>
 std::span<const Option<AnalysisChoice>> command_options<AnalysisChoice>();
 template <>
 std::span<const Option<DeckOptions>> command_options<DeckOptions>();
 
 /// Writes a command's JSON to where --json says: nowhere when empty, `out` for "-", else a file. Throws InputError.
 void deliver_json(const std::string& where, const std::string& text, const Streams& streams);
+
+/// Says on the error stream what of an answer is written where Ctrl-C ended it. @return the exit status for it
+int interrupted(const std::string& kept, const Streams& streams);
 
 /// Says that of `input` on the error stream. @return the exit status for it
 int not_converged(const std::string& input, const std::string& what, const Streams& streams);

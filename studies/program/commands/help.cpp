@@ -154,6 +154,37 @@ CommandHelp export_files() {
           "bit."};
 }
 
+CommandHelp runs() {
+  return {.name = "runs",
+          .what = "List and compare runs: status, evaluations, objective and best values",
+          .footer =
+              "A run that has no results yet counts as far as its journal goes. JSON: [{\"directory\", \"name\", "
+              "\"status\",\n\"evaluations\", \"feasible\", \"failed\", \"best\", \"objective\", \"start\", "
+              "\"variables\", \"responses\", \"seconds\"}];\nvariables and responses are those of the best design, "
+              "null what is not known."};
+}
+
+CommandHelp serve() {
+  return {.name = "serve",
+          .what = "Serve a study as a model over HTTP (UM-Bridge protocol 1.0)",
+          .footer =
+              "POST /Evaluate takes the design variables in their order and the units of the file, and gives the "
+              "responses\n"
+              "that objective and limits name, SI; /ModelInfo names both."};
+}
+
+CommandHelp schema() {
+  return {.name = "schema", .what = "Write the JSON Schema of study files, or of the JSON of evaluate"};
+}
+
+CommandHelp completion() {
+  return {.name = "completion",
+          .what = "Write what completes the command line in bash or zsh, or the manual page",
+          .footer =
+              "bash: source <(dovetail completion bash)   zsh: dovetail completion zsh > a folder of $fpath/_dovetail\n"
+              "`cmake --install` puts all three where they belong."};
+}
+
 CommandHelp merge() {
   return {.name = "merge",
           .what = "Put the evaluations of several runs of one study together",

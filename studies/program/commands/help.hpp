@@ -38,6 +38,10 @@ inline constexpr const char* kFooter =
 [[nodiscard]] CommandHelp wear();
 [[nodiscard]] CommandHelp import_model();
 [[nodiscard]] CommandHelp export_files();
+[[nodiscard]] CommandHelp runs();
+[[nodiscard]] CommandHelp serve();
+[[nodiscard]] CommandHelp schema();
+[[nodiscard]] CommandHelp completion();
 [[nodiscard]] CommandHelp merge();
 [[nodiscard]] CommandHelp report();
 

@@ -39,6 +39,7 @@ struct Option {
   Range range = kAnyNumber;                    ///< numbers only
   std::vector<std::string_view> choices = {};  ///< texts only; empty: anything. Of an enumeration: its names
   std::vector<Meaning> meaning = {};
+  int values = 1;  ///< that follow a list's name, as often as it is given
 };
 
 /// Specialise for each options struct: `template <> std::span<const Option<X>> command_options<X>();`
@@ -53,6 +54,7 @@ void visit_options(Options& options, const Visit& visit) {
   if constexpr (requires { options.choice; }) group(options.choice);
   if constexpr (requires { options.deck; }) group(options.deck);
   if constexpr (requires { options.solver; }) group(options.solver);
+  if constexpr (requires { options.tell; }) group(options.tell);
 }
 
 /// Value of every option that is given or has a default, as text; of flags and lists the empty text.

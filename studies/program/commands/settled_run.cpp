@@ -13,8 +13,10 @@
 #include <ostream>
 
 #include "core/replace_file.hpp"
+#include "optimizer/evaluation_cost.hpp"
 #include "optimizer/journal/fingerprint.hpp"
 #include "optimizer/responses/response_table.hpp"
+#include "optimizer/scene/scene_kind.hpp"
 #include "studies/program/answers/accuracy_json.hpp"
 #include "studies/program/answers/run_output.hpp"
 #include "studies/program/answers/version.hpp"
@@ -119,13 +121,14 @@ std::optional<Chosen> kept(const std::filesystem::path& file, const std::string&
 /// @param stop  set: the choice ends after the round at hand
 std::optional<optimizer::SettingsChoice> choose(const Study& there, const char* where, bool many,
                                                 const optimizer::AccuracyMemory& rounds, const std::atomic<bool>* stop,
-                                                std::ostream& err, Chosen& result) {
+                                                Teller& teller, Chosen& result) {
   Study settled = there;
+  if (there.scene.solver.accuracy > 0) teller.begin(std::string("choosing settings at ") + where);
   const auto stopped = [stop] { return stop != nullptr && stop->load(); };
   std::optional<optimizer::AccuracyGoal> goal = accuracy_goal(settled);
   if (goal) goal->many = many;
   const auto tell = [&](const optimizer::SettingsTried& tried) {
-    err << "dovetail: " << round_words(there, tried) << "\n";
+    teller.remark() << "dovetail: " << round_words(there, tried) << "\n";
     return !stopped();
   };
   std::optional<optimizer::SettingsChoice> choice = settle(settled, goal, tell, rounds);
@@ -136,7 +139,7 @@ std::optional<optimizer::SettingsChoice> choose(const Study& there, const char* 
   result.accuracy["at"] = where;
   for (const std::string& words :
        {taken_words(there, *choice), accuracy_complaint(there, *choice), digit_words(*choice)})
-    if (!words.empty()) err << "dovetail: " << words << "\n";
+    if (!words.empty()) teller.remark() << "dovetail: " << words << "\n";
   return choice;
 }
 
@@ -168,26 +171,33 @@ Study with_chosen(const Study& study, const Chosen& chosen, const std::filesyste
   return result;
 }
 
-Chosen chosen(const Study& asked, KeptRounds& rounds, const RunEngineFactory& make_engine, std::ostream& err) {
+Chosen chosen(const Study& asked, KeptRounds& rounds, const RunEngineFactory& make_engine, Teller& teller) {
   Chosen result{.settings = {}, .noise = asked.optimizer.noise};
   Study at_start = asked;
   at_start.scene = start_scene(asked);
   const char* where = kStart;
-  std::optional<optimizer::SettingsChoice> choice = choose(at_start, where, true, rounds.at(0), nullptr, err, result);
+  std::optional<optimizer::SettingsChoice> choice =
+      choose(at_start, where, true, rounds.at(0), nullptr, teller, result);
   if (choice && !choice->tried.by && asked.problem.space.size() > 0) {
     where = kMiddle;
-    err << "dovetail: settings from " << where << " instead\n";
+    teller.remark() << "dovetail: settings from " << where << " instead\n";
     at_start.scene = reference_scene(asked);
-    choice = choose(at_start, where, true, rounds.at(1), nullptr, err, result);
+    choice = choose(at_start, where, true, rounds.at(1), nullptr, teller, result);
     if (!choice->tried.by) where = kStart;
   }
   if (asked.optimizer.noise > 0) return result;
   const RunEngine engine = choice && choice->tried.by ? RunEngine{} : make_engine(asked);
   if (!engine.start && !choice) return result;
+  if (engine.start) {
+    const optimizer::Cost cost = expected_cost(at_start);
+    teller.begin("computing the start with its error bars",
+                 cost.seconds * optimizer::work_foreseen(asked.scene.kind->in_space).bars);
+  }
   const std::optional<double> noise = noise_of(asked, engine.start ? engine.start() : choice->evaluation);
   result.noise = noise.value_or(optimizer::NoiseParams{}.unknown_bar);
-  err << fmt::format("dovetail: noise of the objective{}{}: {:.2g}\n",
-                     noise ? ", from its error bar at " : ", which has no error bar at ", where, result.noise);
+  teller.remark() << fmt::format("dovetail: noise of the objective{}{}: {:.2g}\n",
+                                 noise ? ", from its error bar at " : ", which has no error bar at ", where,
+                                 result.noise);
   return result;
 }
 
@@ -227,7 +237,7 @@ std::string question_of(const Study& study) {
 }  // namespace
 
 SettledStudy settled_run(const Study& asked, const std::filesystem::path& directory, bool resume,
-                         const RunEngineFactory& make_engine, std::ostream& err) {
+                         const RunEngineFactory& make_engine, Teller& teller) {
   const bool chooses = asked.scene.solver.accuracy > 0;
   if (!chooses && asked.optimizer.noise > 0) return {.study = asked};
   const std::string question = question_of(asked);
@@ -241,7 +251,7 @@ SettledStudy settled_run(const Study& asked, const std::filesystem::path& direct
                                           "hand: resume that one, or begin anew without --resume"});
   if (!settled) {
     KeptRounds rounds(directory / kRounds, question);
-    settled = chosen(asked, rounds, make_engine, err);
+    settled = chosen(asked, rounds, make_engine, teller);
     keep(file, question, *settled);
     rounds.forget();
   }
@@ -278,7 +288,7 @@ std::map<std::string, std::string> chosen_settings(const Study& asked, const Set
 
 SettledStudy settled_best(const Study& asked, const Study& searched, const optimizer::Candidate& best,
                           const std::filesystem::path& directory, bool resume, const OrderlyInterrupt& interrupt,
-                          std::ostream& err) {
+                          Teller& teller) {
   if (asked.optimizer.verify_accuracy == 0) return {.study = searched};
   Study there = searched;
   there.given = asked.given;
@@ -287,10 +297,10 @@ SettledStudy settled_best(const Study& asked, const Study& searched, const optim
   const std::filesystem::path file = directory / kBestFile;
   std::optional<Chosen> settled = resume ? kept(file, question) : std::nullopt;
   if (!settled) {
-    err << "dovetail: settings for the best design\n";
+    teller.remark() << "dovetail: settings for the best design\n";
     settled = Chosen{.settings = {}, .noise = searched.optimizer.noise};
     KeptRounds rounds(directory / kBestRounds, question);
-    choose(verified(there), kBest, false, rounds.at(0), &interrupt.flag(), err, *settled);
+    choose(verified(there), kBest, false, rounds.at(0), &interrupt.flag(), teller, *settled);
     if (interrupt.requested()) return {.study = searched};
     keep(file, question, *settled);
     rounds.forget();

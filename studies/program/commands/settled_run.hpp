@@ -1,13 +1,13 @@
 #pragma once
 
 #include <filesystem>
-#include <iosfwd>
 #include <map>
 #include <optional>
 #include <string>
 
 #include "optimizer/accuracy/choice.hpp"
 #include "optimizer/search/run.hpp"
+#include "studies/program/answers/teller.hpp"
 #include "studies/program/engine/interrupt.hpp"
 #include "studies/program/engine/run_engine.hpp"
 #include "studies/program/study_file/study.hpp"
@@ -25,14 +25,14 @@ struct SettledStudy {
 /// accuracy it asks for, and the noise of its responses, both of the start. Kept in settings.json of the directory, and
 /// with `resume` taken from there when the same was asked for.
 [[nodiscard]] SettledStudy settled_run(const Study& asked, const std::filesystem::path& directory, bool resume,
-                                       const RunEngineFactory& make_engine, std::ostream& err);
+                                       const RunEngineFactory& make_engine, Teller& teller);
 
 /// The study that was searched with settings for `[optimizer] verify_accuracy` at its best design, where that is asked
 /// for. Kept in best_settings.json and resumed as above; as it was searched when interrupted on the way.
 /// @param asked  the study as its file has it: what stands there stays
 [[nodiscard]] SettledStudy settled_best(const Study& asked, const Study& searched, const optimizer::Candidate& best,
                                         const std::filesystem::path& directory, bool resume,
-                                        const OrderlyInterrupt& interrupt, std::ostream& err);
+                                        const OrderlyInterrupt& interrupt, Teller& teller);
 
 /// The accuracy that is asked of what is handed over; nothing where none is.
 [[nodiscard]] std::optional<optimizer::AccuracyGoal> goal_at_best(const Study& asked);

@@ -37,7 +37,10 @@ std::span<const Option<MaterialsOptions>> command_options<MaterialsOptions>() {
 template <>
 std::span<const Option<NewOptions>> command_options<NewOptions>() {
   static const std::vector<Option<NewOptions>> table{
-      {"FILE", &NewOptions::file, {}, "The study file to write (TOML); must not exist", true}};
+      {"FILE", &NewOptions::file, {}, "The study file to write (TOML); must not exist", true},
+      {"--template", &NewOptions::kind, "NAME",
+       "What to start from: a plane section (the default), a sector in space, a robust design of several loads and "
+       "uncertain numbers, or a front of two objectives"}};
   return table;
 }
 
@@ -54,7 +57,14 @@ std::span<const Option<EvaluateOptions>> command_options<EvaluateOptions>() {
        "direct method finds none"},
       {"--unworn", &E::unworn, {}, "Responses of the joint before it wears, and limits on them, without error bars"},
       set_option<E>(),
-      json_option<E>()};
+      json_option<E>(),
+      {.name = "--dakota",
+       .member = &E::dakota,
+       .type = "PARAMETERS RESULTS",
+       .help =
+           "Compute the design of a Dakota parameters file, and write what it asks for to its results file: variables "
+           "are keys of the study, functions responses",
+       .values = 2}};
   return table;
 }
 
@@ -71,6 +81,7 @@ std::span<const Option<RunOptions>> command_options<RunOptions>() {
   using R = RunOptions;
   static const std::vector<Option<R>> table{
       study_option<R>(),
+      set_option<R>(),
       {"-o,--output", &R::directory, "DIR", "Directory of the results (default: results/NAME)"},
       {"--resume", &R::resume, {}, "Continue the run stored in the directory"},
       {"--jobs",
@@ -83,6 +94,15 @@ std::span<const Option<RunOptions>> command_options<RunOptions>() {
        false, kPositive},
       {"--part", &R::part, "K/N",
        "Start and the K-th of N parts of the scan alone; `dovetail merge` puts the parts together"}};
+  return table;
+}
+
+template <>
+std::span<const Option<TellChoice>> command_options<TellChoice>() {
+  using T = TellChoice;
+  static const std::vector<Option<T>> table{
+      {"--quiet", &T::quiet, {}, "Errors alone on standard error: no progress, warnings or remarks"},
+      {"--json-log", &T::log, "FILE", "Write what happens to FILE as it does, a JSON object a line"}};
   return table;
 }
 
@@ -131,6 +151,42 @@ std::span<const Option<MergeOptions>> command_options<MergeOptions>() {
   static const std::vector<Option<M>> table{
       {"DIR", &M::directories, {}, "Directories of runs of one study", true},
       {"-o,--output", &M::directory, "DIR", "Directory of the merged run, which is new", true}};
+  return table;
+}
+
+template <>
+std::span<const Option<ServeOptions>> command_options<ServeOptions>() {
+  using S = ServeOptions;
+  static const std::vector<Option<S>> table{
+      study_option<S>(),
+      set_option<S>(),
+      {"--port", &S::port, "P", "The port (default 4242); 0: one that is free", false, {.lower = 0, .upper = 65535}},
+      {"--host", &S::host, "ADDRESS", "Where it is heard (default 127.0.0.1: on this machine alone)"}};
+  return table;
+}
+
+template <>
+std::span<const Option<SchemaOptions>> command_options<SchemaOptions>() {
+  static const std::vector<Option<SchemaOptions>> table{
+      {"OF", &SchemaOptions::of, {}, "Of a study file, or of the JSON of evaluate", true}};
+  return table;
+}
+
+template <>
+std::span<const Option<CompletionOptions>> command_options<CompletionOptions>() {
+  static const std::vector<Option<CompletionOptions>> table{
+      {"FILE", &CompletionOptions::file, {}, "What completes in a shell, or the manual page", true}};
+  return table;
+}
+
+template <>
+std::span<const Option<RunsOptions>> command_options<RunsOptions>() {
+  using R = RunsOptions;
+  static const std::vector<Option<R>> table{
+      {"DIR", &R::directories, {}, "Directories of runs, or directories that hold some", true},
+      {"--csv", &R::csv, "FILE",
+       "Write the table to FILE with all variables and responses of the best designs; - is standard output"},
+      json_option<R>()};
   return table;
 }
 

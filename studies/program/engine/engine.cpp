@@ -18,6 +18,7 @@
 #include "quality/truncation.hpp"
 #include "reduction/model_file.hpp"
 #include "studies/program/engine/model_toml.hpp"
+#include "studies/program/engine/run_folder.hpp"
 #include "studies/program/study_file/refusal.hpp"
 #include "studies/program/study_file/section_reader.hpp"
 #include "studies/report/record/design_record.hpp"
@@ -204,6 +205,17 @@ RunEngine study_engine(const Study& study) {
   return engine;
 }
 
+optimizer::Cost expected_cost(const Study& study) {
+  try {
+    const Scene scene = optimizer::in_first_case(study.scene, study.problem.cases);
+    optimizer::Cost cost = optimizer::cost_foreseen(optimizer::sizes_foreseen(reference_scene(study), scene));
+    cost.seconds *= static_cast<double>(std::max<std::size_t>(study.problem.cases.size(), 1));
+    return cost;
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
 report::DesignRecord describe_fields(const Study& study, bool history) {
   report::DesignRecordOptions options{.curve_points = 0, .nodal_diameter_modes = 0, .history_profiles = 16};
   if (!history) options.history_steps = 0;
@@ -242,6 +254,13 @@ std::vector<Override> overrides(const std::vector<std::string>& set, const Solve
   }
   refuse(std::move(found));
   return result;
+}
+
+std::vector<std::string> broken_rules(const Scene& scene) {
+  std::vector<std::string> sentences;
+  for (const geometry::Rule& rule : optimizer::feasibility_of(scene).rules)
+    if (rule.margin < 0) sentences.push_back(rule.sentence);
+  return sentences;
 }
 
 InputError infeasible(const std::string& file, const std::vector<std::string>& messages) {
@@ -341,6 +360,7 @@ LoadedModel load_model(Study study, std::ostream* err, std::optional<wear::Follo
   loaded.history_tolerance = study.scene.solver.history_tolerance;
   if (!candidate.converged()) {
     loaded.failure = candidate.status;
+    if (!candidate.messages.empty()) loaded.failure += ": " + candidate.messages.back();
     return loaded;
   }
   // The same contact nodes as an evaluation has, so that whatever is computed is of one model.
@@ -356,8 +376,9 @@ LoadedModel load_model(Study study, std::ostream* err, std::optional<wear::Follo
   return loaded;
 }
 
-LoadedModel load_model(const std::string& input, const std::vector<std::string>& set, const SolverChoice& solver,
+LoadedModel load_model(const std::string& given, const std::vector<std::string>& set, const SolverChoice& solver,
                        std::ostream* err, std::optional<wear::Follow> follow) {
+  const std::string input = study_or_best(given, err);
   if (is_hdf5_file(input)) {
     const steady::Options steady = model_options(input, set, solver);
     return from_model(input, reduction::read_model(input), steady, solver);

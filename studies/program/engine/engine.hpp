@@ -11,6 +11,7 @@
 
 #include "dynamics/condensed_model.hpp"
 #include "optimizer/cases.hpp"
+#include "optimizer/evaluation_cost.hpp"
 #include "optimizer/evaluator.hpp"
 #include "reduction/reduced_model.hpp"
 #include "steady/options.hpp"
@@ -43,6 +44,9 @@ inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();  //
 /// be meshed. Throws InputError when neither can.
 [[nodiscard]] std::shared_ptr<const optimizer::SceneEvaluator> scene_evaluator(const Study& study);
 
+/// What an evaluation of the study's design without bars takes, in all its cases; zero where it cannot be meshed.
+[[nodiscard]] optimizer::Cost expected_cost(const Study& study);
+
 /// The study's design, in its first case, with its fields and without curves.
 /// @param history  with its wear history, of which up to 16 states are kept
 [[nodiscard]] report::DesignRecord describe_fields(const Study& study, bool history = false);
@@ -66,9 +70,10 @@ struct LoadedModel {
 [[nodiscard]] std::optional<reduction::ReducedModel> read_any_model(const std::string& input);
 
 /// Throws InputError for wrong input and for a study whose geometry is infeasible.
+/// @param given   a model, a study, or the directory of a run: its best design
 /// @param err     hears what of a study does not count here; null: nobody does
 /// @param follow  what drives the wear, where it is not what the study says: contact nodes end where its zones end
-[[nodiscard]] LoadedModel load_model(const std::string& input, const std::vector<std::string>& set,
+[[nodiscard]] LoadedModel load_model(const std::string& given, const std::vector<std::string>& set,
                                      const SolverChoice& solver, std::ostream* err = nullptr,
                                      std::optional<wear::Follow> follow = {});
 
@@ -78,6 +83,9 @@ struct LoadedModel {
 /// Those given with --set, and the solver's options as overrides of the keys of [solver]. Throws InputError with all
 /// that are not KEY=VALUE, and for numbers that are neither whole nor auto.
 [[nodiscard]] std::vector<Override> overrides(const std::vector<std::string>& set, const SolverChoice& solver = {});
+
+/// The sentences of the geometric rules that a design breaks.
+[[nodiscard]] std::vector<std::string> broken_rules(const optimizer::Scene& scene);
 
 /// The broken rules of an infeasible candidate as input errors of that file.
 [[nodiscard]] InputError infeasible(const std::string& file, const std::vector<std::string>& messages);

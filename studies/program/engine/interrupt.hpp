@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <string>
 
 namespace dovetail::studies {
 
@@ -19,6 +20,10 @@ class OrderlyInterrupt {
   [[nodiscard]] const std::atomic<bool>& flag() const;
   [[nodiscard]] bool requested() const { return flag().load(); }
 };
+
+/// What the handler says from now on, on standard error: where the first Ctrl-C only asks, what is finished; where the
+/// process ends, what of its work is kept. Not from a handler.
+void say_when_interrupted(const std::string& under_way, const std::string& kept);
 
 /// Handles SIGINT and SIGTERM of this process from now on. One that ends the process removes the file being written.
 void install_interrupt_handler();

@@ -7,6 +7,7 @@
 
 #include "core/enum_names.hpp"
 #include "studies/program/questions/solver_choice.hpp"
+#include "studies/program/questions/tell_choice.hpp"
 #include "wear/follow.hpp"
 #include "wear/history/history.hpp"
 
@@ -67,6 +68,7 @@ struct WearOptions {
   bool error_bars = false;
   bool spread = false;
   std::string json;
+  TellChoice tell = {};
 };
 
 }  // namespace dovetail::studies

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
 
 #include "studies/program/study_file/study.hpp"
@@ -12,5 +13,9 @@ namespace dovetail::studies {
 /// section. A file whose layout does not allow that (inline tables) is written anew, without its comments.
 /// Reading the result gives exactly these values.
 [[nodiscard]] std::string with_values(const Document& document, const std::map<std::string, double>& values);
+
+/// The study with what the command line says of it, as if its file said so: its text does, and a run that keeps it can
+/// be resumed, exported and looked up. Throws InputError for the overrides as load_study does.
+[[nodiscard]] Study load_rewritten_study(const std::string& file, std::span<const Override> overrides);
 
 }  // namespace dovetail::studies

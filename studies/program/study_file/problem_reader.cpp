@@ -47,10 +47,12 @@ std::string conflict_of_variable(const Node* root, const Parameter& parameter) {
   if (const Node* material = root ? root->at("material") : nullptr;
       material && material->kind == Node::Kind::text && is_prefix_section(key, "material"))
     return "cannot be varied beside material = " + material->shown() +
-           "; give [material.blade] with grade = " + material->shown() + " instead";
+           ", which is of both bodies; give [material.blade] and [material.disk] with grade = " + material->shown() +
+           " instead";
   if (is_prefix_section(key, "material.blade")) {
     const std::string disk = "material.disk." + key.substr(key.rfind('.') + 1);
-    if (!given(root, disk)) return "cannot be varied unless " + disk + " is given: the disk would follow the blade";
+    if (!given(root, disk) && !given(root, "material.disk.grade"))
+      return "cannot be varied unless " + disk + " is given: the disk would follow the blade";
   }
   if (is_prefix_section(key, "geometry") && key.find('.') == key.rfind('.'))
     for (const std::string& one : optimizer::flank_keys(key)) {

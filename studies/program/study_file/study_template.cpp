@@ -1,11 +1,13 @@
 #include "studies/program/study_file/study_template.hpp"
 
 #include <array>
+#include <string_view>
 #include <utility>
 
 #include "optimizer/problem/optimizer_options.hpp"
 #include "optimizer/responses/response_table.hpp"
 #include "optimizer/scene/scene.hpp"
+#include "optimizer/scene/scene_kind.hpp"
 #include "studies/program/study_file/export.hpp"
 
 namespace dovetail::studies {
@@ -62,8 +64,22 @@ std::string header(const std::string& section, const std::string& comment) {
   return "\n# " + comment + "\n[" + section + "]\n";
 }
 
-std::string scene_sections() {
+/// What differs from the defaults, which are those of a section.
+Scene scene_of(Template kind) {
   Scene scene;
+  if (kind != Template::sector) return scene;
+  // Those of a section would make some 400 000 unknowns.
+  scene.kind = &optimizer::kSector;
+  for (const auto& [key, value] :
+       {std::pair{"mesh.flank_elements", 8.0}, std::pair{"mesh.fillet_fraction", 0.5},
+        std::pair{"mesh.bulk_size_mm", 10.0}, std::pair{"mesh.aerofoil_elements", 10.0},
+        std::pair{"mesh.blend_fraction", 0.8}, std::pair{"mesh.growth", 0.4}, std::pair{"mesh.slot_elements", 8.0}})
+    optimizer::set_parameter(scene, key, value);
+  return scene;
+}
+
+std::string scene_sections(Template kind) {
+  Scene scene = scene_of(kind);
   scene.disk = scene.blade;
   const auto flanks = option_table<geometry::FlankParameters>();
   std::string text = header("scene", "What is modelled and how it vibrates.");
@@ -105,14 +121,14 @@ std::string response_list() {
   return text;
 }
 
-std::string problem_sections() {
-  return R"(
+constexpr std::string_view kVariables = R"(
 # What the optimiser may change: any real number above by its dotted key, between two bounds in the key's unit. It
 # starts from the value above, or from `start` if given.
 [[variable]]
 key = "geometry.flank_mismatch_um"
 lower = -5
 upper = 25
+# start = 0
 
 [[variable]]
 key = "geometry.flank_crown_um"
@@ -129,37 +145,102 @@ upper = 9.5
 # [[linked]]
 # key = "geometry.shank_width_mm"
 # value = "geometry_neck_width_mm + 2.5"
+)";
 
+constexpr std::string_view kCases = R"(
 # Several loads: what is different in each, by the dotted keys in quotes, and its share of the blade's life. Without
 # cases there is the one load above.
-# [[case]]
-# name = "cruise"
-# weight = 4
-# [[case]]
-# name = "climb"
-# "scene.speed_rpm" = 10500
-# "loading.tip_force_n" = 3
+[[case]]
+name = "cruise"
+weight = 4
 
+[[case]]
+name = "climb"
+"scene.speed_rpm" = 10500
+"loading.tip_force_n" = 3
+)";
+
+constexpr std::string_view kUncertain = R"(
+# What is not known for certain is looked at in samples of every case: a range (lower, upper), plus_minus in the key's
+# unit, or relative, a share of it; distribution = "normal" takes these two as its deviation.
+[[uncertain]]
+key = "contact.friction"
+lower = 0.4
+upper = 0.6
+
+[[uncertain]]
+key = "geometry.flank_mismatch_um"
+plus_minus = 3
+
+# Where: at all "corners" of the ranges and in the middle, at `points` of a "sobol" sequence or of "gauss" rules, or
+# nowhere ("nominal").
+[robust]
+rule = "corners"
+)";
+
+/// The lines, each a comment.
+std::string commented(std::string_view lines) {
+  std::string text;
+  bool begins = true, comment = false;
+  for (const char c : lines) {
+    if (begins) comment = c == '#' || c == '\n';
+    if (begins && !comment) text += "# ";
+    begins = c == '\n';
+    text += c;
+  }
+  return text;
+}
+
+constexpr std::string_view kObjectiveWords = R"(
 # What is wanted. One [[objective]] is minimised. Of several with a `weight` the sum of weight * response / scale is. Of
 # several without weight a front is found, the designs that no other beats in all of them; `reference` says beyond
 # which value of the response a design counts nothing for its hypervolume (if not given the worst feasible one of start
 # and scan). `aim` may be "min" (if not given), "max", "zero" or a number to come near to. Objectives and limits count the worst case unless they say
 # over = "mean", "sum" or the name of one.
 # The responses, SI units:
-)" + response_list() +
-         R"([[objective]]
+)";
+
+constexpr std::string_view kObjective = R"([[objective]]
 response = "asymptotic_wear_volume_m3"
 weight = 1
+# scale = 1e-9
+)";
 
-# What has to hold: an upper or a lower limit on a response, or both, in its SI unit.
+constexpr std::string_view kFront = R"([[objective]]
+response = "asymptotic_wear_volume_m3"
+reference = 1e-9
+
+[[objective]]
+response = "mass_kg"
+)";
+
+constexpr std::string_view kLimits = R"(
+# What has to hold: an upper or a lower limit on a response, or both, in its SI unit. How far it is broken counts over
+# the limit, or over `scale`, which a limit of 0 needs.
 [[constraint]]
 response = "contact_pressure_mean_pa"
 upper = 300e6
+# scale = 300e6
 
 [[constraint]]
 response = "post_width_m"
 lower = 4e-3
 )";
+
+std::string problem_sections(Template kind) {
+  const bool robust = kind == Template::robust;
+  std::string text(kVariables);
+  text += robust ? std::string(kCases) : commented(kCases);
+  if (robust) text += kUncertain;
+  text += std::string(kObjectiveWords) + response_list();
+  text += kind == Template::front ? kFront : kObjective;
+  return text.append(kLimits);
+}
+
+optimizer::OptimizerOptions optimizer_of(Template kind) {
+  optimizer::OptimizerOptions options;
+  if (kind == Template::front) options.algorithm = optimizer::Algorithm::nsga2;
+  return options;
 }
 
 }  // namespace
@@ -187,17 +268,19 @@ std::string unit_of_key(std::string_view key) {
   return {};
 }
 
-std::string study_template(const std::string& title) {
+std::string study_template(const std::string& title, Template kind) {
   std::string text =
       "# A study of dovetail. Check it with `dovetail check`, compute the design it describes with `dovetail "
       "evaluate`,\n"
       "# optimise with `dovetail run`. Every key ends with the unit it is written in. Keys marked `required` must be\n"
       "# given; all others may be left out and then have the value shown here.\n"
       "title = \"" +
-      title + "\"\n";
-  text += scene_sections() + problem_sections();
+      title +
+      "\"\n# Folder of its results below `results`, where `run` is given none (if not given, the name of this file).\n"
+      "# name = \"mine\"\n";
+  text += scene_sections(kind) + problem_sections(kind);
   text += header("optimizer", "How the optimiser searches.");
-  text += lines(optimizer::OptimizerOptions{}, option_table<optimizer::OptimizerOptions>());
+  text += lines(optimizer_of(kind), option_table<optimizer::OptimizerOptions>());
   text += header("export", "Files of the best design a run writes besides its results: " + export_formats() + ".");
   text += "formats = [\"dxf\"]\n";
   return text;

@@ -1,11 +1,13 @@
 // What a study says without being wrong, and its writer would want to know.
 #include <algorithm>
+#include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/options.hpp"
+#include "optimizer/problem/uncertainty.hpp"
 #include "optimizer/responses/response_table.hpp"
-#include "optimizer/scene/scene_kind.hpp"
 #include "studies/program/study_file/study.hpp"
 
 namespace dovetail::studies {
@@ -13,37 +15,67 @@ namespace {
 
 /// Outside of these nobody means it: a wrong unit or power of ten.
 struct DoubtParams {
-  Range modulus{.lower = 1e9, .upper = 1e12};   ///< Pa: plastics to tungsten carbide
+  Range modulus{.lower = 1, .upper = 1e3};      ///< GPa: plastics to tungsten carbide
   Range density{.lower = 500, .upper = 25000};  ///< kg/m^3: below carbon fibre, above tungsten
+  Range friction{.upper = 1.5};                 ///< of dry metals
+  Range speed{.upper = 3e5};                    ///< 1/min: the turbines of small turbochargers
+  Range damping{.upper = 0.5};                  ///< of a joint and the air around it
   Range limit{.lower = 1e5, .upper = 1e10};     ///< Pa, of a stress or pressure: one bar, and no metal
-  double friction = 1.5;                        ///< of dry metals
-  int layers = 40;                              ///< along the slot: a hundred thousands of unknowns
 };
+constexpr DoubtParams kDoubt;
 
-bool outside(double value, const Range& range) {
-  return value < range.lower || value > range.upper;
+/// A key whose numbers are doubted, in its unit.
+struct Doubted {
+  std::string_view key;
+  const Range& usual;
+  std::string_view words;
+};
+constexpr std::string_view kModulus = " is no metal's: is it meant in GPa?",
+                           kDensity = " is no metal's: is it meant in kg/m3?";
+constexpr std::array<Doubted, 7> kDoubted{
+    {{.key = "material.blade.youngs_modulus_gpa", .usual = kDoubt.modulus, .words = kModulus},
+     {.key = "material.blade.density_kg_m3", .usual = kDoubt.density, .words = kDensity},
+     {.key = "material.disk.youngs_modulus_gpa", .usual = kDoubt.modulus, .words = kModulus},
+     {.key = "material.disk.density_kg_m3", .usual = kDoubt.density, .words = kDensity},
+     {.key = "contact.friction", .usual = kDoubt.friction, .words = ": dry metals have less."},
+     {.key = "scene.speed_rpm", .usual = kDoubt.speed, .words = ": no rotor turns as fast: is it meant in 1/min?"},
+     {.key = "loading.damping_ratio", .usual = kDoubt.damping, .words = ": is it meant as a share of 1?"}}};
+
+/// What is to be doubted of that number; empty where nothing is.
+std::string doubt(std::string_view key, double value) {
+  const auto found = std::ranges::find(kDoubted, key, &Doubted::key);
+  if (found == kDoubted.end() || found->usual.contains(value)) return {};
+  return std::string(key) + " = " + shortest(value) + std::string(found->words);
+}
+
+/// Of numbers that differ from case to case, or are not certain: once, however many samples there are.
+void add_doubts_of_cases(const Study& study, std::vector<std::string>& result) {
+  for (const optimizer::LoadCase& load : study.problem.cases)
+    for (const auto& [key, value, times] : load.changes) {
+      const double base = times == 0 ? 0 : times * optimizer::parameter(study.scene, key);
+      const std::string words = doubt(key, base + value);
+      const std::string place = load.sample_of == optimizer::kSampleOfStudy ? "[[uncertain]]"
+                                : load.sample_of.empty()                    ? "[[case]] " + load.name
+                                                                            : "[[case]] " + load.sample_of;
+      const auto told = [&](const std::string& before) { return before.starts_with(place + ": " + key + " = "); };
+      if (!words.empty() && std::ranges::none_of(result, told)) result.push_back(place + ": " + words);
+    }
 }
 
 void add_doubts(const Study& study, std::vector<std::string>& result) {
-  constexpr DoubtParams kDoubt;
-  const optimizer::Scene& scene = study.scene;
-  const auto doubt_body = [&](const char* body, const fem::Material& of) {
-    const std::string section = std::string("material.") + body;
-    if (outside(of.youngs_modulus, kDoubt.modulus))
-      result.push_back(section + ".youngs_modulus_gpa = " + shortest(of.youngs_modulus / 1e9) +
-                       " is no metal's: is it meant in GPa?");
-    if (outside(of.density, kDoubt.density))
-      result.push_back(section + ".density_kg_m3 = " + shortest(of.density) + " is no metal's: is it meant in kg/m3?");
-  };
-  doubt_body("blade", scene.blade);
-  if (const std::string disk = "material.disk.";
-      std::ranges::any_of(study.given, [&](const std::string& key) { return key.starts_with(disk); }))
-    doubt_body("disk", scene.disk);
-  if (scene.contact.friction > kDoubt.friction)
-    result.push_back("contact.friction = " + shortest(scene.contact.friction) + ": dry metals have less.");
+  for (const Doubted& one : kDoubted) {
+    constexpr std::string_view disk = "material.disk.";
+    // The disk's are the blade's where nothing is said of them.
+    if (one.key.starts_with(disk) &&
+        std::ranges::none_of(study.given, [&](const std::string& key) { return key.starts_with(disk); }))
+      continue;
+    const std::string words = doubt(one.key, optimizer::parameter(study.scene, one.key));
+    if (!words.empty()) result.push_back(words);
+  }
+  add_doubts_of_cases(study, result);
   for (const optimizer::ResponseConstraint& of : study.problem.constraints)
     for (const std::optional<double>& limit : {of.lower, of.upper})
-      if (of.response.ends_with("_pa") && limit && outside(*limit, kDoubt.limit))
+      if (of.response.ends_with("_pa") && limit && !kDoubt.limit.contains(*limit))
         result.push_back("the limit " + shortest(*limit) + " Pa of " + of.response +
                          " is far from what metals bear: limits are given in Pa.");
   std::vector<std::string> varied;
@@ -57,9 +89,6 @@ void add_doubts(const Study& study, std::vector<std::string>& result) {
       result.push_back("the variable " + key +
                        " is no dimension that a designer may choose: what is not known for certain belongs into "
                        "[[uncertain]], what changes in service into [[case]].");
-  if (scene.kind->in_space && scene.solid_mesh.slot_elements > kDoubt.layers)
-    result.push_back("mesh.slot_elements = " + std::to_string(scene.solid_mesh.slot_elements) +
-                     " layers along the slot make several 100 000 unknowns and evaluations of minutes.");
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ struct CandidateMarks {
     Series& group = record.best == i ? best : e.feasible ? feasible : broken;
     group.add(static_cast<double>(i + 1), shown);
     group.titles.push_back(fmt::format("candidate {} ({}): {}{}{}", i + 1, e.phase, significant(shown),
-                                       unit.empty() ? "" : " " + unit, e.feasible ? "" : ", not feasible"));
+                                       unit.empty() ? "" : " " + unit, e.feasible ? "" : ", infeasible"));
   }
   void add_to(Plot& plot) {
     for (Series* marks : {&broken, &feasible, &best}) plot.series.push_back(std::move(*marks));

@@ -57,7 +57,7 @@ if command -v python3 > /dev/null; then
   python3 -c 'import json; assert len(json.load(open("curve.json"))["frequency_hz"]) < 300' ||
     fail "a response curve takes more than twice the points its outputs need"
 fi
-# Without an answer a design is not feasible, whether or not the study has limits.
+# Without an answer a design is infeasible, whether or not the study has limits.
 awk '/^\[/ { terms = /^\[\[/ } !terms' s.toml > plain.toml
 for study in s plain; do
   expect 3 evaluate $study.toml --no-bars --set solver.max_jacobians=1
@@ -121,13 +121,26 @@ expect 0 wear s.toml --method asymptote --set loading.follow=resonance --json -;
 grep -q '"follow": "resonance"' out || fail "the answer does not say what drives the wear"
 expect 2 reduce s.toml -o missing/m.h5
 
-expect 0 run s.toml -o o
+expect 0 run s.toml -o o; cp out first
 for file in journal.jsonl verification.jsonl best.toml results.h5 report.html best.dxf best.svg best.vtu study.toml; do
   [ -s "o/$file" ] || fail "no o/$file"
 done
 expect 0 check o/best.toml
+expect 0 run s.toml -o o --resume; same out first
+grep -q 'this run is finished' err || fail "a finished run is not known to be"
+rm o/report.html
 expect 0 run s.toml -o o --resume
 grep -q '3 of them stored before' out || fail "the resumed run computed again"
+[ -s o/report.html ] || fail "the resumed run made no report"
+# The directory of a run stands for its best design.
+expect 0 reduce o -o best.h5; grep -q 'of this run the best design is taken, o/best.toml' err || fail "it is not said what is reduced"
+[ -s best.h5 ] || fail "no best.h5"
+expect 0 response o --from 470 --to 490 --points 2 --json -; is_json
+expect 0 wear o --method asymptote --json -; is_json
+expect 0 backbone o --over force --from 1 --to 1 --points 1 --json -; is_json
+expect 0 evaluate o --no-bars --no-history --json -; is_json
+expect 0 runs . --csv runs.csv; grep -q '^ *1  *./o ' out || fail "runs does not list o"
+[ "$(wc -l < runs.csv)" = 2 ] || fail "runs.csv has not one run"
 expect 2 merge o -o o
 expect 0 merge o o -o merged
 expect 0 run s.toml -o merged --resume --jobs 2

@@ -54,6 +54,15 @@ expect 0 check s.toml; answers "s.toml: valid; 3 variables, 1 objective, 2 const
 cp s.toml kept.toml
 expect 2 new s.toml; says "s.toml: exists already"; lines 1
 cmp -s s.toml kept.toml || fail "new changed an existing file"
+expect 0 check s.toml; answers "the start design fits"; answers " unknowns, about "; answers "the run: up to 100"
+for template in section sector robust front; do
+  expect 0 new $template.toml --template $template
+  expect 0 check $template.toml --strict; lines 0; answers "$template.toml: valid"
+done
+cmp -s <(tail -n +6 s.toml) <(tail -n +6 section.toml) || fail "a section is not what new writes by default"
+expect 2 new other.toml --template wheel; lines 1; says "wheel"; absent other.toml
+expect 0 check s.toml --set scene.type=sector; says "sizes of a section are too fine in space"
+expect 0 check s.toml --set geometry.sectors=90; says "the start design does not fit: "
 expect 2 new missing/s.toml; says "does not exist"; lines 1
 
 # Files that are no studies
@@ -72,6 +81,8 @@ for file in empty truncated binary broken; do
 done
 expect 2 check nowhere.toml; says "nowhere.toml: cannot be read: "; lines 1
 expect 2 check .; says "it is a directory"; lines 1
+expect 2 evaluate . --json -; says "not that of a run"; lines 1; silent
+expect 2 runs .; says "holds no run"; lines 1
 expect 2 evaluate nowhere.toml --json -; silent
 
 # Each wrong value is one sentence with its line; several at once
@@ -110,6 +121,25 @@ for impossible in geometry.sectors=90 geometry.bore_radius_mm=260; do
   says "s.toml: the design is infeasible: "
   expect 2 response s.toml --set "$impossible" --from 1 --to 2 --points 2; says "the design is infeasible: "; silent
 done
+
+expect 2 export s.toml --set geometry.sectors=90 --format step -o i.step; says "the design is infeasible: "; absent i.step
+expect 0 export s.toml --set geometry.sectors=90 --format dxf -o i.dxf; says "the design is infeasible: "
+expect 3 evaluate s.toml --no-bars --set scene.speed_rpm=1e9; says "scene.speed_rpm = 1e+09 no equilibrium exists"
+expect 3 reduce s.toml -o fast.h5 --set scene.speed_rpm=1e9; says "no equilibrium exists"; absent fast.h5
+
+# What may not be read or written is said to be so.
+if [ "$(id -u)" = 0 ]; then
+  mkdir locked && cp s.toml locked/s.toml && chmod 700 locked && chmod 755 .
+  denied() { setpriv --reuid=65534 --regid=65534 --clear-groups "$dovetail" "$@" > out 2> err < /dev/null
+    [ $? = 2 ] || fail "dovetail $* is not refused"; says "ermission denied"; }
+  denied check locked/s.toml
+  denied evaluate locked
+  denied new locked/t.toml
+  denied run s.toml -o locked/run
+  denied export s.toml --format dxf -o locked/s.dxf
+  denied export s.toml --format step -o s.step
+  denied runs locked
+fi
 
 # Model files
 printf '\x89HDF\r\n\x1a\n and no more' > torn.h5

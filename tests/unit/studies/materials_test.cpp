@@ -59,7 +59,11 @@ TEST(Materials, OfOtherNamesAreRefusedWithThoseThereAre) {
   EXPECT_THAT(told(replaced(study_template("sample"), "[material.blade]\n", "[material.blade]\ngrade = \"17-4PH\"\n")),
               HasSubstr("changes nothing"));
   const std::string varied = "[[variable]]\nkey = \"material.blade.density_kg_m3\"\nlower = 4000\nupper = 9000\n";
-  EXPECT_THAT(told("material = \"17-4PH\"\n" + with_material("") + varied), HasSubstr("with grade = \"17-4PH\""));
+  EXPECT_THAT(told("material = \"17-4PH\"\n" + with_material("") + varied),
+              HasSubstr("[material.blade] and [material.disk] with grade = \"17-4PH\""));
+  // As it says.
+  const std::string both = with_material("[material.blade]\ngrade = \"17-4PH\"\n[material.disk]\ngrade = \"17-4PH\"\n");
+  EXPECT_EQ(told(both + varied), "");
 }
 
 TEST(Materials, AndLimitsThatNobodyMeansAreDoubted) {
@@ -78,6 +82,23 @@ TEST(Materials, AndLimitsThatNobodyMeansAreDoubted) {
       doubts(plain + "[[variable]]\nkey = \"contact.friction\"\nlower = 0.3\nupper = 0.6\n");
   ASSERT_EQ(variable.size(), 1U);
   EXPECT_THAT(variable.front(), HasSubstr("[[uncertain]]"));
+}
+
+// What is said of cases and of what is not certain is doubted as what the file itself says, once.
+TEST(Materials, AndNumbersOfCasesAndSamplesAreDoubted) {
+  const auto doubts = [](const std::string& more) {
+    return warnings(read_study(parse_document(study_template("sample") + more, "s.toml")));
+  };
+  using testing::ElementsAre;
+  EXPECT_THAT(doubts("[[case]]\nname = \"fast\"\n\"scene.speed_rpm\" = 1e9\n"),
+              ElementsAre(HasSubstr("[[case]] fast: scene.speed_rpm = 1e+09")));
+  EXPECT_THAT(doubts("[[case]]\nname = \"hot\"\n\"material.blade.youngs_modulus_gpa\" = 1e11\n"),
+              testing::Contains(HasSubstr("[[case]] hot: material.blade.youngs_modulus_gpa = 1e+11")));
+  EXPECT_THAT(doubts("[[uncertain]]\nkey = \"contact.friction\"\nlower = 0.3\nupper = 1.9\n"),
+              ElementsAre(HasSubstr("[[uncertain]]: contact.friction = ")));
+  EXPECT_THAT(doubts("[[case]]\nname = \"idle\"\n\"scene.speed_rpm\" = 6000\n"
+                     "[[uncertain]]\nkey = \"contact.friction\"\nrelative = 0.2\n"),
+              testing::IsEmpty());
 }
 
 }  // namespace

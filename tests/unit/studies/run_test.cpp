@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
+#include <thread>
 
 #include "core/replace_file.hpp"
 #include "optimizer/journal/journal.hpp"
@@ -717,6 +718,181 @@ TEST_F(Run, WithoutAFeasibleDesignNothingIsCalledBest) {
   EXPECT_EQ(run(false, poor), kNotConverged);
   EXPECT_THAT(err_.str(), HasSubstr("no feasible design was found"));
   EXPECT_FALSE(fs::exists(results() / "best.toml"));
+}
+
+// What the command line sets is in everything that the run keeps.
+TEST_F(Run, KeepsWhatTheCommandLineSets) {
+  int calls = 0;
+  RunOptions options{.study = study(),
+                     .set = {"optimizer.max_evaluations=7", "contact.friction=0.4", "optimizer.algorithm=scan"},
+                     .directory = results().string(),
+                     .jobs = 1};
+  ASSERT_EQ(run_study(options, {.out = out_, .err = err_}, counted(calls)), kDone) << err_.str();
+  EXPECT_EQ(calls, 7);
+  for (const char* file : {"study.toml", "best.toml"}) {
+    const Study kept = load_study((results() / file).string());
+    EXPECT_EQ(kept.scene.contact.friction, 0.4) << file;
+    EXPECT_EQ(kept.optimizer.algorithm, optimizer::Algorithm::scan) << file;
+  }
+  EXPECT_THAT(text_of(results() / "study.toml"), HasSubstr("# Search algorithm."));  // comments stay
+  EXPECT_THAT(report::read_results(results() / "results.h5").provenance.study_text, HasSubstr("friction = 0.4"));
+  options.set = {"contact.friction=-1"};
+  EXPECT_THAT([&] { run_study(options, {.out = out_, .err = err_}, counted(calls)); },
+              testing::ThrowsMessage<InputError>(HasSubstr("--set contact.friction=-1: must be")));
+}
+
+TEST_F(Run, OfAFinishedRunNothingIsDoneAgain) {
+  int calls = 0, described = 0;
+  const RunEngineFactory describing = [&](const Study& study) {
+    RunEngine engine = counted(calls)(study);
+    engine.describe = [&](const optimizer::Scene&) {
+      ++described;
+      DescribedDesign seen{.evaluation = bowl(std::vector<double>{10, 3, 9}), .record = {}};
+      seen.record.status = "converged";
+      return seen;
+    };
+    return engine;
+  };
+  ASSERT_EQ(run(false, describing), kDone) << err_.str();
+  const std::string said = out_.str();
+  const int before = calls;
+  EXPECT_EQ(described, 2);
+  const fs::file_time_type written = fs::last_write_time(results() / "results.h5");
+  ASSERT_EQ(run(true, describing), kDone) << err_.str();
+  EXPECT_THAT(err_.str(), HasSubstr("this run is finished; nothing is computed again"));
+  EXPECT_EQ(out_.str(), said);
+  EXPECT_EQ(calls, before);
+  EXPECT_EQ(described, 2);
+  EXPECT_EQ(fs::last_write_time(results() / "results.h5"), written);
+  // What is not there any more is made again, and a larger budget is spent.
+  fs::remove(results() / "report.html");
+  ASSERT_EQ(run(true, describing), kDone) << err_.str();
+  EXPECT_EQ(calls, before);
+  EXPECT_TRUE(fs::exists(results() / "report.html"));
+  replace_file(study(), replaced(text_of(study()), "max_evaluations = 40", "max_evaluations = 45"));
+  ASSERT_EQ(run(true, describing), kDone) << err_.str();
+  EXPECT_GT(calls, before);
+}
+
+TEST_F(Run, BeginsNoEvaluationAfterItsTime) {
+  int calls = 0;
+  const auto run = [&](bool resume, const RunEngineFactory& factory, int jobs) {
+    out_.str("");
+    return run_study({.study = study(),
+                      .set = {"optimizer.time_limit_s=0.2"},
+                      .directory = results().string(),
+                      .resume = resume,
+                      .jobs = jobs},
+                     {.out = out_, .err = err_}, factory);
+  };
+  const RunEngineFactory slow = [&](const Study& study) {
+    RunEngine engine = counted(calls)(study);
+    engine.evaluate = [evaluate = engine.evaluate](std::span<const double> x) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      return evaluate(x);
+    };
+    return engine;
+  };
+  for (const int jobs : {1, 2}) {
+    fs::remove_all(results());
+    ASSERT_EQ(run(false, slow, jobs), kDone) << err_.str();
+    EXPECT_THAT(out_.str(), HasSubstr("optimizer.time_limit_s = 0.2 is over; --resume goes on"));
+    const std::size_t first = optimizer::read_journal(results() / "journal.jsonl").records.size();
+    EXPECT_GE(first, 1U);
+    EXPECT_LE(first, 7U);
+    EXPECT_TRUE(fs::exists(results() / "best.toml"));
+    // What is stored costs no time.
+    ASSERT_EQ(run(true, slow, jobs), kDone) << err_.str();
+    EXPECT_GT(optimizer::read_journal(results() / "journal.jsonl").records.size(), first);
+  }
+}
+
+TEST_F(Run, TellsProgramsAndKeepsQuiet) {
+  int calls = 0;
+  const fs::path log = directory_ / "log.jsonl";
+  const RunOptions options{
+      .study = study(), .directory = results().string(), .jobs = 1, .tell = {.quiet = true, .log = log.string()}};
+  ASSERT_EQ(run_study(options, {.out = out_, .err = err_}, counted(calls)), kDone);
+  EXPECT_EQ(err_.str(), "");
+  std::istringstream lines(text_of(log));
+  std::vector<nlohmann::json> events;
+  for (std::string line; std::getline(lines, line);) events.push_back(nlohmann::json::parse(line));
+  ASSERT_GT(events.size(), 3U);
+  EXPECT_EQ(events.front().at("event"), "begin");
+  EXPECT_EQ(events.front().at("version"), 1);
+  EXPECT_EQ(events.back().at("event"), "end");
+  EXPECT_EQ(events.back().at("exit_status"), 0);
+  int evaluations = 0;
+  for (const nlohmann::json& event : events) {
+    EXPECT_TRUE(event.at("seconds").is_number());
+    if (event.at("event") != "evaluation") continue;
+    EXPECT_EQ(event.at("number"), ++evaluations);
+    EXPECT_TRUE(event.at("objective").is_number());
+  }
+  EXPECT_EQ(evaluations, calls);
+  RunOptions unwritable = options;
+  unwritable.tell.log = (directory_ / "nowhere" / "log.jsonl").string();
+  EXPECT_THAT([&] { run_study(unwritable, {.out = out_, .err = err_}, counted(calls)); },
+              testing::ThrowsMessage<InputError>(HasSubstr("cannot be written: No such file or directory")));
+}
+
+// Which limit, or which rule, and by how much.
+TEST_F(Run, NamesWhatDesignsBreak) {
+  const RunEngineFactory poor = [](const Study&) {
+    return RunEngine{.evaluate =
+                         [](std::span<const double> x) {
+                           optimizer::Evaluation evaluation = bowl(x);
+                           if (x[0] > 1) {
+                             evaluation.status = "infeasible";
+                             evaluation.responses.clear();
+                             evaluation.messages = {"the neck is 0.5 mm too thin"};
+                           }
+                           evaluation.responses["post_width_m"] = 1e-3;
+                           return evaluation;
+                         },
+                     .describe = {}};
+  };
+  EXPECT_EQ(run(false, poor), kNotConverged);
+  EXPECT_THAT(err_.str(), HasSubstr(", infeasible: breaks post_width_m:lower by 75 % of its limit"));
+  EXPECT_THAT(err_.str(), HasSubstr("infeasible: the neck is 0.5 mm too thin"));
+  EXPECT_THAT(err_.str(), HasSubstr("nearest to one is evaluation 1: breaks post_width_m:lower by 75 %"));
+}
+
+TEST_F(Run, IsComparedWithOthers) {
+  int calls = 0;
+  ASSERT_EQ(run(false, counted(calls)), kDone) << err_.str();
+  const RunEngineFactory dying = [&calls](const Study&) {
+    return RunEngine{.evaluate =
+                         [n = 0, &calls](std::span<const double> x) mutable {
+                           ++calls;
+                           if (++n == 5) throw std::runtime_error("power cut");
+                           return bowl(x);
+                         },
+                     .describe = {}};
+  };
+  fs::create_directories(directory_ / "all");
+  fs::rename(results(), directory_ / "all" / "a");
+  EXPECT_THROW(run(false, dying), std::runtime_error);
+  fs::rename(results(), directory_ / "all" / "b");
+  const fs::path csv = directory_ / "runs.csv", json = directory_ / "runs.json";
+  const RunsOptions options{.directories = {(directory_ / "all").string()}, .csv = csv.string(), .json = json.string()};
+  out_.str("");
+  ASSERT_EQ(run_runs(options, {.out = out_, .err = err_}), kDone);
+  EXPECT_THAT(out_.str(),
+              testing::AllOf(HasSubstr("all/a"), HasSubstr("unfinished"), HasSubstr("geometry.neck_width_mm")));
+  const nlohmann::json runs = nlohmann::json::parse(text_of(json));
+  ASSERT_EQ(runs.size(), 2U);
+  EXPECT_EQ(runs[1].at("evaluations"), 4);
+  EXPECT_EQ(runs[1].at("status"), "unfinished");
+  const report::RunRecord record = report::read_results(directory_ / "all" / "a" / "results.h5");
+  EXPECT_EQ(runs[0].at("objective"), record.evaluations[*record.best].objective);
+  EXPECT_EQ(runs[0].at("best"), *record.best + 1);
+  EXPECT_EQ(runs[0].at("variables").at("geometry.neck_width_mm"), record.evaluations[*record.best].x[2]);
+  const auto rows = table_of(csv);
+  ASSERT_EQ(rows.size(), 3U);
+  for (const auto& row : rows) EXPECT_EQ(row.size(), rows.front().size());
+  EXPECT_THROW(run_runs({.directories = {directory_.string()}, .csv = {}, .json = {}}, {.out = out_, .err = err_}),
+               InputError);
 }
 
 TEST_F(Run, NeedsVariablesAndLeavesNothingWithoutThem) {

@@ -59,6 +59,21 @@ TEST(Study, TemplateReadsAsTheDefaults) {
   EXPECT_EQ(study.problem.constraints.size(), 2U);
 }
 
+/// All kinds of templates are studies without a doubt, and show what a study may say beside its numbers.
+TEST(Study, TemplatesOfEveryKindReadWithoutADoubt) {
+  for (const std::string_view name : names_of<Template>()) {
+    const std::string text = study_template("sample", *named<Template>(name));
+    const Study study = read(text);
+    EXPECT_TRUE(warnings(study).empty()) << name;
+    for (const char* shown : {"start = ", "scale = ", "name = "}) EXPECT_THAT(text, HasSubstr(shown)) << name;
+    EXPECT_EQ(study.scene.kind->in_space, name == "sector");
+    EXPECT_EQ(study.problem.front, name == "front");
+    EXPECT_EQ(!study.problem.cases.empty(), name == "robust");
+  }
+  const Study robust = read(study_template("sample", Template::robust));
+  EXPECT_EQ(robust.problem.cases.size(), 2U * 5U);  // corners and middle of two numbers in two cases
+}
+
 TEST(Study, WarnsOfAResponseWithoutLimit) {
   const std::string limit = "[[constraint]]\nresponse = \"contact_pressure_max_pa\"\nupper = 400e6\n";
   EXPECT_TRUE(warnings(read(sample())).empty());

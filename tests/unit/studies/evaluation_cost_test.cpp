@@ -1,0 +1,59 @@
+#include "optimizer/evaluation_cost.hpp"
+
+#include <gtest/gtest.h>
+
+#include "steady/work.hpp"
+#include "studies/program/engine/engine.hpp"
+#include "studies/program/study_file/study_template.hpp"
+
+namespace dovetail::optimizer {
+namespace {
+
+/// An evaluation without bars and history as it was measured: processor seconds and peak memory.
+struct Measured {
+  const char* study;
+  bool in_space;
+  double unknowns;
+  int contact_nodes, harmonics;
+  double seconds, megabytes;
+};
+constexpr Measured kMeasured[] = {
+    {"quickstart", false, 16354, 34, 5, 0.78, 142},
+    {"quickstart, 12 edges per flank, 6 mm elements", false, 12102, 24, 5, 0.50, 126},
+    {"quickstart, 6 edges, 12 mm", false, 5386, 12, 5, 0.27, 100},
+    {"quickstart, 48 edges", false, 20238, 46, 5, 1.04, 160},
+    {"quickstart, 9 harmonics", false, 16354, 34, 9, 0.93, 142},
+    {"quickstart, 16 edges, 3 harmonics", false, 14774, 28, 3, 0.60, 136},
+    {"quickstart, 48 edges, 1 mm, 7 harmonics", false, 44910, 46, 7, 2.09, 290},
+    {"quickstart, 96 edges", false, 28498, 66, 5, 1.61, 213},
+    {"bladed_disk_2009", true, 74069, 96, 3, 13.58, 1181},
+    {"skewed_slot", true, 74069, 96, 3, 10.18, 1231},
+    {"skewed_slot, 6 layers, 6 edges", true, 48997, 72, 3, 5.60, 753},
+};
+
+TEST(EvaluationCost, IsForeseenWithinAFactorOfTwo) {
+  constexpr int kSamples = 128;
+  constexpr double kMegabyte = 1024.0 * 1024.0;
+  for (const Measured& of : kMeasured) {
+    const Cost cost = cost_foreseen({.in_space = of.in_space,
+                                     .unknowns = of.unknowns,
+                                     .contact_nodes = static_cast<double>(of.contact_nodes),
+                                     .jacobian_operations = steady::jacobian_operations(
+                                         of.contact_nodes, of.in_space ? 3 : 2, of.harmonics, kSamples)});
+    EXPECT_GT(cost.seconds, of.seconds / 2) << of.study;
+    EXPECT_LT(cost.seconds, of.seconds * 2) << of.study;
+    EXPECT_GT(cost.bytes, of.megabytes * kMegabyte / 2) << of.study;
+    EXPECT_LT(cost.bytes, of.megabytes * kMegabyte * 2) << of.study;
+  }
+}
+
+TEST(EvaluationCost, KnowsTheSizesOfADesign) {
+  const studies::Study study = studies::read_study(studies::parse_document(studies::study_template("s"), "s.toml"));
+  const CandidateSizes sizes = sizes_foreseen(studies::reference_scene(study), study.scene);
+  EXPECT_NEAR(sizes.unknowns, 16354, 0.02 * 16354);  // as an evaluation of it has
+  EXPECT_NEAR(sizes.contact_nodes, 34, 8);           // which lays some at the ends of worn zones
+  EXPECT_FALSE(sizes.in_space);
+}
+
+}  // namespace
+}  // namespace dovetail::optimizer
