@@ -104,7 +104,7 @@ int run_backbone(const BackboneOptions& options, const Streams& streams) {
   const paths::BackboneFamily family = options.over == BackboneOver::wear
                                            ? worn_family(joint, omega, settings.resonance, options)
                                            : paths::excitation_levels(joint);
-  const bool terminal = error_is_terminal();
+  const bool terminal = is_terminal(streams.err);
   const paths::Backbone found =
       paths::backbone(family, values, omega, settings, [&](const paths::BackbonePoint& point) {
         if (terminal) streams.err << fmt::format("\r\033[K{:.6g}", point.parameter) << std::flush;

@@ -32,7 +32,7 @@ int most_points(int points) {
 class CurveRun {
  public:
   CurveRun(const LoadedModel& loaded, const ResponseOptions& options, const Streams& streams)
-      : loaded_(loaded), options_(options), streams_(streams), terminal_(error_is_terminal()) {
+      : loaded_(loaded), options_(options), streams_(streams), terminal_(is_terminal(streams.err)) {
     curve_.output_names = loaded.model.output_names;
     curve_.settings = loaded.joint.options;
     curve_.choice = options.choice;
@@ -149,7 +149,11 @@ bool contact_changes(const ResponseCurve& curve) {
 
 int run_response(const ResponseOptions& options, const Streams& streams) {
   const std::vector<double> hz = frequencies(options);
-  LoadedModel loaded = load_model(options.input, options.set, options.solver, &streams.err);
+  return answer_response(options, hz, load_model(options.input, options.set, options.solver, &streams.err), streams);
+}
+
+int answer_response(const ResponseOptions& options, const std::vector<double>& hz, LoadedModel loaded,
+                    const Streams& streams) {
   const auto complain = [&](const std::string& what) { return not_converged(options.input, what, streams); };
   if (!loaded.failure.empty()) return complain("not converged: " + loaded.failure);
 

@@ -244,9 +244,13 @@ OptimizationResult searched(const RunSite& site, bool resume, const std::optiona
   };
   optimizer::Journal journal = opened("journal.jsonl"), finer_journal = opened("finer.jsonl");
   replace_file(site.directory / "study.toml", site.study.text);
-  RunProgress progress(site.err, error_is_terminal(), site.study.optimizer.max_evaluations, site.study.problem.front);
+  RunProgress progress(site.err, is_terminal(site.err), site.study.optimizer.max_evaluations, site.study.problem.front);
   optimizer::RunHooks hooks{.journal = &journal,
-                            .progress = [&](const optimizer::Progress& at) { progress(at); },
+                            .progress =
+                                [&](const optimizer::Progress& at) {
+                                  progress(at);
+                                  if (site.told) site.told(at);
+                                },
                             .stop = &interrupt.flag(),
                             .finer = {},
                             .finer_journal = &finer_journal,
@@ -274,8 +278,13 @@ std::unique_ptr<optimizer::WorkerPool> processes(const RunOptions& options, cons
 
 int run_study(const RunOptions& options, const Streams& streams, const RunEngineFactory& make_engine,
               const PoolFactory& pools) {
+  return run_study(load_study(options.study), options, streams, make_engine, pools);
+}
+
+int run_study(const Study& asked, const RunOptions& options, const Streams& streams,
+              const RunEngineFactory& make_engine, const PoolFactory& pools,
+              const std::function<void(const optimizer::Progress&)>& told) {
   const auto begin = std::chrono::steady_clock::now();
-  const Study asked = load_study(options.study);
   require_runnable(asked);
   const std::optional<optimizer::Part> part = part_of(options, asked);
   for (const std::string& warning : warnings(asked)) streams.err << options.study << ": warning: " << warning << "\n";
@@ -287,7 +296,8 @@ int run_study(const RunOptions& options, const Streams& streams, const RunEngine
   refuse_hopeless(study, alone);
   if (pool) pool->prepare(description_of(study));
   const RunEngine engine = pool ? at_work(study, alone, *pool) : alone;
-  const RunSite site{.study = study, .engine = engine, .directory = directory, .err = streams.err, .pool = pool.get()};
+  const RunSite site{
+      .study = study, .engine = engine, .directory = directory, .err = streams.err, .pool = pool.get(), .told = told};
   const OrderlyInterrupt interrupt;
   OptimizationResult result = searched(site, options.resume, part, fingerprint_of(study), interrupt);
   if (part) {

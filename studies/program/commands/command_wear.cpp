@@ -192,7 +192,10 @@ void present(const WearOptions& options, WearResult& result, const Streams& stre
 int run_wear(const WearOptions& given, const Streams& streams) {
   std::optional<wear::Follow> follow;
   if (given.follow) follow = given.follow == Drive::resonance ? wear::Follow::resonance : wear::Follow::fixed;
-  LoadedModel loaded = load_model(given.input, given.set, given.solver, &streams.err, follow);
+  return answer_wear(given, load_model(given.input, given.set, given.solver, &streams.err, follow), streams);
+}
+
+int answer_wear(const WearOptions& given, LoadedModel loaded, const Streams& streams) {
   const WearOptions options = with_choices(given, loaded);
   const auto failed = [&](const std::string& why) { return not_converged(options.input, why, streams); };
   const auto stateless = [&](Status status, const std::string& why, int solves) {
@@ -215,7 +218,7 @@ int run_wear(const WearOptions& given, const Streams& streams) {
                      at.resonance->solves);
 
   const OrderlyInterrupt interrupt;
-  const bool terminal = error_is_terminal();
+  const bool terminal = is_terminal(streams.err);
   wear::Watcher watcher{.stop = [&] { return interrupt.requested(); }};
   if (terminal)
     watcher.progress = [&](int step, double volume, double rate) {

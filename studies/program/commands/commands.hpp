@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <iosfwd>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include "optimizer/workers/worker_pool.hpp"
 #include "studies/program/answers/geometry_export.hpp"
 #include "studies/program/commands/option.hpp"
+#include "studies/program/engine/engine.hpp"
 #include "studies/program/engine/run_engine.hpp"
 #include "studies/program/questions/analysis_choice.hpp"
 #include "studies/program/questions/wear_options.hpp"
@@ -77,6 +79,9 @@ struct ResponseOptions {
   std::string json;
 };
 int run_response(const ResponseOptions& options, const Streams& streams);
+/// The same of a model that is loaded, at these frequencies; of an arc-length run the ends count.
+int answer_response(const ResponseOptions& options, const std::vector<double>& hz, LoadedModel loaded,
+                    const Streams& streams);
 
 /// What a backbone is over.
 enum class BackboneOver {
@@ -105,6 +110,8 @@ struct BackboneOptions {
 int run_backbone(const BackboneOptions& options, const Streams& streams);
 
 int run_wear(const WearOptions& options, const Streams& streams);
+/// The same of a model that is loaded.
+int answer_wear(const WearOptions& options, LoadedModel loaded, const Streams& streams);
 
 struct RunOptions {
   std::string study;
@@ -122,6 +129,9 @@ using PoolFactory =
                                                                const optimizer::WorkerFactory& factory);
 int run_study(const RunOptions& options, const Streams& streams, const RunEngineFactory& engine,
               const PoolFactory& pools = processes);
+/// The same of a study that is read. `told` hears of every candidate of the search; what it throws ends the run.
+int run_study(const Study& study, const RunOptions& options, const Streams& streams, const RunEngineFactory& engine,
+              const PoolFactory& pools = processes, const std::function<void(const optimizer::Progress&)>& told = {});
 
 /// The format of the command export that writes a reduced model, not a drawing.
 inline constexpr std::string_view kMatrixMarket = "matrix-market";

@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include <cmath>
-#include <ostream>
+#include <iostream>
 
 namespace dovetail::studies {
 
@@ -62,8 +62,8 @@ std::string RunProgress::line(const optimizer::Progress& progress, double second
   return text;
 }
 
-bool error_is_terminal() {
-  return ::isatty(STDERR_FILENO) != 0;
+bool is_terminal(const std::ostream& stream) {
+  return &stream == &std::cerr && ::isatty(STDERR_FILENO) != 0;
 }
 
 }  // namespace dovetail::studies

@@ -42,7 +42,7 @@ class RunProgress {
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
-/// Whether standard error is a terminal.
-[[nodiscard]] bool error_is_terminal();
+/// Whether what is written there is seen on a terminal.
+[[nodiscard]] bool is_terminal(const std::ostream& stream);
 
 }  // namespace dovetail::studies

@@ -35,6 +35,10 @@ const std::atomic<bool>& OrderlyInterrupt::flag() const {
   return stop_requested;
 }
 
+void request_interrupt() {
+  stop_requested = true;
+}
+
 void install_interrupt_handler() {
   struct sigaction action {};
   action.sa_handler = on_interrupt;

@@ -20,6 +20,9 @@ class OrderlyInterrupt {
   [[nodiscard]] bool requested() const { return flag().load(); }
 };
 
+/// What Ctrl-C does while an OrderlyInterrupt lives, where another handles the signal.
+void request_interrupt();
+
 /// Handles SIGINT and SIGTERM of this process from now on. One that ends the process removes the file being written.
 void install_interrupt_handler();
 
