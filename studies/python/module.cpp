@@ -66,7 +66,7 @@ Answer response(const py::object& given, const py::object& frequencies, const py
   return answer_of([&, model = input.model ? *input.model : reduction::ReducedModel()](const Streams& streams) {
     return studies::answer_response(options, hz,
                                     input.model
-                                        ? studies::load_model(input.name, model, options.solver)
+                                        ? studies::take_model(input.name, model, options.solver)
                                         : studies::load_model(options.input, options.set, options.solver, &streams.err),
                                     streams);
   });
@@ -80,7 +80,7 @@ Answer wear(const py::object& given, const py::kwargs& keywords) {
   options.json = "-";
   take_keywords(options, keywords, "wear");
   return answer_of([&, model = input.model ? *input.model : reduction::ReducedModel()](const Streams& streams) {
-    return input.model ? studies::answer_wear(options, studies::load_model(input.name, model, options.solver), streams)
+    return input.model ? studies::answer_wear(options, studies::take_model(input.name, model, options.solver), streams)
                        : studies::run_wear(options, streams);
   });
 }

@@ -328,7 +328,7 @@ std::optional<reduction::ReducedModel> read_any_model(const std::string& input) 
   return read_model_document(document);
 }
 
-LoadedModel load_model(const std::string& name, reduction::ReducedModel model, const SolverChoice& solver) {
+LoadedModel take_model(const std::string& name, reduction::ReducedModel model, const SolverChoice& solver) {
   const steady::Options steady = model_options(name, {}, solver);
   std::vector<Violation> found = reduction::violations(model);
   for (Violation& violation : found) violation.file = name;

@@ -73,7 +73,7 @@ struct LoadedModel {
                                      std::optional<wear::Follow> follow = {});
 
 /// The same of a reduced model in memory, which messages call by `name`. Throws InputError for one that is not valid.
-[[nodiscard]] LoadedModel load_model(const std::string& name, reduction::ReducedModel model,
+[[nodiscard]] LoadedModel take_model(const std::string& name, reduction::ReducedModel model,
                                      const SolverChoice& solver);
 
 /// The same of a study that is read already.

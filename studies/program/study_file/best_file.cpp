@@ -38,13 +38,14 @@ std::size_t end_of_header(const std::string& text, const std::string& section) {
   return std::string::npos;
 }
 
-bool is_whole(const std::string& key) {
+/// Of keys that are no parameters of the scene a whole number may stand for any.
+bool is_whole(const std::string& key, double value) {
   const optimizer::Parameter* parameter = optimizer::find_parameter(key);
-  return parameter && parameter->kind == optimizer::Parameter::Kind::whole;
+  return parameter ? parameter->kind == optimizer::Parameter::Kind::whole : value == std::rint(value);
 }
 
 std::string value_text(const std::string& key, double value) {
-  return is_whole(key) ? std::to_string(std::llround(value)) : real_text(value);
+  return is_whole(key, value) ? std::to_string(std::llround(value)) : real_text(value);
 }
 
 std::string edited(const Document& document, const std::map<std::string, double>& values) {
@@ -83,7 +84,7 @@ std::string rewritten(const Document& document, const std::map<std::string, doub
       assert(table);
       rest.erase(0, dot + 1);
     }
-    if (is_whole(key))
+    if (is_whole(key, value))
       table->insert_or_assign(rest, std::int64_t{std::llround(value)});
     else
       table->insert_or_assign(rest, value);

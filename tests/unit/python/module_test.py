@@ -180,12 +180,13 @@ class PythonModule(unittest.TestCase):
 
     def test_a_run_is_that_of_the_program_and_tells_of_every_evaluation(self):
         text = QUICKSTART.read_text().replace("scan_evaluations = 24", "scan_evaluations = 3")
-        text = text.replace("max_evaluations = 90", "max_evaluations = 6\nverify = 0\ndepartures = false\nfiner_meshes = 0")
+        text = text.replace("max_evaluations = 90", "max_evaluations = 60\nverify = 0\ndepartures = false\nfiner_meshes = 0")
         path = self.folder / "study.toml"
         path.write_text(text)
         study = dovetail.Study(path)
         for key, value in COARSE.items():
             study.set(key, value)
+        study.set("optimizer.max_evaluations", 6)
         heard = []
         answer = dovetail.run(study, self.folder / "ours", jobs=1,
                               callback=lambda number, evaluation, best: heard.append((number, evaluation, best)))
@@ -194,6 +195,7 @@ class PythonModule(unittest.TestCase):
         # The same text for the program: what was set is in it.
         path.write_text((self.folder / "ours" / "study.toml").read_text())
         self.assertIn("flank_elements = 8", path.read_text())
+        self.assertIn("max_evaluations = 6\n", path.read_text())
         done = subprocess.run([DOVETAIL, "run", path, "-o", self.folder / "theirs", "--jobs", "1"], capture_output=True,
                               text=True)
         self.assertEqual(answer["status"], {0: "done", 3: "not_converged"}[done.returncode], done.stderr)
