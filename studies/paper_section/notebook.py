@@ -45,6 +45,7 @@ history = dovetail.wear(study, method="history", frequency=resonance, increment=
 volume = np.array(history.worn_volume_m3, float)
 print(f"{len(volume)} states, {1e9 * volume[-1]:.4f} mm^3 in the end, directly {1e9 * directly.worn_volume_m3[0]:.4f}")
 largest = np.array(history.wear_rates_m_per_cycle, float).max(axis=1)
+cycles = np.array(history.cycles, float)  # nan: of a state added by the direct method
 for at in np.linspace(0, len(volume) - 1, 6).astype(int):
-    print(f"  {history.cycles[at] or float('nan'):10.3g} cycles: {1e9 * volume[at]:.4f} mm^3, "
+    print(f"  {cycles[at]:10.3g} cycles: {1e9 * volume[at]:.4f} mm^3, "
           f"largest rate {largest[at]:.3g} m per cycle")
