@@ -6,6 +6,7 @@
 #include <random>
 #include <vector>
 
+#include "core/interruption.hpp"
 #include "numerics/dense_product.hpp"
 #include "numerics/dense_symmetric.hpp"
 #include "numerics/params.hpp"
@@ -153,6 +154,7 @@ class Krylov {
 
   /// Takes the block into the basis and makes the next one of its image; false when nothing is left.
   bool expand() {
+    end_if_interrupted();
     const Eigen::Index before = size_, added = block_.vectors.cols();
     space_.middleCols(before, added) = block_.vectors;
     size_ += added;

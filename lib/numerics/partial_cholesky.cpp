@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "core/interruption.hpp"
 #include "numerics/cholmod_view.hpp"
 #include "numerics/params.hpp"
 
@@ -259,6 +260,7 @@ Eigen::Index PartialCholesky::size() const {
 
 Status PartialCholesky::factorise(const Sparse& a, Eigen::Index border, EliminationOrder* order) {
   assert(a.rows() == a.cols() && border >= 0 && border <= a.rows());
+  end_if_interrupted();
   const Eigen::Index interior = a.rows() - border;
   factor_.reset();
   Sparse lower = a.triangularView<Eigen::Lower>();

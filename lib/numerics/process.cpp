@@ -29,11 +29,16 @@ void prepare_process(char** arguments) {
   const char* kernels = std::getenv(kVariable) == nullptr ? better_kernels() : nullptr;
   // Where that fails the slow kernels do.
   if (kernels != nullptr && ::setenv(kVariable, kernels, 0) == 0) ::execv("/proc/self/exe", arguments);
+  prepare_library();
+}
+
+bool prepare_library() {
   openblas_set_num_threads(1);
   // Memory is kept from candidate to candidate; what is larger than this is given back, else the matrices of a large
   // sector leave holes as large as its factor. Without effect under allocators other than that of the GNU library.
   ::mallopt(M_MMAP_THRESHOLD, 1 << 27);
   ::mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+  return better_kernels() != nullptr;
 }
 
 }  // namespace dovetail::numerics

@@ -12,4 +12,8 @@ namespace dovetail::numerics {
 ///   returned to the system, every page of them would be cleared anew.
 void prepare_process(char** arguments);
 
+/// The same but for the kernels, of a library in a program that is not ours.
+/// @return whether OpenBLAS took kernels that are too old for the processor
+bool prepare_library();
+
 }  // namespace dovetail::numerics

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "core/interruption.hpp"
 #include "numerics/cholmod_view.hpp"
 #include "numerics/params.hpp"
 
@@ -98,6 +99,7 @@ void SparseCholesky<Scalar>::analyse(const Matrix& a, const SparseCholesky& orde
 
 template <class Scalar>
 Status SparseCholesky<Scalar>::factorise(const Matrix& a) {
+  end_if_interrupted();
   State& s = *state_;
   if (s.factor == nullptr || size() != a.rows() || s.entries != a.nonZeros()) analyse(a);
   s.factorised = false;

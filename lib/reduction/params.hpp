@@ -56,6 +56,9 @@ struct ChangeParams {
 struct ModelFileParams {
   double asymmetry = 1e-9;       ///< of a matrix, over its largest entry: what exporters that print few digits leave
   std::int64_t largest = 20000;  ///< rows or columns: 3.2 GB as a dense matrix
+  /// Stiffness of a degree of freedom, in a structure's own unit, from which on it is held: Abaqus writes 1e36. Far
+  /// above any that a body has.
+  double held = 1e30;
 };
 
 static_assert(FloatingParams{}.rigid < FloatingParams{}.soft, "rigid modes are soft");

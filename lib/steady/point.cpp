@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "core/interruption.hpp"
 #include "numerics/dense_symmetric.hpp"
 #include "steady/params.hpp"
 #include "steady/work.hpp"
@@ -12,6 +13,7 @@
 namespace dovetail::steady {
 
 void evaluate(std::shared_ptr<const Problem> problem, const Eigen::MatrixXd& displacement, Point& point) {
+  end_if_interrupted();
   point.problem = std::move(problem);
   const Problem& of = *point.problem;
   const Eigen::Index nodes = of.model().nodes(), d = of.model().directions(), k = of.basis().coefficients();

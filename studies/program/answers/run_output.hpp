@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -20,10 +21,11 @@ struct RunSite {
   std::filesystem::path directory;
   Teller& teller;
   std::string settings = {};  ///< a sentence on those of start and best design where the search had others
-  std::map<std::string, std::string> chosen = {};          ///< those that an accuracy chose, key -> value as text
-  std::optional<optimizer::AccuracyGoal> goal = {};        ///< what is asked of start and best design
-  std::map<std::size_t, optimizer::BarParts> raised = {};  ///< parts of bars of evaluations, by rounds of a choice
-  optimizer::WorkerPool* pool = nullptr;                   ///< who works on pieces, if there are others
+  std::map<std::string, std::string> chosen = {};             ///< those that an accuracy chose, key -> value as text
+  std::optional<optimizer::AccuracyGoal> goal = {};           ///< what is asked of start and best design
+  std::map<std::size_t, optimizer::BarParts> raised = {};     ///< parts of bars of evaluations, by rounds of a choice
+  optimizer::WorkerPool* pool = nullptr;                      ///< who works on pieces, if there are others
+  std::function<void(const optimizer::Progress&)> told = {};  ///< of every candidate, if anybody listens
   bool describes = true;  ///< start and best design are looked at with bars, history and curves: not of a run cut short
 };
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstring>
-#include <ostream>
+#include <iostream>
 #include <utility>
 
 #include "studies/program/engine/interrupt.hpp"
@@ -35,7 +35,7 @@ std::string time_words(double seconds) {
 
 Teller::Teller(std::ostream& err, const TellChoice& choice, bool plain)
     : err_(err),
-      terminal_(::isatty(STDERR_FILENO) != 0),
+      terminal_(&err == &std::cerr && ::isatty(STDERR_FILENO) != 0),
       shows_(!choice.quiet && (plain || terminal_)),
       quiet_(choice.quiet) {
   if (!choice.log.empty()) {

@@ -142,10 +142,18 @@ bool contact_changes(const ResponseCurve& curve) {
 }  // namespace
 
 int run_response(const ResponseOptions& options, const Streams& streams) {
-  const std::vector<double> hz = frequencies(options);
+  return run_response(options, frequencies(options), streams);
+}
+
+int run_response(const ResponseOptions& options, const std::vector<double>& hz, const Streams& streams) {
   Teller teller(streams.err, options.tell);
   teller.begin("the reduced model");
-  LoadedModel loaded = load_model(options.input, options.set, options.solver, &teller.remark());
+  return answer_response(options, hz, load_model(options.input, options.set, options.solver, &teller.remark()), teller,
+                         streams);
+}
+
+int answer_response(const ResponseOptions& options, const std::vector<double>& hz, LoadedModel loaded, Teller& teller,
+                    const Streams& streams) {
   const auto complain = [&](const std::string& what) { return not_converged(options.input, what, streams); };
   if (!loaded.failure.empty()) return complain("not converged: " + loaded.failure);
 

@@ -152,7 +152,11 @@ Searched searched(const RunSite& site, Clock::time_point begin, bool resume, con
   const double limit = site.study.optimizer.time_limit;
   bool late = false;
   optimizer::RunHooks hooks{.journal = &journal,
-                            .progress = [&](const optimizer::Progress& at) { progress(at); },
+                            .progress =
+                                [&](const optimizer::Progress& at) {
+                                  progress(at);
+                                  if (site.told) site.told(at);
+                                },
                             .stop = &interrupt.flag(),
                             .finer = {},
                             .finer_journal = &finer_journal,
@@ -211,7 +215,8 @@ namespace {
 
 /// A run from its settings to what it hands over.
 int computed(const RunOptions& options, const Study& asked, const fs::path& directory, const Streams& streams,
-             Teller& teller, const RunEngineFactory& make_engine, const PoolFactory& pools) {
+             Teller& teller, const RunEngineFactory& make_engine, const PoolFactory& pools,
+             const std::function<void(const optimizer::Progress&)>& told) {
   const auto begin = Clock::now();
   const std::optional<optimizer::Part> part = part_of(options, asked);
   teller.keeps("what is finished is kept in " + directory.string() + "; the same command with --resume goes on");
@@ -223,7 +228,8 @@ int computed(const RunOptions& options, const Study& asked, const fs::path& dire
   refuse_hopeless(study, alone);
   if (pool) pool->prepare(description_of(study));
   const RunEngine engine = pool ? at_work(study, alone, *pool) : alone;
-  const RunSite site{.study = study, .engine = engine, .directory = directory, .teller = teller, .pool = pool.get()};
+  const RunSite site{
+      .study = study, .engine = engine, .directory = directory, .teller = teller, .pool = pool.get(), .told = told};
   const OrderlyInterrupt interrupt;
   auto [result, late] = searched(site, begin, options.resume, part, fingerprint_of(study), interrupt);
   if (part) {
@@ -294,8 +300,13 @@ int computed(const RunOptions& options, const Study& asked, const fs::path& dire
 
 int run_study(const RunOptions& options, const Streams& streams, const RunEngineFactory& make_engine,
               const PoolFactory& pools) {
+  return run_study(load_rewritten_study(options.study, overrides(options.set)), options, streams, make_engine, pools);
+}
+
+int run_study(const Study& asked, const RunOptions& options, const Streams& streams,
+              const RunEngineFactory& make_engine, const PoolFactory& pools,
+              const std::function<void(const optimizer::Progress&)>& told) {
   Teller teller(streams.err, options.tell, true);
-  const Study asked = load_rewritten_study(options.study, overrides(options.set));
   require_runnable(asked);
   static_cast<void>(part_of(options, asked));
   for (const std::string& warning : warnings(asked))
@@ -313,7 +324,7 @@ int run_study(const RunOptions& options, const Streams& streams, const RunEngine
     streams.out << *before;
   } else {
     forget_finished(directory);
-    status = computed(options, asked, directory, streams, teller, make_engine, pools);
+    status = computed(options, asked, directory, streams, teller, make_engine, pools, told);
   }
   teller.event("end", {{"exit_status", status}});
   return status;

@@ -204,7 +204,11 @@ int run_wear(const WearOptions& given, const Streams& streams) {
   if (given.follow) follow = given.follow == Drive::resonance ? wear::Follow::resonance : wear::Follow::fixed;
   Teller teller(streams.err, given.tell);
   teller.begin("the reduced model");
-  LoadedModel loaded = load_model(given.input, given.set, given.solver, &teller.remark(), follow);
+  return answer_wear(given, load_model(given.input, given.set, given.solver, &teller.remark(), follow), teller,
+                     streams);
+}
+
+int answer_wear(const WearOptions& given, LoadedModel loaded, Teller& teller, const Streams& streams) {
   const WearOptions options = with_choices(given, loaded);
   const auto failed = [&](const std::string& why) { return not_converged(options.input, why, streams); };
   const auto stateless = [&](Status status, const std::string& why, int solves) {

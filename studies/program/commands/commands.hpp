@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <iosfwd>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include "optimizer/workers/worker_pool.hpp"
 #include "studies/program/answers/geometry_export.hpp"
 #include "studies/program/commands/option.hpp"
+#include "studies/program/engine/engine.hpp"
 #include "studies/program/engine/run_engine.hpp"
 #include "studies/program/questions/analysis_choice.hpp"
 #include "studies/program/questions/tell_choice.hpp"
@@ -19,6 +21,8 @@
 #include "studies/program/study_file/study_template.hpp"
 
 namespace dovetail::studies {
+
+class Teller;
 
 /// Exit statuses of the program; 130 is an interruption.
 enum ExitStatus : int { kDone = 0, kWrongInput = 2, kNotConverged = 3 };
@@ -83,6 +87,10 @@ struct ResponseOptions {
   TellChoice tell = {};
 };
 int run_response(const ResponseOptions& options, const Streams& streams);
+/// The same at these frequencies, of which the ends count in an arc-length run; and of a model that is loaded.
+int run_response(const ResponseOptions& options, const std::vector<double>& hz, const Streams& streams);
+int answer_response(const ResponseOptions& options, const std::vector<double>& hz, LoadedModel loaded, Teller& teller,
+                    const Streams& streams);
 
 /// What a backbone is over.
 enum class BackboneOver {
@@ -112,6 +120,8 @@ struct BackboneOptions {
 int run_backbone(const BackboneOptions& options, const Streams& streams);
 
 int run_wear(const WearOptions& options, const Streams& streams);
+/// The same of a model that is loaded.
+int answer_wear(const WearOptions& options, LoadedModel loaded, Teller& teller, const Streams& streams);
 
 struct RunOptions {
   std::string study;
@@ -131,6 +141,9 @@ using PoolFactory =
                                                                const optimizer::WorkerFactory& factory);
 int run_study(const RunOptions& options, const Streams& streams, const RunEngineFactory& engine,
               const PoolFactory& pools = processes);
+/// The same of a study that is read. `told` hears of every candidate of the search; what it throws ends the run.
+int run_study(const Study& study, const RunOptions& options, const Streams& streams, const RunEngineFactory& engine,
+              const PoolFactory& pools = processes, const std::function<void(const optimizer::Progress&)>& told = {});
 
 struct RunsOptions {
   std::vector<std::string> directories;

@@ -131,7 +131,10 @@ CommandHelp import_model() {
           "entry\n"
           "per node), sections [[force]] (dof, harmonic, cosine, sine) and [[output]] (name, dofs, factors); dofs "
           "count\n"
-          "from 0. `response` and `wear` read it directly, too."};
+          "from 0. `response` and `wear` read it directly, too. With format = \"dovetail-structure\" `stiffness` and "
+          "`mass` "
+          "are\n"
+          "matrices as CalculiX, Abaqus and others write them, with pairs of nodes in contact: they are reduced."};
 }
 
 CommandHelp export_files() {

@@ -17,6 +17,7 @@
 #include "optimizer/responses/response_table.hpp"
 #include "quality/truncation.hpp"
 #include "reduction/model_file.hpp"
+#include "reduction/validation.hpp"
 #include "studies/program/engine/model_toml.hpp"
 #include "studies/program/engine/run_folder.hpp"
 #include "studies/program/study_file/refusal.hpp"
@@ -344,6 +345,14 @@ std::optional<reduction::ReducedModel> read_any_model(const std::string& input) 
   const Document document = load_document(input);
   if (!is_model_document(document)) return std::nullopt;
   return read_model_document(document);
+}
+
+LoadedModel take_model(const std::string& name, reduction::ReducedModel model, const SolverChoice& solver) {
+  const steady::Options steady = model_options(name, {}, solver);
+  std::vector<Violation> found = reduction::violations(model);
+  for (Violation& violation : found) violation.file = name;
+  refuse(std::move(found));
+  return from_model(name, std::move(model), steady, solver);
 }
 
 LoadedModel load_model(Study study, std::ostream* err, std::optional<wear::Follow> follow) {

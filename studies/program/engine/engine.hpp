@@ -77,6 +77,10 @@ struct LoadedModel {
                                      const SolverChoice& solver, std::ostream* err = nullptr,
                                      std::optional<wear::Follow> follow = {});
 
+/// The same of a reduced model in memory, which messages call by `name`. Throws InputError for one that is not valid.
+[[nodiscard]] LoadedModel take_model(const std::string& name, reduction::ReducedModel model,
+                                     const SolverChoice& solver);
+
 /// The same of a study that is read already.
 [[nodiscard]] LoadedModel load_model(Study study, std::ostream* err = nullptr, std::optional<wear::Follow> follow = {});
 

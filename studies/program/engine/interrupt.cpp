@@ -66,6 +66,10 @@ const std::atomic<bool>& OrderlyInterrupt::flag() const {
   return stop_requested;
 }
 
+void request_interrupt() {
+  stop_requested = true;
+}
+
 void install_interrupt_handler() {
   say_when_interrupted("what is under way", "nothing is written");
   struct sigaction action {};

@@ -24,6 +24,8 @@ class OrderlyInterrupt {
 /// What the handler says from now on, on standard error: where the first Ctrl-C only asks, what is finished; where the
 /// process ends, what of its work is kept. Not from a handler.
 void say_when_interrupted(const std::string& under_way, const std::string& kept);
+/// What Ctrl-C does while an OrderlyInterrupt lives, where another handles the signal.
+void request_interrupt();
 
 /// Handles SIGINT and SIGTERM of this process from now on. One that ends the process removes the file being written.
 void install_interrupt_handler();

@@ -4,9 +4,9 @@
 #include <set>
 #include <utility>
 
-#include "contact/wear_law.hpp"
 #include "reduction/matrix_market.hpp"
 #include "reduction/validation.hpp"
+#include "studies/program/engine/contact_values.hpp"
 #include "studies/program/engine/model_toml.hpp"
 #include "studies/program/engine/node_lists.hpp"
 #include "studies/program/study_file/refusal.hpp"
@@ -26,7 +26,7 @@ class ModelReader {
 
   reduction::ReducedModel read() {
     root_.text("format", {kFormat}, true);
-    version();
+    read_version(root_, problems_);
     matrix("mass", model_.mass);
     matrix("damping", model_.damping);
     matrix("stiffness", model_.stiffness);
@@ -44,16 +44,6 @@ class ModelReader {
   }
 
  private:
-  void version() {
-    const Node* node = root_.take("version");
-    if (!node)
-      problems_.missing(nullptr, "version", "is missing; it must be 1");
-    else if (node->kind == Node::Kind::whole && node->whole > 1)
-      problems_.add(*node, "version", "the file is newer than this program, which reads version 1");
-    else if (node->kind != Node::Kind::whole || node->whole != 1)
-      problems_.add(*node, "version", "must be 1");
-  }
-
   void matrix(const std::string& key, Eigen::MatrixXd& target) {
     const Node* node = root_.take(key);
     if (!node) return problems_.missing(nullptr, key, "is missing; it must name a Matrix Market file beside this one");
@@ -63,21 +53,17 @@ class ModelReader {
     target = reduction::read_matrix_market((folder / node->text).string());
   }
 
-  const Node* required(SectionReader& section, const std::string& key, const char* what) {
-    const Node* node = section.take(key);
-    if (!node) problems_.missing(section.node(), section.path(key), std::string("is missing; it must be ") + what);
-    return node;
-  }
-
   void contact() {
     SectionReader section(root_.take("contact"), "contact", problems_);
     reduction::ContactNodes& contact = model_.contact;
     const auto path = [&](const char* key) { return section.path(key); };
-    if (const Node* node = required(section, "normal", "a list with the normal dof of each contact node"))
+    if (const Node* node = required(section, problems_, "normal", "a list with the normal dof of each contact node"))
       contact.normal = lists_.indices(*node, path("normal"));
     const Eigen::Index count = contact.normal.size();
     Eigen::Index tangents = 1;
-    if (const Node* node = required(section, "tangential", "a list with the tangential dofs of each contact node")) {
+    contact.tangential.setZero(count, tangents);
+    if (const Node* node =
+            required(section, problems_, "tangential", "a list with the tangential dofs of each contact node")) {
       if (node->kind == Node::Kind::list && !node->items.empty() && node->items[0].kind == Node::Kind::list)
         tangents = std::clamp<Eigen::Index>(static_cast<Eigen::Index>(node->items[0].items.size()), 1, 2);
       contact.tangential.setZero(count, tangents);
@@ -86,35 +72,7 @@ class ModelReader {
                     contact.tangential(i, k) = lists_.index(value, place).value_or(0);
                   });
     }
-    const auto numbers = [&](const char* key, Eigen::VectorXd& target) {
-      if (const Node* node = required(section, key, "a list of numbers, one for each contact node, or one for all"))
-        target = lists_.numbers(*node, path(key), count);
-    };
-    numbers("area", contact.area);
-    numbers("gap", contact.gap);
-    numbers("friction", contact.friction);
-    numbers("wear_coefficient", contact.wear_coefficient);
-    std::vector<std::string_view> laws;
-    for (const dovetail::contact::WearLaw* law : dovetail::contact::wear_laws()) laws.push_back(law->name);
-    if (const auto law = section.text("wear_law", laws)) contact.wear_law = *law;
-    if (const Node* node = section.take("wear_threshold"))
-      contact.wear_threshold = lists_.numbers(*node, path("wear_threshold"), count);
-    const auto table = [&](const char* key, Eigen::Index columns, auto& target) {
-      if (const Node* node = section.take(key)) {
-        target.setZero(count, columns);
-        lists_.rows(*node, path(key), count, columns,
-                    [&](const Node& value, const std::string& place, Eigen::Index i, Eigen::Index k) {
-                      target(i, k) = lists_.number(value, place).value_or(0);
-                    });
-      }
-    };
-    contact.slip_origin.setZero(count, tangents);
-    table("slip_origin", tangents, contact.slip_origin);
-    table("position", 3, contact.position);
-    if (const Node* node = section.take("group")) {
-      lists_.rows(*node, path("group"), count, 1, [](const Node&, const std::string&, Eigen::Index, Eigen::Index) {});
-      contact.group = lists_.indices(*node, path("group"), "the number of a flank, from 0");
-    }
+    read_contact_values(section, lists_, problems_, contact, count);
     section.finish();
   }
 
@@ -146,7 +104,7 @@ class ModelReader {
       const std::string path = item("force", i);
       SectionReader section(&node, path, problems_);
       if (!section.present()) continue;
-      const Node* place = required(section, "dof", "the index of a dof, from 0");
+      const Node* place = required(section, problems_, "dof", "the index of a dof, from 0");
       const std::optional<int> at = place ? dof(*place, path + ".dof") : std::nullopt;
       const std::optional<int> harmonic = section.whole("harmonic", kHarmonics, true);
       const std::optional<double> cosine = section.number("cosine", kAnyNumber);
@@ -184,7 +142,7 @@ class ModelReader {
       SectionReader section(&list[i], path, problems_);
       if (!section.present()) continue;
       model_.output_names.push_back(section.text("name", {}, true).value_or("?"));
-      const Node* dofs = required(section, "dofs", "a list of dofs");
+      const Node* dofs = required(section, problems_, "dofs", "a list of dofs");
       const Node* factors = section.take("factors");
       section.finish();
       if (!dofs || !lists_.is_list(*dofs, path + ".dofs", "dofs")) continue;
@@ -225,10 +183,13 @@ class ModelReader {
 
 bool is_model_document(const Document& document) {
   const Node* format = document.root.find("format");
-  return format && format->kind == Node::Kind::text && format->text == kFormat;
+  return format && format->kind == Node::Kind::text && (format->text == kFormat || format->text == kStructureFormat);
 }
 
 reduction::ReducedModel read_model_document(const Document& document) {
+  const Node* format = document.root.find("format");
+  if (format && format->kind == Node::Kind::text && format->text == kStructureFormat)
+    return read_structure_document(document);
   return ModelReader(document).read();
 }
 

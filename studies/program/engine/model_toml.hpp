@@ -33,11 +33,45 @@ namespace dovetail::studies {
 ///     name = "tip"
 ///     dofs = [9]                      # y = sum factors[k] q[dofs[k]]; factors are 1 if left out
 
-/// Whether the document says it is one: its key `format` is "dovetail-reduced-model".
+/// Whether the document says it is one: its key `format` is "dovetail-reduced-model", or kStructureFormat.
 [[nodiscard]] bool is_model_document(const Document& document);
 
-/// Reads the model and the matrices it names. Throws InputError with all that is wrong.
+/// Reads the model and the matrices it names, or reduces the structure. Throws InputError with all that is wrong.
 [[nodiscard]] reduction::ReducedModel read_model_document(const Document& document);
+
+/// A structure with the matrices of another finite-element code, not reduced (see reduction::read_structure for files):
+///
+///     format = "dovetail-structure"
+///     version = 1
+///     stiffness = "joint.sti"         # names relative to this file
+///     mass = "joint.mas"              # left out: quasi-static
+///     dofs = "joint.dof"              # where the matrices do not name their degrees of freedom
+///     units = "mm, t, s"              # of the matrices; everything here is SI
+///
+///     [reduction]
+///     modes = 20
+///     damping_ratio = 0.001
+///
+///     [contact]
+///     nodes = [11, 12]                # of the one body
+///     against = [21, 22]              # of the other, in the same places; left out, or 0: rigid ground
+///     normal = [0, 1]                 # out of the one body into the other, of all pairs or a list; in space three
+///     area = 1e-6                     # and gap, friction, wear_coefficient, ... as of a reduced model
+///
+///     [[force]]
+///     node = 5
+///     direction = 1
+///     harmonic = 1
+///     cosine = 0.3                    # or file = "cload.inp", whose values cosine and sine multiply
+///
+///     [[output]]
+///     name = "tip"
+///     node = 5
+///     direction = 1
+inline constexpr const char* kStructureFormat = "dovetail-structure";
+
+/// The structure, reduced. Throws InputError with all that is wrong, and for one that nothing holds.
+[[nodiscard]] reduction::ReducedModel read_structure_document(const Document& document);
 
 /// Writes FILE.toml and beside it FILE.mass.mtx, FILE.damping.mtx, FILE.stiffness.mtx; the same model is read back to
 /// the last bit. `origin` says in a comment where it comes from. Throws InputError for an invalid model, a name that

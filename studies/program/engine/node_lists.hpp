@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "studies/program/study_file/section_reader.hpp"
 
@@ -16,7 +17,9 @@ namespace dovetail::studies {
 /// Lists of numbers; what is wrong is reported at its place and read as nothing.
 class Lists {
  public:
-  explicit Lists(Problems& problems) : problems_(problems) {}
+  /// @param counted  the key whose list says how many contact nodes there are
+  explicit Lists(Problems& problems, std::string counted = "contact.normal")
+      : problems_(problems), counted_(std::move(counted)) {}
 
   std::optional<double> number(const Node& node, const std::string& path) {
     if (node.is_number()) return node.real;
@@ -75,11 +78,12 @@ class Lists {
   bool fits(const Node& node, const std::string& path, Eigen::Index count) {
     if (static_cast<Eigen::Index>(node.items.size()) == count) return true;
     problems_.missing(&node, path,
-                      "has " + std::to_string(node.items.size()) + " entries, but contact.normal has " +
+                      "has " + std::to_string(node.items.size()) + " entries, but " + counted_ + " has " +
                           std::to_string(count) + ": must be one for each contact node");
     return false;
   }
   Problems& problems_;
+  std::string counted_;
 };
 
 }  // namespace dovetail::studies

@@ -38,9 +38,10 @@ std::size_t end_of_header(const std::string& text, const std::string& section) {
   return std::string::npos;
 }
 
-bool is_whole(const std::string& key) {
+/// Of keys that are no parameters of the scene a whole number may stand for any.
+bool is_whole(const std::string& key, double value) {
   const optimizer::Parameter* parameter = optimizer::find_parameter(key);
-  return parameter && parameter->kind == optimizer::Parameter::Kind::whole;
+  return parameter ? parameter->kind == optimizer::Parameter::Kind::whole : value == std::rint(value);
 }
 
 /// What the file says of keys, as TOML: a number, "a text", a list.
@@ -138,7 +139,7 @@ std::string as_toml(const std::string& typed) {
 std::string with_values(const Document& document, const std::map<std::string, double>& values) {
   Texts texts;
   for (const auto& [key, value] : values)
-    texts[key] = is_whole(key) ? std::to_string(std::llround(value)) : real_text(value);
+    texts[key] = is_whole(key, value) ? std::to_string(std::llround(value)) : real_text(value);
   return with_texts(document, texts);
 }
 

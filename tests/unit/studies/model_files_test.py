@@ -116,6 +116,65 @@ class ModelFiles(unittest.TestCase):
         both = self.response(slider(), 1.0, 1.0, 1, "--pseudo-penalty", 5, "--pseudo-penalty-normal", 7)
         self.assertEqual(both["settings"]["pseudo_penalty_n_per_m"], {"normal": [7.0], "tangential": [5.0]})
 
+    def structure(self, text=""):
+        """A node on springs in series, 3 and 6 N/m along, 2 and 2 N/m across, that slides on the ground."""
+        along, across = np.array([[3.0, -3], [-3, 9]]), np.array([[2.0, -2], [-2, 4]])
+        lines = [f"{i + 1},{d}, {j + 1},{d}, {values[i, j]:.15e}"
+                 for d, values in ((1, along), (2, across)) for i, j in ((0, 0), (1, 0), (1, 1))]
+        with open(os.path.join(self.folder.name, "stiffness.mtx"), "w") as file:
+            file.write("** Abaqus, MATRIX INPUT\n" + "\n".join(lines) + "\n")
+        path = os.path.join(self.folder.name, "joint.toml")
+        with open(path, "w") as file:
+            file.write("""format = "dovetail-structure"
+version = 1
+stiffness = "stiffness.mtx"
+[contact]
+nodes = [1]
+normal = [0, 1]
+area = 1e-4
+gap = 0
+friction = 0.5
+wear_coefficient = 1e-9
+[[force]]
+node = 1
+direction = 2
+harmonic = 0
+cosine = 0.6
+[[force]]
+node = 1
+direction = 1
+harmonic = 1
+cosine = 1
+[[output]]
+name = "u"
+node = 1
+direction = 1
+""" + text)
+        return path
+
+    def test_a_structure_of_another_code_is_its_reduced_model(self):
+        path = self.structure()
+        wanted = self.response(slider(), 1.0, 1.0, 1)
+        for key in ("response", "imported"):
+            answer = self.answer("response", path, "--from", 1, "--to", 1, "--points", 1)
+            self.assertAlmostEqual(answer["outputs"]["u"]["amplitude"][0], wanted["outputs"]["u"]["amplitude"][0], delta=1e-9)
+            self.assertAlmostEqual(answer["dissipated_energy_j"][0] / wanted["dissipated_energy_j"][0], 1, delta=1e-9)
+            imported = os.path.join(self.folder.name, "joint.h5")
+            self.assertEqual(self.run_program("import", path, "-o", imported).returncode, 0)
+            path = imported
+        direct = self.answer("wear", self.structure(), "--method", "history", "--frequency", 1, "--cycles", 10)
+        self.assertEqual(direct, self.answer("wear", path, "--method", "history", "--frequency", 1, "--cycles", 10))
+        expected = self.answer("wear", self.model, "--method", "history", "--frequency", 1, "--cycles", 10)
+        self.assertAlmostEqual(direct["depth_m"][0] / expected["depth_m"][0], 1, delta=1e-9)
+
+    def test_a_wrong_structure_is_refused_in_one_sentence(self):
+        for change, sentence in (("[[output]]\nname = 'v'\nnode = 9\ndirection = 1\n", "node 9 has no direction 1 in the matrices"),
+                                 ("[reduction]\nmods = 3\n", "did you mean reduction.modes")):
+            done = self.run_program("import", self.structure(change), "-o", "joint.h5")
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(sentence, done.stderr)
+            self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+
     def test_a_threshold_of_a_law_without_one_is_refused(self):
         data = {**slider(), "/contact/wear_threshold": np.array([3.0])}
         for command in (("wear", self.model, "--method", "asymptote", "--frequency", 1),

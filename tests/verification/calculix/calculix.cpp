@@ -153,15 +153,18 @@ bool is_installed() {
   return std::system("command -v ccx >/dev/null 2>&1") == 0;  // NOLINT(cert-env33-c): a test of this machine
 }
 
+void run_in(const fs::path& folder, const std::string& deck) {
+  std::ofstream(folder / "deck.inp") << deck;
+  const std::string command =
+      "cd '" + folder.string() + "' && OMP_NUM_THREADS=1 ccx deck >log 2>&1 && grep -q 'Job finished' log";
+  if (std::system(command.c_str()) == 0) return;  // NOLINT(cert-env33-c)
+  const std::string log = content(folder / "log");
+  throw std::runtime_error("ccx did not finish: " + log.substr(log.size() - std::min<std::size_t>(log.size(), 2000)));
+}
+
 Answer run(const std::string& deck) {
   const Folder folder;
-  std::ofstream(folder.path() / "deck.inp") << deck;
-  const std::string command =
-      "cd '" + folder.path().string() + "' && OMP_NUM_THREADS=1 ccx deck >log 2>&1 && grep -q 'Job finished' log";
-  if (std::system(command.c_str()) != 0) {  // NOLINT(cert-env33-c)
-    const std::string log = content(folder.path() / "log");
-    throw std::runtime_error("ccx did not finish: " + log.substr(log.size() - std::min<std::size_t>(log.size(), 2000)));
-  }
+  run_in(folder.path(), deck);
   Answer answer;
   TableReader reader(answer);
   std::ifstream tables(folder.path() / "deck.dat");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -29,5 +30,8 @@ struct Answer {
 /// Runs ccx on that deck in a folder of its own, with one thread. Throws std::runtime_error with the end of its output
 /// when it does not finish.
 [[nodiscard]] Answer run(const std::string& deck);
+
+/// The same in that folder, whose files stay: deck.sti and others. Throws std::runtime_error.
+void run_in(const std::filesystem::path& folder, const std::string& deck);
 
 }  // namespace dovetail::calculix

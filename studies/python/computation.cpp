@@ -1,0 +1,56 @@
+#include "studies/python/computation.hpp"
+
+#include <pybind11/pybind11.h>
+
+#include <atomic>
+#include <chrono>
+#include <future>
+#include <optional>
+
+#include "core/interruption.hpp"
+#include "studies/program/engine/interrupt.hpp"
+
+namespace dovetail::python {
+
+namespace py = pybind11;
+
+namespace {
+
+/// How often signals are looked at: people do not notice it, and the interpreter's lock is hardly ever taken.
+constexpr std::chrono::milliseconds kLook{20};
+
+}  // namespace
+
+void compute(const std::function<void()>& work, Ending ending) {
+  std::atomic<bool> stop{false};
+  // Python handles signals in its main thread, between its own instructions: so the work has a thread of its own.
+  std::optional<py::error_already_set> raised;
+  std::exception_ptr thrown;
+  {
+    const py::gil_scoped_release free;
+    const std::future<void> done = std::async(std::launch::async, [&] {
+      try {
+        const Interruptible interruptible(stop);
+        work();
+      } catch (const Interrupted&) {
+      } catch (...) {
+        thrown = std::current_exception();
+      }
+    });
+    while (done.wait_for(kLook) != std::future_status::ready) {
+      if (!raised) {
+        const py::gil_scoped_acquire held;
+        if (PyErr_CheckSignals() != 0) raised.emplace();
+      }
+      if (!raised) continue;
+      if (ending == Ending::at_once)
+        stop = true;
+      else
+        studies::request_interrupt();
+    }
+  }
+  if (raised) throw py::error_already_set(*raised);
+  if (thrown) std::rethrow_exception(thrown);
+}
+
+}  // namespace dovetail::python
