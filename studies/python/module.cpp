@@ -65,7 +65,7 @@ Answer response(const py::object& given, const py::object& frequencies, const py
   if (options.arclength && options.from_hz == options.to_hz)
     studies::refuse("frequencies", "must begin and end an interval with arclength");
   return answer_of([&, model = input.model ? *input.model : reduction::ReducedModel()](const Streams& streams) {
-    if (!input.model) return studies::run_response(options, hz, streams);
+    if (!input.model) return studies::answer_response(options, hz, streams);
     studies::Teller teller(streams.err, options.tell);
     return studies::answer_response(options, hz, studies::take_model(input.name, model, options.solver), teller,
                                     streams);

@@ -142,10 +142,10 @@ bool contact_changes(const ResponseCurve& curve) {
 }  // namespace
 
 int run_response(const ResponseOptions& options, const Streams& streams) {
-  return run_response(options, frequencies(options), streams);
+  return answer_response(options, frequencies(options), streams);
 }
 
-int run_response(const ResponseOptions& options, const std::vector<double>& hz, const Streams& streams) {
+int answer_response(const ResponseOptions& options, const std::vector<double>& hz, const Streams& streams) {
   Teller teller(streams.err, options.tell);
   teller.begin("the reduced model");
   return answer_response(options, hz, load_model(options.input, options.set, options.solver, &teller.remark()), teller,

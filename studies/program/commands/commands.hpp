@@ -88,7 +88,7 @@ struct ResponseOptions {
 };
 int run_response(const ResponseOptions& options, const Streams& streams);
 /// The same at these frequencies, of which the ends count in an arc-length run; and of a model that is loaded.
-int run_response(const ResponseOptions& options, const std::vector<double>& hz, const Streams& streams);
+int answer_response(const ResponseOptions& options, const std::vector<double>& hz, const Streams& streams);
 int answer_response(const ResponseOptions& options, const std::vector<double>& hz, LoadedModel loaded, Teller& teller,
                     const Streams& streams);
 
