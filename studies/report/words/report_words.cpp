@@ -80,22 +80,6 @@ std::string objective_value(const RunRecord& record, const EvaluationRecord& bes
   return fmt::format("{} {} of {}", article, said, with_error(value, bar, response_unit(term.response, value)));
 }
 
-/// "peak_amplitude_m:upper" -> "upper limit of the peak amplitude (8.0 mm)".
-std::string limit_words(const std::string& name, const optimizer::Problem& problem) {
-  const std::size_t colon = name.rfind(':');
-  const auto [response, over] = optimizer::split_case(std::string_view(name).substr(0, colon));
-  const std::string limited(response), side = colon == std::string::npos ? "" : name.substr(colon + 1);
-  std::string text = fmt::format("the {} limit of the {}{}", side, words(limited),
-                                 over_words(problem, over.empty() ? to_string(optimizer::Over::worst) : over));
-  for (const optimizer::ResponseConstraint& constraint : problem.constraints) {
-    if (constraint.response != limited || (!over.empty() && constraint.over != over)) continue;
-    const std::optional<double> limit = side == "upper" ? constraint.upper : constraint.lower;
-    if (limit) text += " (" + plain(*limit, response_unit(limited, *limit)) + ")";
-    break;
-  }
-  return text;
-}
-
 }  // namespace
 
 const EvaluationRecord* baseline_of(const RunRecord& record) {
@@ -124,6 +108,21 @@ Unit response_unit(const std::string& name, double largest) {
   Unit unit = readable_unit(si, largest);
   unit.symbol += "/cycle";
   return unit;
+}
+
+std::string limit_words(const std::string& name, const optimizer::Problem& problem) {
+  const std::size_t colon = name.rfind(':');
+  const auto [response, over] = optimizer::split_case(std::string_view(name).substr(0, colon));
+  const std::string limited(response), side = colon == std::string::npos ? "" : name.substr(colon + 1);
+  std::string text = fmt::format("the {} limit of the {}{}", side, words(limited),
+                                 over_words(problem, over.empty() ? to_string(optimizer::Over::worst) : over));
+  for (const optimizer::ResponseConstraint& constraint : problem.constraints) {
+    if (constraint.response != limited || (!over.empty() && constraint.over != over)) continue;
+    const std::optional<double> limit = side == "upper" ? constraint.upper : constraint.lower;
+    if (limit) text += " (" + plain(*limit, response_unit(limited, *limit)) + ")";
+    break;
+  }
+  return text;
 }
 
 std::string wear_words(const RunRecord& record) {
