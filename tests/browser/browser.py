@@ -87,14 +87,16 @@ class Browser:
                   features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
 
     def open(self, file):
-        """Seconds until the page is loaded and drawn."""
+        """Seconds until the page is loaded and its first screen drawn; the rest is, too, when this returns."""
         self.errors, self.events = [], []
         start = time.monotonic()
         self.call("Page.navigate", url="file://" + os.path.abspath(file))
         while "Page.loadEventFired" not in self.events:
             self.message()
-        self.ask("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
-        return time.monotonic() - start
+        self.ask("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done())))")
+        seconds = time.monotonic() - start
+        self.ask("dovetail.ready")
+        return seconds
 
     def ask(self, expression):
         """What a script in the page comes to."""
@@ -104,7 +106,7 @@ class Browser:
         return answer["result"].get("value")
 
     def settle(self):
-        self.ask("new Promise(done => setTimeout(done, 150))")
+        self.ask("new Promise(done => setTimeout(() => done(), 150))")
 
     def press(self, x, y):
         for kind in ("mouseMoved", "mousePressed", "mouseReleased"):

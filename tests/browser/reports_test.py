@@ -54,15 +54,17 @@ def search(algorithm="scan", scan=12, most=12, finer=0, verify=0, departures="fa
 
 
 WEIGHTED = (WEAR + "weight = 1\nscale = 1e-9\n" + '[[objective]]\nresponse = "resonance_drift"\naim = "zero"\nweight = 1\nscale = 0.01\n')
-SPACE = {"type": '"sector"', "flank_elements": 4, "bulk_size_mm": 14, "aerofoil_elements": 5, "slot_elements": 3, "harmonics": 1}
+SPACE = {"type": '"sector"', "flank_elements": 4, "fillet_fraction": 0.5, "blend_fraction": 0.8, "growth": 0.8, "bulk_size_mm": 20,
+         "aerofoil_elements": 4, "slot_elements": 2, "contact_flank_elements": 3, "contact_slot_elements": 2, "harmonics": 1,
+         "samples": 64}
 # What is different in each study from the coarse one in the plane, and what it asks.
 STUDIES = {
     "section": ({}, VARIABLES + WEIGHTED + LIMIT.format(upper=7.4e-3) +
                 search("cobyla", 8, 14, finer=1, verify=1, departures="true")),
-    "front": ({}, VARIABLES + WEAR + AMPLITUDE + search()),
+    "front": ({}, VARIABLES + WEAR + AMPLITUDE + search(most=8, scan=8)),
     "infeasible": ({}, VARIABLES + WEAR + LIMIT.format(upper=1e-3) + search()),
     "zero_wear": ({"tip_force_n": 0.02}, VARIABLES + WEAR + LIMIT.format(upper=7.4e-3) + search(most=4, scan=4)),
-    "sector": (SPACE, VARIABLES + WEAR + LIMIT.format(upper=9e-3) + search(most=2, scan=2)),
+    "sector": (SPACE, VARIABLES + WEAR + search(most=1, scan=1)),
 }
 WIDTHS = (1280, 800, 390)
 

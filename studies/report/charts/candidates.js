@@ -1,7 +1,7 @@
 /* All candidates of a run: parallel coordinates over variables, objectives and limited responses, a scatter of any two
    of them, and a table of those that are chosen - in any figure of the page, by a press, or by a range on the axes. */
 "use strict";
-for (const host of document.querySelectorAll(".chart[data-kind=candidates]")) (() => {
+for (const host of document.querySelectorAll(".chart[data-kind=candidates]")) dovetail.later(host, () => {
   const {ink, text, tooltip, zoom, marks, written, united, escaped, titled} = dovetail;
   const {axes, candidates, best} = JSON.parse(host.querySelector("script").textContent);
   const states = {
@@ -44,7 +44,8 @@ for (const host of document.querySelectorAll(".chart[data-kind=candidates]")) ((
     const look = states[candidates[i].state], chosen = dovetail.chosen();
     const shown = chosen.size === 0 || chosen.has(i);
     return {value: candidates[i].values.map(value => value === null ? "-" : value), name: said(i),
-      lineStyle: {color: ink(look.role), width: look.width + (chosen.has(i) ? 1 : 0), opacity: shown ? (chosen.has(i) ? 1 : look.opacity) : .06}};
+      lineStyle: {color: ink(look.role), width: look.width + (chosen.has(i) ? 1 : 0), opacity: shown ? (chosen.has(i) ? 1 : look.opacity) : .06},
+      emphasis: {lineStyle: {color: ink(look.role), width: look.width + 1.5, opacity: 1}}};
   });
   parallel.setOption({animation: false, parallel: {left: 46, right: 46, top: 80, bottom: 16, axisExpandable: false},
     tooltip: {...tooltip, trigger: "item", formatter: item => `<b>${escaped(said(drawn[item.dataIndex]))}</b><br>${numbers(drawn[item.dataIndex])}`},
@@ -93,8 +94,9 @@ for (const host of document.querySelectorAll(".chart[data-kind=candidates]")) ((
     tooltip: {...tooltip, trigger: "item", formatter: item => { const i = item.data.candidate; return `<b>${escaped(said(i))}</b><br>${numbers(i)}`; }},
     series: present.map(state => {
       const look = states[state], mark = marks[look.mark], paint = ink(look.role), chosen = dovetail.chosen();
+      const style = mark.hollow ? {color: "none", borderColor: paint, borderWidth: 1.6} : {color: paint, borderColor: ink("card"), borderWidth: .8};
       return {type: "scatter", name: look.name, animation: false, ...mark, cursor: "pointer", z: order.indexOf(state) + 2,
-        itemStyle: mark.hollow ? {color: "none", borderColor: paint, borderWidth: 1.6} : {color: paint, borderColor: ink("card"), borderWidth: .8},
+        itemStyle: style, emphasis: {itemStyle: style},
         data: members(state).map(i => ({candidate: i, value: [candidates[i].values[across.value], candidates[i].values[up.value]],
           itemStyle: {opacity: chosen.size === 0 || chosen.has(i) ? 1 : .12}}))};
     })});
@@ -113,4 +115,4 @@ for (const host of document.querySelectorAll(".chart[data-kind=candidates]")) ((
       axes.map(axis => `<th scope="col">${escaped(titled(axis))}</th>`).join("") + `</tr></thead><tbody>${rows.join("")}</tbody></table>` +
       (chosen.size > 40 ? `<p class="soft">The first 40 of ${chosen.size} that are chosen.</p>` : "");
   });
-})();
+});

@@ -89,7 +89,7 @@ const dovetail = (() => {
       ...mark, showSymbol: line && series.mark !== "none", symbol: mark.symbol || "circle", symbolSize: mark.symbolSize || 0,
       itemStyle: style, lineStyle: {color: paint, width: 2, type: strokes[series.stroke] || "solid"},
       label: {...text, fontSize: 11, position: "right", color: ink("soft")}, labelLayout: {hideOverlap: true},
-      emphasis: {disabled: line, scale: 1.5}, cursor: series.candidates ? "pointer" : "default",
+      emphasis: {disabled: line, scale: 1.5, itemStyle: style}, cursor: series.candidates ? "pointer" : "default",
       z: series.mark === "star" ? 5 : series.mark === "none" || line ? 2 : 3};
   }
 
@@ -137,7 +137,7 @@ const dovetail = (() => {
       `along the slot ${united(value[0], "mm", 3)}<br>from the neck side ${united(value[1], "mm", 3)}<br>` +
       `${escaped(map.quantity)} <b>${united(value[6], map.unit)}</b>`},
       visualMap: {type: "continuous", dimension: 6, min: 0, max: map.most || 1, inRange: {color: scale}, calculable: false, precision: 2,
-        right: 0, top: "middle", itemHeight: 150, itemWidth: 11, text: [`${written(map.most, 3)} ${map.unit}`, "0"], textStyle: small, formatter: value => united(value, map.unit, 3)},
+        right: 0, top: "middle", itemHeight: 110, itemWidth: 11, text: [`${written(map.most, 3)} ${map.unit}`, "0"], textStyle: small, formatter: value => united(value, map.unit, 3)},
       title: [], grid: [], xAxis: [], yAxis: [], series: []};
     map.panels.forEach((panel, i) => {
       const left = 12 + i * 75 / count, width = 75 / count - 7;
@@ -229,9 +229,14 @@ const dovetail = (() => {
   }
 
   function tools(chart, show) { if (chart.getOption().toolbox) chart.setOption({toolbox: {show}}); }
-  function fit() { charts.forEach(({chart}) => chart.resize()); }
+  let printing = false;
+  function fit() {  // only what has another width
+    if (!printing) charts.forEach(({chart, place}) => { if (chart.getWidth() !== place.clientWidth && place.clientWidth > 0) chart.resize({width: "auto", height: "auto"}); });
+  }
   /* Paper is two or three columns of figures wide, whatever the window is. */
   function onPaper() {
+    while (waiting.length) next();
+    printing = true;
     charts.forEach(({chart, place}) => {
       const [width, height] = place.closest(".wide,.field") ? [660, 260] : place.closest(".small") ? [195, 150] : [305, 185];
       chart.resize({width, height});
@@ -240,15 +245,28 @@ const dovetail = (() => {
     });
   }
 
+  /* What stands on the first screen is drawn at once, the rest one by one behind it, or when it is to be printed. */
+  const waiting = [];
+  function later(host, task) {
+    if (host.getBoundingClientRect().top < innerHeight) task();
+    else waiting.push(task);
+  }
+  function next() { if (waiting.length) waiting.shift()(); }
+  const ready = new Promise(done => addEventListener("load", function step() {
+    next();
+    if (waiting.length) setTimeout(step);
+    else done();
+  }));
+
   function start() {
-    document.querySelectorAll(".chart[data-kind=plot],.chart[data-kind=map]").forEach(draw);
-    let waiting = 0;
-    new ResizeObserver(() => { cancelAnimationFrame(waiting); waiting = requestAnimationFrame(fit); }).observe(document.body);
+    document.querySelectorAll(".chart[data-kind=plot],.chart[data-kind=map]").forEach(host => later(host, () => draw(host)));
+    let frame = 0;
+    new ResizeObserver(() => { cancelAnimationFrame(frame); frame = requestAnimationFrame(fit); }).observe(document.body);
     addEventListener("beforeprint", onPaper);
-    addEventListener("afterprint", () => { fit(); charts.forEach(({chart}) => tools(chart, true)); });
+    addEventListener("afterprint", () => { printing = false; fit(); charts.forEach(({chart}) => tools(chart, true)); });
   }
 
-  return {start, open, above, choose, toggle, onPaper, written, united, escaped, titled, ink, text, tooltip, zoom, marks, chosen: () => chosen,
+  return {start, later, ready, open, above, choose, toggle, onPaper, written, united, escaped, titled, ink, text, tooltip, zoom, marks, chosen: () => chosen,
     onChoice: listener => listeners.push(listener)};
 })();
 dovetail.start();

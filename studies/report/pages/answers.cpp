@@ -62,13 +62,12 @@ std::string bars_sentence(const RunRecord& record, const EvaluationRecord& best)
   for (const optimizer::ObjectiveTerm& term : record.problem.objective) {
     const optimizer::Barred value = shown_term(record.problem, term, best);
     if (!std::isfinite(value.bar)) continue;
-    parts.push_back("the " + term_words(record.problem, term) + " to \u00b1" +
+    parts.push_back(term_words(record.problem, term) + " \u00b1" +
                     (value.value != 0 ? percentage(value.bar / std::abs(value.value))
                                       : plain(value.bar, response_unit(term.response, value.bar))));
   }
   if (parts.empty()) return "The objective has no error bar.";
-  return capital(fmt::format("{} {} known, by {} error bar{}.", listed(parts), parts.size() == 1 ? "is" : "are",
-                             parts.size() == 1 ? "its" : "their", parts.size() == 1 ? "" : "s"));
+  return fmt::format("Error bar{}: {}.", parts.size() == 1 ? "" : "s", listed(parts));
 }
 
 }  // namespace

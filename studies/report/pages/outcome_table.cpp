@@ -115,7 +115,8 @@ std::string outcome_table(const RunRecord& record) {
     designs.base = nullptr;
   if (!designs.base && !designs.best) return {};
   if (designs.best && designs.best->constraints.size() != constraint_names(record.problem).size()) return {};
-  Table table{.columns = {{"", true}, {"wanted", true}}, .rows = {}, .style = "outcome"};
+  Table table{
+      .columns = {{"", true}, {"wanted", true}}, .rows = {}, .style = designs.both() ? "outcome both" : "outcome"};
   const std::string after = best_of(record) ? best_word(record) : "nearest";
   if (designs.both())
     table.columns.insert(table.columns.end(), {{"before (start)"}, {"after (" + after + ")"}, {"change"}});

@@ -83,6 +83,13 @@ Plot fillet_plot(const Comparison& designs) {
       for (std::size_t i = 0; i < count; ++i)
         if ((fillet.x_m[i] > 0) == (fillet.x_m[peak] > 0)) points.emplace_back(fillet.y_m[i], fillet.von_mises_pa[i]);
       std::sort(points.begin(), points.end());
+      // In space nodes of one height stand side by side along the slot: the most loaded of them tells.
+      constexpr double kSameHeight = 1e-7;
+      for (std::size_t i = points.size(); i-- > 1;)
+        if (points[i].first - points[i - 1].first < kSameHeight) {
+          points[i - 1].second = std::max(points[i - 1].second, points[i].second);
+          points.erase(points.begin() + static_cast<std::ptrdiff_t>(i));
+        }
       Series series{.name = name_of(designs, role, fillet.name),
                     .role = role,
                     .stroke = fillet.name == "blade" ? Stroke::solid : Stroke::dashed};
@@ -121,7 +128,7 @@ std::vector<Figure> contact_maps(const Comparison& designs) {
     double most = 0;
     for (const auto& [design, role] : in_order(designs)) most = std::max(most, largest(design->contact.*quantity));
     for (const auto& [design, role] : in_order(designs)) {
-      if (!in_space(design->contact)) continue;
+      if (!in_space(design->contact) || (design->contact.*quantity).empty()) continue;
       FlankMap map = look;
       if (designs.before) map.title += role == Role::before ? ", before" : ", after";
       map.unit = readable_unit(si_unit, most);

@@ -346,7 +346,7 @@ TEST(Answers, TellWhatBecameBetterAndWorse) {
 
 TEST(Answers, TellHowSureAndHowFar) {
   RunRecord record = sample_record();
-  EXPECT_THAT(how_sure(record), testing::Contains(HasSubstr("asymptotic wear volume to \u00b12.0\u00a0%")));
+  EXPECT_THAT(how_sure(record), testing::Contains("Error bar: asymptotic wear volume \u00b12.0\u00a0%."));
   EXPECT_THAT(how_sure(record), testing::Contains("The best design was not held against a wear history."));
   EXPECT_THAT(how_sure(record), testing::Contains("With 32 edges along each flank it keeps every limit."));
   record.verifications.front().evaluation = 3;
