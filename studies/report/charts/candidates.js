@@ -69,7 +69,7 @@ for (const host of document.querySelectorAll(".chart[data-kind=candidates]")) do
     const choice = element("select", element("label", controls, label + " "));
     axes.forEach((axis, i) => { element("option", choice, escaped(titled(axis))).value = i; });
     choice.value = at;
-    choice.addEventListener("change", () => scatter.setOption(cloud(), {replaceMerge: ["series"]}));
+    choice.addEventListener("change", () => show());
     return choice;
   };
   const objective = axes.findIndex(axis => axis.of === "objective");
@@ -89,7 +89,7 @@ for (const host of document.querySelectorAll(".chart[data-kind=candidates]")) do
     axisLine: {show: x, onZero: false, lineStyle: {color: ink("base")}}, axisLabel: {...text, hideOverlap: true, formatter: value => written(value, 6)},
     splitLine: {lineStyle: {color: ink("hair")}}});
   const members = state => candidates.map((_, i) => i).filter(i => candidates[i].state === state);
-  const cloud = () => ({animation: false, title: dovetail.above(axes[up.value]), grid: {left: 4, right: 14, top: 34, bottom: 26, containLabel: true}, toolbox: zoom,
+  const cloud = () => ({animation: false, grid: {left: 4, right: 14, top: 20, bottom: 26, containLabel: true}, toolbox: zoom,
     xAxis: axisOf(axes[across.value], true), yAxis: axisOf(axes[up.value], false),
     tooltip: {...tooltip, trigger: "item", formatter: item => { const i = item.data.candidate; return `<b>${escaped(said(i))}</b><br>${numbers(i)}`; }},
     series: present.map(state => {
@@ -100,7 +100,11 @@ for (const host of document.querySelectorAll(".chart[data-kind=candidates]")) do
         data: members(state).map(i => ({candidate: i, value: [candidates[i].values[across.value], candidates[i].values[up.value]],
           itemStyle: {opacity: chosen.size === 0 || chosen.has(i) ? 1 : .12}}))};
     })});
-  scatter.setOption(cloud());
+  const show = () => {
+    dovetail.above(field.querySelector(".drawing-place"), axes[up.value]);
+    scatter.setOption(cloud(), {replaceMerge: ["series"]});
+  };
+  show();
   scatter.on("click", item => dovetail.toggle(item.data.candidate));
 
   // The chosen ones in numbers.

@@ -42,21 +42,34 @@ const dovetail = (() => {
     feature: {dataZoom: {title: {zoom: "zoom: draw a frame", back: "zoom back"}, filterMode: "none",
       brushStyle: {color: ink("wash"), opacity: .5, borderColor: ink("after")}}}};
 
-  /* What stands upwards, above the drawing. */
-  const above = axis => ({text: titled(axis), left: 0, top: 6, padding: 0, textStyle: {...text, color: ink("ink"), fontWeight: "normal"}});
+  /* What stands upwards, in a line of its own above the drawing. */
+  function above(place, axis) {
+    let line = place.previousElementSibling;
+    if (!line || line.className !== "upwards") {
+      line = document.createElement("div");
+      line.className = "upwards";
+      place.before(line);
+    }
+    line.textContent = titled(axis);
+  }
 
   /* @param room  beside the outermost values across, of their range: marks would be cut there, lines are not */
   function axisOption(axis, across, room = 0, ends = []) {
-    const beside = range => range.max > range.min ? (axis.log ? 0 : room * (range.max - range.min)) : .1 * Math.abs(range.max) || 1;
+    const beside = range => range.max > range.min ? room * (range.max - range.min) : .1 * Math.abs(range.max) || 1;
+    // A logarithmic axis that is tight ends at 1, 2 or 5 times a power of ten.
+    const round = (value, up) => {
+      const power = 10 ** Math.floor(Math.log10(value) + 1e-9), leads = up ? [1, 2, 5, 10] : [5, 2, 1];
+      return power * leads.find(lead => up ? lead * power >= value * (1 - 1e-9) : lead * power <= value * (1 + 1e-9));
+    };
     const plain = end => axis.whole || axis.log || !across || (room === 0 && +Number(end).toPrecision(2) === end) ? undefined : false;
     return {
       type: axis.log ? "log" : "value", scale: !axis.zero, name: across ? titled(axis) : "",
       nameLocation: "middle", nameGap: 26, nameTextStyle: {...text, color: ink("ink")},
-      min: across && (axis.log ? axis.tight : !axis.zero) ? range => range.min - beside(range) : undefined,
-      max: across && (!axis.log || axis.tight) ? range => range.max + beside(range) : undefined,
+      min: across && (axis.log ? axis.tight : !axis.zero) ? range => axis.log ? round(range.min, false) : range.min - beside(range) : undefined,
+      max: across && (!axis.log || axis.tight) ? range => axis.log ? round(range.max, true) : range.max + beside(range) : undefined,
       minInterval: axis.whole ? 1 : undefined, splitNumber: across ? 5 : 4,
       axisLine: {show: across, onZero: false, lineStyle: {color: ink("base")}}, axisTick: {show: across, lineStyle: {color: ink("base")}},
-      axisLabel: {...text, hideOverlap: true, showMinLabel: plain(ends[0]), showMaxLabel: plain(ends[1]),
+      axisLabel: {...text, hideOverlap: true, showMinLabel: plain(ends[0]), showMaxLabel: plain(ends[1]), alignMaxLabel: across && axis.log ? "right" : null,
         formatter: value => written(value, axis.log ? 2 : 6)},
       splitLine: {show: !across, lineStyle: {color: ink("hair")}}, minorTick: {show: false}, axisPointer: {label: {show: false}}};
   }
@@ -105,7 +118,7 @@ const dovetail = (() => {
       itemStyle: {color: ink("hair"), opacity: .6}, data: [[{yAxis: "min"}, {yAxis: plot.shaded_below}]]}});
     const marked = plot.series.some(one => one.stroke === "none" && one.points.length > 0);
     const x = axisOption(plot.x, true, marked && !plot.x.whole ? .03 : 0, [Math.min(...places), Math.max(...places)]);
-    return {animation: false, title: above(plot.y), grid: {left: 4, right: 14, top: 34, bottom: 26, containLabel: true}, xAxis: x,
+    return {animation: false, grid: {left: 4, right: 14, top: 20, bottom: 26, containLabel: true}, xAxis: x,
       yAxis: axisOption(plot.y, false), toolbox: zoom, series, tooltip: lines ? {...tooltip, trigger: "axis", formatter: items => along(plot, items[0].axisValue, hidden),
         axisPointer: {type: "line", lineStyle: {color: ink("base")}}}
         : {...tooltip, trigger: "item", formatter: item => told(plot, plot.series[item.seriesIndex], item.dataIndex)}};
@@ -197,6 +210,7 @@ const dovetail = (() => {
       const hidden = name => chart.getOption().legend[0].selected[name] === false;
       chart.setOption({...plotOption(data, hidden), legend: {show: false}});
       legend(host, data, chart);
+      above(host.querySelector(".drawing-place"), data.y);
       if (data.series.some(series => series.candidates)) {
         chart.on("click", item => {
           const series = data.series[item.seriesIndex];
@@ -238,7 +252,7 @@ const dovetail = (() => {
     while (waiting.length) next();
     printing = true;
     charts.forEach(({chart, place}) => {
-      const [width, height] = place.closest(".wide,.field") ? [660, 260] : place.closest(".small") ? [195, 150] : [305, 185];
+      const [width, height] = place.closest(".wide,.field") ? [660, 225] : place.closest(".small") ? [195, 130] : [305, 150];
       chart.resize({width, height});
       tools(chart, false);
       chart.getZr().flush();  // paper does not wait for the next frame

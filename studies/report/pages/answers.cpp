@@ -45,7 +45,8 @@ std::vector<std::string> broken(const RunRecord& record, const Numbers& constrai
   const std::vector<std::string> names = constraint_names(record.problem);
   for (std::size_t j = 0; j < std::min(names.size(), constraints.size()); ++j)
     if (constraints[j] > 0)
-      found.push_back(fmt::format("{} by {}", limit_words(names[j], record.problem), percentage(constraints[j])));
+      found.push_back(
+          fmt::format("{} by {}", limit_words(names[j], record.problem, false), percentage(constraints[j])));
   return found;
 }
 

@@ -189,7 +189,7 @@ std::string joint_figure(const DesignRecord& design, const DesignRecord* before)
   // Below a nanometre a flank is flat to any machine.
   const bool formed = gap > 1e-9;
   const double factor = formed ? std::max(1.0, round_factor(0.09 * box.sizes().y() / gap)) : 1;
-  box.extend(Eigen::Vector2d(box.max().x() + 13e-3 * text_size, box.max().y()));
+  if (!design.parameters.empty()) box.extend(Eigen::Vector2d(box.max().x() + 13e-3 * text_size, box.max().y()));
   std::string beside = dimensions(design, before, box, text_size) + scale_bar(box);
   if (formed)
     beside += fmt::format(

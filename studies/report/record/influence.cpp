@@ -64,8 +64,8 @@ Influence influence(const RunRecord& record, const Numbers& values) {
     const Eigen::VectorXd part = basis.middleCols(2 * v, 2) * weights.segment(2 * v, 2);
     result.variables.push_back(
         {.share = std::max(0.0, part.dot(fit) / variance), .trend = trend_of(weights(2 * v), 2 * weights(2 * v + 1))});
-    result.explained += result.variables.back().share;
   }
+  result.explained = fit.squaredNorm() / variance;
   return result;
 }
 

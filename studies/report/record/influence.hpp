@@ -19,7 +19,7 @@ struct VariableInfluence {
 /// What the variables do to one quantity, as far as the candidates tell.
 struct Influence {
   std::size_t candidates = 0;                     ///< with a value
-  double explained = 0;                           ///< of the variance of the ranks, 0 to 1: the sum of the shares
+  double explained = 0;                           ///< of the variance of the ranks by all variables, 0 to 1
   std::vector<VariableInfluence> variables = {};  ///< in the order of the design space; empty: too few candidates
 };
 

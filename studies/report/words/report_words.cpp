@@ -110,12 +110,13 @@ Unit response_unit(const std::string& name, double largest) {
   return unit;
 }
 
-std::string limit_words(const std::string& name, const optimizer::Problem& problem) {
+std::string limit_words(const std::string& name, const optimizer::Problem& problem, bool with_number) {
   const std::size_t colon = name.rfind(':');
   const auto [response, over] = optimizer::split_case(std::string_view(name).substr(0, colon));
   const std::string limited(response), side = colon == std::string::npos ? "" : name.substr(colon + 1);
   std::string text = fmt::format("the {} limit of the {}{}", side, words(limited),
                                  over_words(problem, over.empty() ? to_string(optimizer::Over::worst) : over));
+  if (!with_number) return text;
   for (const optimizer::ResponseConstraint& constraint : problem.constraints) {
     if (constraint.response != limited || (!over.empty() && constraint.over != over)) continue;
     const std::optional<double> limit = side == "upper" ? constraint.upper : constraint.lower;
