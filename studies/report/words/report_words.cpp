@@ -42,6 +42,7 @@ std::string verb(double from, double to) {
 std::string from_to(const std::string& response, double from, double to) {
   const Unit unit = response_unit(response, std::max(std::abs(from), std::abs(to)));
   const std::string symbol = unit.symbol.empty() ? "" : "\u00a0" + unit.symbol;
+  if (from == to) return "at " + significant(to / unit.si, 3) + symbol;
   std::string text =
       fmt::format("from {} to {}{}", significant(from / unit.si, 3), significant(to / unit.si, 3), symbol);
   if (from > 0 && to > 0) text += " (" + per_cent(to, from, 1, 2) + ")";
