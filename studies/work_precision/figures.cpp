@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "studies/report/plots/scale.hpp"
+#include "studies/report/plots/plot.hpp"
 
 namespace dovetail::work_precision {
 namespace {
@@ -18,7 +18,6 @@ using report::Role;
 using report::Series;
 using report::Stroke;
 
-constexpr int kWidth = 372, kHeight = 300;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 std::string described(const Line& line, const Point& point, const Sweep& sweep, std::size_t quantity) {
@@ -72,9 +71,7 @@ Plot error_plot(const Diagram& diagram, const Sweep& sweep, std::size_t quantity
                   .unit = "s",
                   .logarithmic = true,
                   .tight = true},
-            .y = {.label = "relative error", .logarithmic = true},
-            .width = kWidth,
-            .height = kHeight};
+            .y = {.label = "relative error", .logarithmic = true}};
   plot.title[0] = static_cast<char>(std::toupper(plot.title[0]));
   constexpr std::array<std::pair<Role, Stroke>, 3> kLook{
       {{Role::after, Stroke::solid}, {Role::before, Stroke::solid}, {Role::before, Stroke::dashed}}};
@@ -120,9 +117,7 @@ Plot growth_plot(const Growth& growth) {
   Plot plot{.title = "Over " + growth.title,
             .description = growth.fixed + ", half of the nodes stuck",
             .x = {.label = growth.title, .logarithmic = true, .tight = true},
-            .y = {.label = "time", .unit = "s", .logarithmic = true},
-            .width = kWidth,
-            .height = 360};
+            .y = {.label = "time", .unit = "s", .logarithmic = true}};
   struct Part {
     const char* name;
     double StepTimes::*seconds;

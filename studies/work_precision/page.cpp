@@ -73,11 +73,7 @@ std::string sweep_section(const Diagram& diagram, const Sweep& sweep) {
   std::string text = "<h3 class=\"sweep\">" + escape(sweep.title) + "</h3>\n<p class=\"verdict\">" +
                      escape(verdict(sweep, kGoal)) + "</p>\n";
   std::string drawings;
-  for (std::size_t q = 0; q < kQuantities.size(); ++q) {
-    const report::Plot plot = error_plot(diagram, sweep, q);
-    if (q == 0) text += report::plot_legend(plot);
-    drawings += drawing(plot);
-  }
+  for (std::size_t q = 0; q < kQuantities.size(); ++q) drawings += drawing(error_plot(diagram, sweep, q));
   return text + side_by_side(drawings, numbers(sweep));
 }
 
@@ -104,13 +100,11 @@ std::string exponents(const std::vector<Growth>& growths) {
 }
 
 std::string growth_figures(const std::vector<Growth>& growths) {
-  std::string legend, drawings;
+  std::string drawings;
   Table table = table_of({"over", "nodes", "H", "N", "unknowns", "factorised", "residual (ms)", "with D (ms)",
                           "dense J (ms)", "full LU (ms)", "condensed J and LU (ms)", "solve (ms)", "Newton step (ms)"});
   for (const Growth& growth : growths) {
-    const report::Plot plot = growth_plot(growth);
-    if (legend.empty()) legend = report::plot_legend(plot);
-    drawings += drawing(plot);
+    drawings += drawing(growth_plot(growth));
     for (const StepTimes& t : growth.times) {
       report::Row row{{growth.title, std::to_string(t.nodes), std::to_string(t.harmonics), std::to_string(t.samples),
                        std::to_string(t.unknowns), std::to_string(t.factorised)}};
@@ -119,7 +113,7 @@ std::string growth_figures(const std::vector<Growth>& growths) {
       table.rows.push_back(std::move(row));
     }
   }
-  return legend + side_by_side(drawings, table);
+  return side_by_side(drawings, table);
 }
 
 }  // namespace

@@ -29,8 +29,12 @@ std::string fill(std::string_view text, const Blanks& blanks) {
 }
 
 std::string page(const std::string& title, std::string_view rules, const std::string& body) {
-  const std::string style = std::string(texts::plot_css) + std::string(texts::page_css) + std::string(rules);
-  return fill(texts::page_html, {{"title", title}, {"style", style}, {"body", body}});
+  const std::string style = std::string(texts::figures_css) + std::string(texts::page_css) + std::string(rules);
+  std::string scripts;
+  if (body.find("<div class=\"chart\"") != std::string::npos)
+    for (const std::string_view script : {texts::echarts_min_js, texts::charts_js, texts::candidates_js})
+      scripts.append("<script>\n").append(script).append("</script>\n");
+  return fill(texts::page_html, {{"title", title}, {"style", style}, {"body", body}, {"scripts", scripts}});
 }
 
 }  // namespace dovetail::report

@@ -7,13 +7,16 @@
 #include <utility>
 
 #include "core/replace_file.hpp"
+#include "studies/report/pages/answers.hpp"
 #include "studies/report/pages/page.hpp"
 #include "studies/report/pages/report_tables.hpp"
 #include "studies/report/plots/report_plots.hpp"
 #include "studies/report/plots/section_drawing.hpp"
+#include "studies/report/plots/stress_contours.hpp"
 #include "studies/report/texts.hpp"
 #include "studies/report/words/html.hpp"
 #include "studies/report/words/report_words.hpp"
+#include "studies/report/words/table.hpp"
 #include "studies/report/words/units.hpp"
 #include "wear/follow.hpp"
 
@@ -51,27 +54,38 @@ void add_opening(const RunRecord& record, Blanks& blanks) {
   blanks["best"] = record.front ? "compromise on this front" : "best design";
   blanks["held"] = listed(held);
   blanks["free"] = when(held.empty() && record.best);
-  blanks["without_bar"] = listed(without_bar(record));
+  blanks["outcome"] = outcome_table(record);
+  blanks["sure"] = list_html(how_sure(record));
+  blanks["far"] = list_html(how_far(record));
+  blanks["next"] = list_html(what_next(record));
   blanks["ending"] = ending(record);
   blanks["key_figures"] = key_figures(record) + case_table(record);
 }
 
+/// Without the engine orders where they are not known.
+std::vector<Figure> vibration_plots(const Comparison& designs) {
+  std::vector<Figure> plots{response_plot(designs), nodal_diameter_plot(*designs.after)};
+  if (Plot orders = engine_order_plot(*designs.after); !orders.series.empty()) plots.emplace_back(std::move(orders));
+  return plots;
+}
+
 void add_designs(const Comparison& designs, Blanks& blanks) {
   for (const char* name :
-       {"shape", "contact", "maps", "vibration", "wears", "history", "history_end", "notes", "in_space"})
+       {"shape", "contact", "maps", "stress", "vibration", "wears", "history", "history_end", "notes", "in_space"})
     blanks[name];
   if (!designs.after) return;
   const DesignRecord& design = *designs.after;
   blanks["shape"] = joint_figure(design, designs.before) + sector_figure(design, designs.before);
   blanks["contact"] = figures_html(contact_plots(designs));
-  if (in_space(design.contact)) blanks["maps"] = figures_html(contact_maps(design));
+  if (in_space(design.contact)) blanks["maps"] = figures_html(contact_maps(designs));
+  blanks["stress"] = stress_figures(designs);
   blanks["in_space"] = blanks["maps"];
   if (!design.unworn.frequency_hz.empty() || !design.nodal_diameters.frequency_hz.empty())
-    blanks["vibration"] = figures_html({response_plot(designs), nodal_diameter_plot(design)});
+    blanks["vibration"] = figures_html(vibration_plots(designs));
   blanks["wears"] = when(!design.contact.depth_m.empty());
   blanks["notes"] = notes(designs);
   if (!design.history || design.history->cycles.empty()) return;
-  blanks["history"] = figures_html(history_plots(design));
+  blanks["history"] = figures_html(history_plots(designs));
   if (!optimizer::converged(design.history->status)) blanks["history_end"] = design.history->status;
 }
 
@@ -113,7 +127,11 @@ void add_search(const RunRecord& record, Blanks& blanks) {
   std::vector<Figure> plots = limit_plots(record);
   plots.insert(plots.begin(), record.front ? hypervolume_plot(record) : objective_plot(record));
   blanks["search"] = record.evaluations.empty() ? "" : figures_html(plots);
-  blanks["variables"] = variable_table(record) + evaluation_table(record);
+  blanks["variables"] = variable_table(record);
+  blanks["evaluations"] = evaluation_table(record);
+  blanks["influence"] = influence_table(record);
+  blanks["over_variables"] = record.evaluations.empty() ? "" : figures_html(variable_plots(record));
+  blanks["candidates"] = candidates_chart(record);
 }
 
 }  // namespace

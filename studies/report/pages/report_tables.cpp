@@ -43,18 +43,12 @@ Cell shown_response(const EvaluationRecord* evaluation, const std::string& name,
               (open ? " <span class=\"soft\">without a bar</span>" : "")};
 }
 
-/// Change in per cent, of quantities that may change sign in their own unit; with "within the error" where it is.
+/// With "within error" where it is.
 Cell change(const EvaluationRecord& from, const EvaluationRecord& to, const std::string& name, const Unit& unit) {
-  const double a = response(from, name), b = response(to, name);
-  if (!std::isfinite(a) || !std::isfinite(b)) return "\u2013";
-  // What only rounding of the design variables makes.
-  if (std::abs(b - a) <= 1e-8 * std::max(std::abs(a), std::abs(b))) return "none";
-  const double bars = error_bar(from, name) + error_bar(to, name);
-  const bool small = bars > 0 && std::abs(b - a) <= bars;
-  const std::string text = a > 0 && b > 0
-                               ? per_cent(b, a, 2, 3)
-                               : (b > a ? "+" : "") + significant((b - a) / unit.si, 3) + "\u00a0" + unit.symbol;
-  return Html{small ? text + " <span class=\"soft\">within error</span>" : text};
+  const double a = response(from, name), b = response(to, name), bars = error_bar(from, name) + error_bar(to, name);
+  const std::string text = difference(a, b, unit);
+  const bool told = text != "none" && bars > 0 && std::abs(b - a) <= bars;
+  return Html{told ? text + " <span class=\"soft\">within error</span>" : text};
 }
 
 /// A value of a variable; what is nothing beside its range is 0.

@@ -23,6 +23,9 @@ namespace dovetail::report {
 /// Design variables with bounds, start, best and whether at a bound.
 [[nodiscard]] std::string variable_table(const RunRecord& record);
 
+/// What each variable does to objectives and limited responses; a sentence where too few candidates tell.
+[[nodiscard]] std::string influence_table(const RunRecord& record);
+
 /// What was minimised and under which limits.
 [[nodiscard]] std::string problem_list(const RunRecord& record);
 /// How far the best design stays from each limit, on the search's mesh and on finer ones; empty without the latter.

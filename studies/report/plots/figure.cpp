@@ -50,18 +50,17 @@ std::string numbers(const FlankMap& map) {
   return table_html(table);
 }
 
-std::string drawing(const Plot& plot) {
-  return plot_legend(plot) + plot_svg(plot);
-}
-std::string drawing(const FlankMap& map) {
-  return flank_map_svg(map);
-}
-
-std::string nothing(const Plot& /*plot*/) {
-  return "these values were not computed";
+/// Of an empty figure.
+std::string nothing(const Plot& plot) {
+  const auto known = [](const Series& series) {
+    return std::ranges::any_of(series.y, [](double y) { return std::isfinite(y); });
+  };
+  return !plot.at_zero.empty() && std::ranges::any_of(plot.series, known)
+             ? plot.at_zero
+             : "Nothing to show: these values were not computed.";
 }
 std::string nothing(const FlankMap& /*map*/) {
-  return "no value above zero";
+  return "Nothing to show: no value above zero.";
 }
 
 std::string csv(const Plot& plot) {
@@ -93,8 +92,8 @@ std::string figure_html(const Figure& figure) {
       [](const auto& shown) {
         const std::string title = "<h3>" + escape(shown.title) + "</h3>\n";
         if (is_empty(shown))
-          return "<figure class=\"nothing\">" + title + "<p>Nothing to show: " + nothing(shown) + ".</p></figure>\n";
-        return "<figure>" + title + drawing(shown) +
+          return "<figure class=\"nothing\">" + title + "<p>" + escape(nothing(shown)) + "</p></figure>\n";
+        return "<figure>" + title + chart_html(shown) +
                (shown.description.empty() ? "" : "<figcaption>" + escape(shown.description) + "</figcaption>\n") +
                folded("numbers", "Numbers", numbers(shown)) + "</figure>\n";
       },

@@ -1,36 +1,19 @@
 #include "studies/report/plots/flank_map.hpp"
 
-#include <fmt/format.h>
-
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
-#include "studies/report/plots/scale.hpp"
-#include "studies/report/words/html.hpp"
+#include "studies/report/plots/chart.hpp"
 
 namespace dovetail::report {
 
 namespace {
 
-constexpr double kMillimetre = 1e-3;
-constexpr int kWidth = 520;
-constexpr double kLeft = 46, kTop = 24, kGap = 34, kBarGap = 22, kBarWidth = 12, kRight = 52, kBottom = 40;
+using nlohmann::json;
 
-/// Colours from nothing to the largest value, light to dark, of even steps in lightness; readable on light and dark
-/// paper.
-std::string colour(double share) {
-  constexpr std::array<std::array<double, 3>, 6> kStops{
-      {{253, 246, 218}, {252, 207, 130}, {243, 146, 84}, {214, 84, 86}, {146, 43, 98}, {62, 19, 75}}};
-  const double at = std::clamp(share, 0.0, 1.0) * (kStops.size() - 1);
-  const std::size_t below = std::min(static_cast<std::size_t>(at), kStops.size() - 2);
-  const double t = at - static_cast<double>(below);
-  std::array<int, 3> rgb{};
-  for (std::size_t c = 0; c < 3; ++c)
-    rgb[c] = static_cast<int>(std::lround((1 - t) * kStops[below][c] + t * kStops[below + 1][c]));
-  return fmt::format("#{:02x}{:02x}{:02x}", rgb[0], rgb[1], rgb[2]);
-}
+constexpr double kMillimetre = 1e-3;
 
 std::vector<double> distinct(std::vector<double> values) {
   std::sort(values.begin(), values.end());
@@ -98,67 +81,6 @@ double largest_value(const FlankMap& map) {
   return most;
 }
 
-/// An axis in millimetres without ticks beyond its ends.
-Scale axis_of(double lower, double upper, int ticks, double from, double to) {
-  const double widen = upper > lower ? 0 : 0.5 * kMillimetre;
-  Scale scale({}, {.lower = (lower - widen) / kMillimetre, .upper = (upper + widen) / kMillimetre}, ticks, true);
-  scale.place(from, to);
-  return scale;
-}
-
-std::string cells(const FlankPanel& panel, const Rectangles& rectangles, const FlankMap& map, double most,
-                  const Scale& x, const Scale& y) {
-  std::string text = "<g shape-rendering=\"crispEdges\">";
-  for (std::size_t i = 0; i < panel.values.size(); ++i) {
-    const auto [strip, cell] = rectangles.place[i];
-    const double x0 = rectangles.across[strip], x1 = rectangles.across[strip + 1];
-    const double y0 = rectangles.along[strip][cell], y1 = rectangles.along[strip][cell + 1];
-    const double v = panel.values[i];
-    text += fmt::format(
-        "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\"><title>{} mm, {} mm: {} {}"
-        "</title></rect>",
-        x(x0 / kMillimetre), y(y0 / kMillimetre), x(x1 / kMillimetre) - x(x0 / kMillimetre),
-        y(y1 / kMillimetre) - y(y0 / kMillimetre), std::isfinite(v) ? colour(v / most) : "var(--hair)",
-        significant(panel.across[i] / kMillimetre, 3), significant(panel.along[i] / kMillimetre, 3),
-        significant(v / map.unit.si, 4), escape(map.unit.symbol));
-  }
-  return text + "</g>\n";
-}
-
-/// A frame of pixels with the name of the flank and the ticks; along the flank only on the first.
-std::string frame(const Eigen::AlignedBox2d& box, const Scale& x, const Scale& y, const std::string& name, bool first) {
-  const double left = box.min().x(), top = box.min().y();
-  std::string text = fmt::format(
-      "<rect x=\"{0:.2f}\" y=\"{1:.2f}\" width=\"{2:.2f}\" height=\"{3:.2f}\" fill=\"none\" stroke=\"var(--base)\"/>"
-      "<text class=\"title\" x=\"{0:.2f}\" y=\"{4:.2f}\">{5}</text><g class=\"grid\">",
-      left, top, box.sizes().x(), box.sizes().y(), top - 8, escape(name));
-  for (std::size_t k = 0; k < x.ticks().at.size(); ++k)
-    text += fmt::format("<text class=\"x\" x=\"{:.2f}\" y=\"{:.2f}\">{}</text>", x(x.ticks().at[k]), box.max().y() + 16,
-                        x.ticks().labels[k]);
-  if (first)
-    for (std::size_t k = 0; k < y.ticks().at.size(); ++k)
-      text += fmt::format("<text class=\"y\" x=\"{:.2f}\" y=\"{:.2f}\">{}</text>", left - 6, y(y.ticks().at[k]) + 4,
-                          y.ticks().labels[k]);
-  return text + "</g>\n";
-}
-
-std::string colour_bar(const FlankMap& map, double most, double left, double top, double bottom) {
-  std::string text;
-  constexpr int kSteps = 48;
-  const double height = (bottom - top) / kSteps;
-  for (int k = 0; k < kSteps; ++k)
-    text += fmt::format(
-        "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\" "
-        "shape-rendering=\"crispEdges\"/>",
-        left, bottom - (k + 1) * height, kBarWidth, height + 0.5, colour((k + 0.5) / kSteps));
-  const Ticks ticks = linear_ticks(0, most / map.unit.si, 4, true);
-  for (std::size_t k = 0; k < ticks.at.size(); ++k)
-    text += fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\">{}</text>", left + kBarWidth + 5,
-                        bottom - (bottom - top) * ticks.at[k] * map.unit.si / most + 4, ticks.labels[k]);
-  return text + fmt::format("<text class=\"title\" x=\"{}\" y=\"{:.2f}\" text-anchor=\"end\">{}</text>\n", kWidth,
-                            top - 8, escape(map.unit.symbol));
-}
-
 }  // namespace
 
 bool is_empty(const FlankMap& map) {
@@ -167,34 +89,29 @@ bool is_empty(const FlankMap& map) {
   });
 }
 
-std::string flank_map_svg(const FlankMap& map) {
-  const double most = largest_value(map);
-  const auto count = static_cast<double>(std::max<std::size_t>(map.panels.size(), 1));
-  const double width = (kWidth - kLeft - kRight - kBarGap - kBarWidth - (count - 1) * kGap) / count;
-  constexpr double kHeight = 190;
-  std::string text = svg_begin("plot", map.title, kWidth, kTop + kHeight + kBottom);
-  for (std::size_t p = 0; p < map.panels.size(); ++p) {
-    const FlankPanel& panel = map.panels[p];
+std::string chart_html(const FlankMap& map) {
+  json panels = json::array();
+  for (const FlankPanel& panel : map.panels) {
     if (panel.values.empty()) continue;
-    const double left = kLeft + static_cast<double>(p) * (width + kGap);
     const Rectangles rectangles(panel);
-    double first = rectangles.along.front().front(), last = rectangles.along.front().back();
-    for (const std::vector<double>& ends : rectangles.along) {
-      first = std::min(first, ends.front());
-      last = std::max(last, ends.back());
+    json cells = json::array();
+    for (std::size_t i = 0; i < panel.values.size(); ++i) {
+      const auto [strip, cell] = rectangles.place[i];
+      json numbers = json::array();
+      for (const double place :
+           {panel.across[i], panel.along[i], rectangles.across[strip], rectangles.across[strip + 1],
+            rectangles.along[strip][cell], rectangles.along[strip][cell + 1]})
+        numbers.push_back(chart_number(place / kMillimetre));
+      numbers.push_back(chart_number(panel.values[i] / map.unit.si));
+      cells.push_back(std::move(numbers));
     }
-    const Scale x = axis_of(rectangles.across.front(), rectangles.across.back(), 3, left, left + width);
-    const Scale y = axis_of(first, last, 4, kTop, kTop + kHeight);
-    text +=
-        cells(panel, rectangles, map, most, x, y) +
-        frame({Eigen::Vector2d(left, kTop), Eigen::Vector2d(left + width, kTop + kHeight)}, x, y, panel.name, p == 0);
+    panels.push_back({{"name", panel.name}, {"cells", std::move(cells)}});
   }
-  text += fmt::format(
-      "<text class=\"title\" x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"middle\">along the slot, mm</text>"
-      "<text class=\"title\" transform=\"translate(12 {:.2f}) rotate(-90)\" text-anchor=\"middle\">from the neck side, "
-      "mm</text>\n",
-      kLeft + (count * width + (count - 1) * kGap) / 2, kTop + kHeight + 34, kTop + kHeight / 2);
-  return text + colour_bar(map, most, kWidth - kRight - kBarWidth, kTop, kTop + kHeight) + "</svg>\n";
+  return chart_html("map", map.title,
+                    {{"quantity", map.quantity},
+                     {"unit", map.unit.symbol},
+                     {"most", chart_number(largest_value(map) / map.unit.si)},
+                     {"panels", std::move(panels)}});
 }
 
 }  // namespace dovetail::report

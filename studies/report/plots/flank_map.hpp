@@ -34,7 +34,7 @@ struct FlankMap {
 /// No finite value, or none above zero.
 [[nodiscard]] bool is_empty(const FlankMap& map);
 
-/// The map as one inline <svg>: a cell around each contact node with its numbers as tooltip, axes in mm, colour bar.
-[[nodiscard]] std::string flank_map_svg(const FlankMap& map);
+/// A cell around each contact node, as data that the script of the page draws.
+[[nodiscard]] std::string chart_html(const FlankMap& map);
 
 }  // namespace dovetail::report

@@ -7,7 +7,6 @@
 
 #include "optimizer/search/pagmo_search.hpp"
 #include "studies/report/plots/report_plots.hpp"
-#include "studies/report/plots/scale.hpp"
 #include "studies/report/words/report_words.hpp"
 #include "studies/report/words/units.hpp"
 
@@ -74,18 +73,17 @@ Plot front_plot(const RunRecord& record, std::size_t other) {
                 "Point at a design for its numbers. Lines through points are error bars, where they were "
                 "computed, as far as the designs that are shown; designs beyond the reference are left out.",
             .x = across.axis(),
-            .y = up.axis(),
-            .width = 820,
-            .height = 400};
+            .y = up.axis()};
   Series beaten{.name = "beaten", .role = Role::muted, .stroke = Stroke::none, .mark = Mark::dot};
   Series broken{.name = "breaks a limit", .role = Role::bad, .stroke = Stroke::none, .mark = Mark::cross};
   Series start{.name = "start", .role = Role::before, .stroke = Stroke::none, .mark = Mark::triangle};
   Series bars{.name = {}, .role = Role::after};
   Series points{.name = "front", .stroke = Stroke::none, .mark = Mark::circle};
   Series compromise{.name = "compromise", .stroke = Stroke::none, .mark = Mark::star};
-  const auto add = [&](Series& series, double x, double y, std::string title) {
+  const auto add = [&](Series& series, std::size_t candidate, double x, double y, std::string title) {
     series.add(across.shown(x), up.shown(y));
     series.titles.push_back(std::move(title));
+    series.candidates.push_back(candidate);
   };
   for (std::size_t i = 0; i < record.evaluations.size(); ++i) {
     const EvaluationRecord& e = record.evaluations[i];
@@ -98,7 +96,7 @@ Plot front_plot(const RunRecord& record, std::size_t other) {
     add(first        ? start
         : e.feasible ? beaten
                      : broken,
-        objectives[0].first, objectives[other].first, told(record, whose, i, objectives));
+        i, objectives[0].first, objectives[other].first, told(record, whose, i, objectives));
   }
   for (std::size_t point = 0; point < front.evaluation.size(); ++point) {
     std::vector<std::pair<double, double>> objectives;
@@ -106,9 +104,9 @@ Plot front_plot(const RunRecord& record, std::size_t other) {
       objectives.emplace_back(front.value(point, i), front.bar(point, i));
     const bool chosen = static_cast<std::int64_t>(point) == front.compromise;
     if (chosen) compromise.labels.push_back("compromise");
-    add(chosen ? compromise : points, objectives[0].first, objectives[other].first,
-        told(record, fmt::format("{}point {}, ", chosen ? "compromise, " : "", point + 1),
-             static_cast<std::size_t>(front.evaluation[point]), objectives));
+    const auto candidate = static_cast<std::size_t>(front.evaluation[point]);
+    add(chosen ? compromise : points, candidate, objectives[0].first, objectives[other].first,
+        told(record, fmt::format("{}point {}, ", chosen ? "compromise, " : "", point + 1), candidate, objectives));
   }
   // A bar that is much longer than the front would leave no room for it.
   Bounds wide, high;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "studies/report/plots/report_plots.hpp"
@@ -16,32 +17,48 @@ namespace {
 /// wear comes to rest.
 const PlotAxis kCycles{.label = "load cycles", .logarithmic = true};
 
+/// The designs of a comparison that have a history, with their names, the older one first.
+std::vector<std::tuple<const DesignRecord*, std::string, Role>> histories(const Comparison& designs) {
+  std::vector<std::tuple<const DesignRecord*, std::string, Role>> found;
+  if (designs.before && designs.before->history) found.emplace_back(designs.before, "before", Role::before);
+  if (designs.after->history) found.emplace_back(designs.after, designs.before ? "after" : "", Role::after);
+  return found;
+}
+
 /// The values over the cycles, SI.
-Plot history_line(const DesignRecord& design, Numbers HistoryRecord::*quantity, Plot plot) {
+Plot history_lines(const Comparison& designs, Numbers HistoryRecord::*quantity, Plot plot) {
   plot.x = kCycles;
-  if (design.history)
-    plot.series.push_back({.x = design.history->cycles, .y = (*design.history).*quantity, .mark = Mark::dot});
+  for (const auto& [design, name, role] : histories(designs))
+    plot.series.push_back({.name = name,
+                           .x = design->history->cycles,
+                           .y = (*design->history).*quantity,
+                           .role = role,
+                           .mark = Mark::dot});
   return plot;
 }
 
-Plot volume_plot(const DesignRecord& design) {
+Plot volume_plot(const Comparison& designs) {
   Plot plot =
-      history_line(design, &HistoryRecord::worn_volume_m3,
-                   {.title = "Wear over load cycles",
-                    .description = "Worn volume by jumps over many cycles; dashed: the limit computed directly, "
-                                   "dotted: its error bar.",
-                    .y = {.label = "worn volume"}});
-  const auto limit = design.responses.find("asymptotic_wear_volume_m3");
-  if (!design.history || limit == design.responses.end() || design.history->cycles.size() < 2)
-    return readable(std::move(plot), "m^3");
-  plot.series.front().name = "history";
-  const Numbers ends{design.history->cycles[1], design.history->cycles.back()};
-  const auto level = [&](const std::string& name, double value, Stroke stroke) {
-    plot.series.push_back({.name = name, .x = ends, .y = Numbers(2, value), .role = Role::muted, .stroke = stroke});
-  };
-  level("asymptote", limit->second, Stroke::dashed);
-  const auto error = design.error_estimates.find("asymptotic_wear_volume_m3");
-  if (error != design.error_estimates.end() && std::isfinite(error->second) && error->second > 0) {
+      history_lines(designs, &HistoryRecord::worn_volume_m3,
+                    {.title = "Wear over load cycles",
+                     .description = "Worn volume by jumps over many cycles; dashed: the limit computed directly, "
+                                    "dotted: its error bar.",
+                     .y = {.label = "worn volume"},
+                     .at_zero = "Nothing wears: the worn volume stays zero."});
+  for (const auto& [design, name, role] : histories(designs)) {
+    const auto limit = design->responses.find("asymptotic_wear_volume_m3");
+    const Numbers& cycles = design->history->cycles;
+    if (limit == design->responses.end() || cycles.size() < 2) continue;
+    const auto level = [&, whose = name, look = role](const std::string& what, double value, Stroke stroke) {
+      plot.series.push_back({.name = whose.empty() || what.empty() ? what : whose + ", " + what,
+                             .x = {cycles[1], cycles.back()},
+                             .y = Numbers(2, value),
+                             .role = look,
+                             .stroke = stroke});
+    };
+    level("asymptote", limit->second, Stroke::dashed);
+    const auto error = design->error_estimates.find("asymptotic_wear_volume_m3");
+    if (error == design->error_estimates.end() || !std::isfinite(error->second) || !(error->second > 0)) continue;
     level("its error bar", limit->second + error->second, Stroke::dotted);
     level("", std::max(limit->second - error->second, 0.0), Stroke::dotted);
   }
@@ -56,11 +73,12 @@ std::vector<std::size_t> most_worn_line(const std::vector<std::int64_t>& flanks,
   return worst_line(flanks, across, depth, std::max_element(worn.begin(), worn.end()) - worn.begin());
 }
 
-Plot profile_plot(const DesignRecord& design) {
-  Plot plot{.title = "Worn profile while the joint wears",
+Plot profile_plot(const DesignRecord& design, const std::string& name) {
+  Plot plot{.title = "Worn profile while the joint wears" + (name.empty() ? "" : ", " + name),
             .description = "Depth along the more worn flank at some of the states of the history, from new to last.",
             .x = kAlongFlank,
-            .y = {.label = "worn depth"}};
+            .y = {.label = "worn depth"},
+            .at_zero = "Nothing wears: the depth stays zero."};
   const ContactRecord& contact = design.contact;
   const std::size_t count = contact.flank.size();
   if (!design.history || count == 0) return plot;
@@ -76,31 +94,31 @@ Plot profile_plot(const DesignRecord& design) {
   for (std::size_t p = 0; p < profiles; ++p) {
     const auto state = static_cast<std::size_t>(std::max<std::int64_t>(history.profile_states[p], 0));
     const double cycles = state < history.cycles.size() ? history.cycles[state] : 0;
-    const bool last = p + 1 == profiles;
-    Series series = along_line(contact.along_m, profile(p), line,
-                               {.name = significant(cycles, 2) + " cycles",
-                                .role = last ? Role::after : Role::before,
-                                .stroke = last || p % 2 == 0 ? Stroke::solid : Stroke::dashed});
-    if (largest(series.y) > 0) plot.series.push_back(std::move(series));
+    Series series = along_line(contact.along_m, profile(p), line, {.name = significant(cycles, 2) + " cycles"});
+    series.shade = static_cast<double>(p) / static_cast<double>(std::max<std::size_t>(profiles - 1, 1));
+    if (largest(series.y) > 0 || p + 1 == profiles) plot.series.push_back(std::move(series));
   }
   return readable(std::move(plot), "m");
 }
 
 }  // namespace
 
-std::vector<Figure> history_plots(const DesignRecord& design) {
-  return {volume_plot(design),
-          readable(history_line(design, &HistoryRecord::depth_max_m,
-                                {.title = "Largest depth over load cycles",
-                                 .description = "Of the contact nodes, both surfaces together.",
-                                 .y = {.label = "largest worn depth"}}),
-                   "m"),
-          readable(history_line(design, &HistoryRecord::amplitude_m,
-                                {.title = "Amplitude while the joint wears",
-                                 .description = "Of the aerofoil's tip, at the exciting frequency of the history.",
-                                 .y = {.label = "amplitude"}}),
-                   "m"),
-          profile_plot(design)};
+std::vector<Figure> history_plots(const Comparison& designs) {
+  std::vector<Figure> plots{
+      volume_plot(designs),
+      readable(history_lines(designs, &HistoryRecord::depth_max_m,
+                             {.title = "Largest depth over load cycles",
+                              .description = "Of the contact nodes, both surfaces together.",
+                              .y = {.label = "largest worn depth"},
+                              .at_zero = "Nothing wears: the depth stays zero."}),
+               "m"),
+      readable(history_lines(designs, &HistoryRecord::amplitude_m,
+                             {.title = "Amplitude while the joint wears",
+                              .description = "Of the aerofoil's tip, at the exciting frequency of the history.",
+                              .y = {.label = "amplitude"}}),
+               "m")};
+  for (const auto& [design, name, role] : histories(designs)) plots.emplace_back(profile_plot(*design, name));
+  return plots;
 }
 
 Plot verification_plot(const VerificationRecord& record) {

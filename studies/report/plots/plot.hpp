@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +15,13 @@ enum class Role { before, after, muted, bad, one, two, three, four, five };
 enum class Stroke { none, solid, dashed, dotted };
 enum class Mark { none, dot, circle, cross, triangle, star };
 
+/// The least and the largest of values; empty before the first.
+struct Bounds {
+  double lower = std::numeric_limits<double>::infinity(), upper = -std::numeric_limits<double>::infinity();
+  void add(double value);
+  [[nodiscard]] bool empty() const { return !(lower <= upper); }
+};
+
 /// Values of a plot, joined by a line, marked one by one, or both; a NaN interrupts the line.
 struct Series {
   std::string name = {};  ///< in the legend; empty: not listed
@@ -22,6 +32,8 @@ struct Series {
   bool steps = false;                    ///< the line is constant until the next point
   std::vector<std::string> titles = {};  ///< tooltips of the marks; empty: the values
   std::vector<std::string> labels = {};  ///< beside the points, where there is room; empty: none
+  std::optional<double> shade = {};      ///< 0 to 1, place in an order, as of states in time; tells it from its like
+  std::vector<std::size_t> candidates = {};  ///< of a run, that the points are: chosen in one figure, shown in all
 
   void add(double at, double value) {
     x.push_back(at);
@@ -53,17 +65,14 @@ struct Plot {
   PlotAxis x = {}, y = {};
   std::vector<Series> series = {};
   std::vector<PlotLevel> levels = {};
-  double hatched_below = 0;       ///< y, on a logarithmic axis: values below mean nothing; 0: all do
-  int width = 520, height = 320;  ///< of the drawing's coordinates; the page scales it
+  double shaded_below = 0;   ///< y, on a logarithmic axis: values below mean nothing; 0: all do
+  std::string at_zero = {};  ///< a sentence in place of the drawing when all y are zero; empty: it is drawn
 };
 
-/// Nothing finite to draw (a logarithmic axis: nothing positive).
+/// Nothing finite to draw (a logarithmic axis: nothing positive), or nothing but zeros where these are a sentence.
 [[nodiscard]] bool is_empty(const Plot& plot);
 
-/// The plot as one inline <svg>, of role img with its title; colours are those of plot.css.
-[[nodiscard]] std::string plot_svg(const Plot& plot);
-
-/// What the series mean, as a list; empty without names.
-[[nodiscard]] std::string plot_legend(const Plot& plot);
+/// The plot as data that the script of the page draws, with its title for readers that see no drawing.
+[[nodiscard]] std::string chart_html(const Plot& plot);
 
 }  // namespace dovetail::report

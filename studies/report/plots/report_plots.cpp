@@ -83,6 +83,13 @@ Plot fillet_plot(const Comparison& designs) {
       for (std::size_t i = 0; i < count; ++i)
         if ((fillet.x_m[i] > 0) == (fillet.x_m[peak] > 0)) points.emplace_back(fillet.y_m[i], fillet.von_mises_pa[i]);
       std::sort(points.begin(), points.end());
+      // In space nodes of one height stand side by side along the slot: the most loaded of them tells.
+      constexpr double kSameHeight = 1e-7;
+      for (std::size_t i = points.size(); i-- > 1;)
+        if (points[i].first - points[i - 1].first < kSameHeight) {
+          points[i - 1].second = std::max(points[i - 1].second, points[i].second);
+          points.erase(points.begin() + static_cast<std::ptrdiff_t>(i));
+        }
       Series series{.name = name_of(designs, role, fillet.name),
                     .role = role,
                     .stroke = fillet.name == "blade" ? Stroke::solid : Stroke::dashed};
@@ -91,12 +98,6 @@ Plot fillet_plot(const Comparison& designs) {
     }
   }
   return plot;
-}
-
-FlankMap flank_map(const ContactRecord& contact, const Numbers& values, const std::string& si_unit, FlankMap map) {
-  map.unit = readable_unit(si_unit, largest(values));
-  map.panels = flank_panels(contact, values);
-  return map;
 }
 
 }  // namespace
@@ -121,17 +122,30 @@ bool in_space(const ContactRecord& contact) {
   return least != contact.across_m.end() && *most > *least;
 }
 
-std::vector<Figure> contact_maps(const DesignRecord& design) {
-  const ContactRecord& contact = design.contact;
-  if (!in_space(contact)) return {};
-  return {flank_map(contact, contact.depth_m, "m",
-                    {.title = "Wear depth over the flanks",
-                     .description = "When wear has come to rest; worn off both surfaces together.",
-                     .quantity = "worn depth"}),
-          flank_map(contact, contact.preload_pressure_pa, "Pa",
-                    {.title = "Pressure over the flanks after spin-up",
-                     .description = "Under the centrifugal load alone, before any vibration.",
-                     .quantity = "pressure"})};
+std::vector<Figure> contact_maps(const Comparison& designs) {
+  std::vector<Figure> maps;
+  const auto add = [&](Numbers ContactRecord::*quantity, const char* si_unit, const FlankMap& look) {
+    double most = 0;
+    for (const auto& [design, role] : in_order(designs)) most = std::max(most, largest(design->contact.*quantity));
+    for (const auto& [design, role] : in_order(designs)) {
+      if (!in_space(design->contact) || (design->contact.*quantity).empty()) continue;
+      FlankMap map = look;
+      if (designs.before) map.title += role == Role::before ? ", before" : ", after";
+      map.unit = readable_unit(si_unit, most);
+      map.panels = flank_panels(design->contact, design->contact.*quantity);
+      map.full_scale = most;
+      maps.emplace_back(std::move(map));
+    }
+  };
+  add(&ContactRecord::depth_m, "m",
+      {.title = "Wear depth over the flanks",
+       .description = "When wear has come to rest; worn off both surfaces together.",
+       .quantity = "worn depth"});
+  add(&ContactRecord::preload_pressure_pa, "Pa",
+      {.title = "Pressure over the flanks after spin-up",
+       .description = "Under the centrifugal load alone, before any vibration.",
+       .quantity = "pressure"});
+  return maps;
 }
 
 double largest(const Numbers& values) {
@@ -168,7 +182,8 @@ std::vector<Figure> contact_plots(const Comparison& designs) {
                  {.title = "Wear depth when wear has come to rest",
                   .description = "Depth worn off both surfaces together. Where it is zero, the surfaces stick or "
                                  "do not touch.",
-                  .y = {.label = "worn depth"}}),
+                  .y = {.label = "worn depth"},
+                  .at_zero = "Nothing wears: the depth is zero everywhere."}),
       flank_plot(designs, &ContactRecord::preload_pressure_pa, "Pa",
                  {.title = "Pressure after spin-up",
                   .description = "Contact pressure under the centrifugal load alone, before any vibration.",
@@ -177,10 +192,14 @@ std::vector<Figure> contact_plots(const Comparison& designs) {
                  {.title = "Form of the flanks",
                   .description = "Gap between blade and disk before loading: mismatch, crown, relief and rounded "
                                  "ends together.",
-                  .y = {.label = "gap"}}),
+                  .y = {.label = "gap"},
+                  .at_zero = "Both flanks are flat and parallel: the gap is zero everywhere."}),
       fillet_plot(designs)};
   if (designs.after && optimizer::converged(designs.after->status))
-    std::erase_if(plots, [](const Figure& plot) { return is_empty(std::get<Plot>(plot)); });
+    std::erase_if(plots, [](const Figure& figure) {
+      const Plot& plot = std::get<Plot>(figure);
+      return plot.series.empty() && is_empty(plot);
+    });
   return plots;
 }
 
@@ -220,6 +239,50 @@ Plot nodal_diameter_plot(const DesignRecord& design) {
                                                                     : std::numeric_limits<double>::quiet_NaN());
     plot.series.push_back(std::move(series));
   }
+  return plot;
+}
+
+Plot engine_order_plot(const DesignRecord& design) {
+  Plot plot{.title = "Engine orders around the resonance",
+            .description =
+                "The same frequencies near the mode under study. A multiple of the speed of rotation, an "
+                "engine order, excites the one nodal diameter it comes to on so many blades; where its mark "
+                "meets a line there is a resonance at speed.",
+            .x = {.label = "nodal diameters", .whole = true},
+            .y = {.label = "frequency", .unit = "Hz"}};
+  const auto number = [&](const std::map<std::string, double>& of, const char* name) {
+    const auto found = of.find(name);
+    return found != of.end() && found->second > 0 ? found->second : std::nan("");
+  };
+  const double turns = number(design.parameters, "scene.speed_rpm") / 60,
+               mode = number(design.responses, "resonance_hz");
+  const auto blades = static_cast<long>(number(design.parameters, "geometry.sectors"));
+  if (!std::isfinite(turns) || !std::isfinite(mode) || blades < 2) return plot;
+  // From the engine order below the mode to the one above, and a tenth of its frequency at least.
+  const double lower = std::min(0.9 * mode, turns * std::floor(mode / turns)),
+               upper = std::max(1.1 * mode, turns * std::ceil(mode / turns));
+  for (Series& series : nodal_diameter_plot(design).series) {
+    for (double& frequency : series.y)
+      if (!(frequency >= lower && frequency <= upper)) frequency = std::numeric_limits<double>::quiet_NaN();
+    if (std::ranges::none_of(series.y, [](double y) { return std::isfinite(y); })) continue;
+    series.name = fmt::format("mode {}", plot.series.size() + 1);
+    series.role = plot.series.empty() ? Role::after : Role::before;
+    plot.series.push_back(std::move(series));
+  }
+  if (plot.series.empty()) return plot;
+  Series orders{.name = "engine orders", .role = Role::bad, .stroke = Stroke::none, .mark = Mark::cross};
+  for (long order = std::lround(std::ceil(lower / turns - 1e-9));
+       static_cast<double>(order) * turns <= upper * (1 + 1e-9); ++order) {
+    const long folded = order % blades;
+    orders.add(static_cast<double>(std::min(folded, blades - folded)), static_cast<double>(order) * turns);
+    orders.labels.push_back(fmt::format("EO {}", order));
+  }
+  plot.series.push_back(std::move(orders));
+  plot.series.push_back({.name = "resonance of the joint",
+                         .x = {0, static_cast<double>(blades / 2)},
+                         .y = {mode, mode},
+                         .role = Role::muted,
+                         .stroke = Stroke::dashed});
   return plot;
 }
 

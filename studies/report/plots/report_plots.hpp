@@ -30,8 +30,8 @@ struct Comparison {
 
 /// The contact nodes spread along the slot too.
 [[nodiscard]] bool in_space(const ContactRecord& contact);
-/// Wear depth and pressure over the flanks of a joint in space; none in the plane.
-[[nodiscard]] std::vector<Figure> contact_maps(const DesignRecord& design);
+/// Wear depth and pressure over the flanks of a joint in space, start and best with one scale; none in the plane.
+[[nodiscard]] std::vector<Figure> contact_maps(const Comparison& designs);
 
 // Each figure is empty when the designs do not hold what it shows. Colours tell before from after; line
 // strokes tell the rest.
@@ -41,14 +41,23 @@ struct Comparison {
 [[nodiscard]] std::vector<Figure> contact_plots(const Comparison& designs);
 [[nodiscard]] Plot response_plot(const Comparison& designs);
 [[nodiscard]] Plot nodal_diameter_plot(const DesignRecord& design);
-/// What a wear history comes to over its cycles: worn volume, largest depth, amplitude, profiles.
-[[nodiscard]] std::vector<Figure> history_plots(const DesignRecord& design);
+/// The same around the resonance, with the engine orders: a multiple of the speed of rotation excites the nodal
+/// diameter it comes to on so many blades, and meets a mode where its mark stands on a line. Empty without a resonance
+/// or speed.
+[[nodiscard]] Plot engine_order_plot(const DesignRecord& design);
+/// What wear histories come to over their cycles: worn volume, largest depth, amplitude, profiles.
+[[nodiscard]] std::vector<Figure> history_plots(const Comparison& designs);
 
 /// Worn profiles of a verified design over each other: history, direct method, search.
 [[nodiscard]] Plot verification_plot(const VerificationRecord& record);
 
 /// Objective over evaluations: feasible, infeasible and best so far.
 [[nodiscard]] Plot objective_plot(const RunRecord& record);
+/// The (first) objective over each design variable, of all candidates.
+[[nodiscard]] std::vector<Figure> variable_plots(const RunRecord& record);
+/// All candidates over variables, objectives and limited responses: parallel coordinates, a scatter of any two, and the
+/// numbers of those that are chosen. Empty without candidates.
+[[nodiscard]] std::string candidates_chart(const RunRecord& record);
 /// The first objective of a front against every other one, with what a point is when pointed at; none without a front.
 [[nodiscard]] std::vector<Figure> front_plots(const RunRecord& record);
 /// How the hypervolume grew over the search, by what it came to.

@@ -17,13 +17,14 @@ namespace {
 struct CandidateMarks {
   Series broken{.name = "breaks a limit", .role = Role::bad, .stroke = Stroke::none, .mark = Mark::cross};
   Series feasible{.name = "feasible", .stroke = Stroke::none, .mark = Mark::circle};
-  Series best{.name = {}, .stroke = Stroke::none, .mark = Mark::star};
+  Series best{.name = {}, .role = Role::one, .stroke = Stroke::none, .mark = Mark::star};
 
-  void add(const RunRecord& record, std::size_t i, double shown, const std::string& unit) {
+  void add(const RunRecord& record, std::size_t i, double at, double shown, const std::string& unit) {
     const EvaluationRecord& e = record.evaluations[i];
     best.name = best_word(record);
     Series& group = record.best == i ? best : e.feasible ? feasible : broken;
-    group.add(static_cast<double>(i + 1), shown);
+    group.add(at, shown);
+    group.candidates.push_back(i);
     group.titles.push_back(fmt::format("candidate {} ({}): {}{}{}", i + 1, e.phase, significant(shown),
                                        unit.empty() ? "" : " " + unit, e.feasible ? "" : ", infeasible"));
   }
@@ -32,51 +33,70 @@ struct CandidateMarks {
   }
 };
 
-}  // namespace
-
-Plot objective_plot(const RunRecord& record) {
+/// The objective of all candidates by where each stands across; those without a value at the lower edge.
+template <class Place>
+Plot objective_marks(const RunRecord& record, Plot plot, Place&& place) {
   const ObjectiveScale scale = objective_scale(record);
-  Plot plot{
-      .title = "Objective over the search",
-      .description =
-          "Every candidate in the order it was evaluated; those that could not be computed stand at the "
-          "lower edge.",
-      .x = {.label = "candidate", .whole = true},
-      .y = {.label = scale.label, .unit = scale.unit},
-  };
+  plot.y = {.label = scale.label, .unit = scale.unit};
   CandidateMarks marks;
   Series failed{.name = "not computed", .role = Role::muted, .stroke = Stroke::none, .mark = Mark::triangle};
-  Series so_far{.name = "best so far", .role = Role::before, .steps = true};
-  double least = std::numeric_limits<double>::infinity(), lowest = least, highest = -least;
-  bool positive = true;
-  for (std::size_t i = 0; i < record.evaluations.size(); ++i) {
-    const EvaluationRecord& e = record.evaluations[i];
-    const double at = static_cast<double>(i + 1), shown = scale.factor * e.objective;
-    if (std::isfinite(e.objective)) {
-      lowest = std::min(lowest, shown);
-      highest = std::max(highest, shown);
-      positive = positive && shown > 0;
-      marks.add(record, i, shown, scale.unit);
-      if (e.feasible) least = std::min(least, e.objective);
+  Bounds values;
+  for (std::size_t i = 0; i < record.evaluations.size(); ++i)
+    if (const double shown = scale.factor * record.evaluations[i].objective; std::isfinite(shown)) {
+      values.add(shown);
+      marks.add(record, i, place(i), shown, scale.unit);
     }
-    so_far.add(at, std::isfinite(least) ? scale.factor * least : std::numeric_limits<double>::quiet_NaN());
-  }
-  if (!(lowest <= highest)) return plot;
-  plot.y.logarithmic = positive && highest > 30 * lowest;
-  const double edge =
-      plot.y.logarithmic ? std::pow(10.0, std::floor(std::log10(lowest))) : std::min(lowest, positive ? 0.0 : lowest);
+  if (values.empty()) return plot;
+  const bool positive = values.lower > 0;
+  plot.y.logarithmic = positive && values.upper > 30 * values.lower;
   plot.y.from_zero = positive;
+  const double edge = plot.y.logarithmic ? std::pow(10.0, std::floor(std::log10(values.lower)))
+                                         : std::min(values.lower, positive ? 0.0 : values.lower);
   for (std::size_t i = 0; i < record.evaluations.size(); ++i) {
     const EvaluationRecord& e = record.evaluations[i];
     if (std::isfinite(e.objective)) continue;
-    failed.add(static_cast<double>(i + 1), edge);
+    failed.add(place(i), edge);
+    failed.candidates.push_back(i);
     failed.titles.push_back(fmt::format("candidate {} ({}): {}", i + 1, e.phase, e.status));
   }
-  if (failed.x.empty()) plot.description = "Every candidate in the order it was evaluated.";
-  if (std::isfinite(least)) plot.series.push_back(std::move(so_far));
   plot.series.push_back(std::move(failed));
   marks.add_to(plot);
   return plot;
+}
+
+}  // namespace
+
+Plot objective_plot(const RunRecord& record) {
+  Plot plot = objective_marks(record,
+                              {.title = "Objective over the search",
+                               .description = "Every candidate in the order it was evaluated; those that could not be "
+                                              "computed stand at the lower edge.",
+                               .x = {.label = "candidate", .whole = true}},
+                              [](std::size_t i) { return static_cast<double>(i + 1); });
+  if (plot.series.empty()) return plot;
+  if (plot.series.front().x.empty()) plot.description = "Every candidate in the order it was evaluated.";
+  const double factor = objective_scale(record).factor;
+  Series so_far{.name = "best so far", .role = Role::before, .steps = true};
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < record.evaluations.size(); ++i) {
+    const EvaluationRecord& e = record.evaluations[i];
+    if (e.feasible && std::isfinite(e.objective)) least = std::min(least, e.objective);
+    so_far.add(static_cast<double>(i + 1), std::isfinite(least) ? factor * least : std::nan(""));
+  }
+  if (std::isfinite(least)) plot.series.insert(plot.series.begin(), std::move(so_far));
+  return plot;
+}
+
+std::vector<Figure> variable_plots(const RunRecord& record) {
+  std::vector<Figure> plots;
+  const std::vector<optimizer::DesignVariable>& variables = record.problem.space.variables();
+  for (std::size_t v = 0; v < variables.size(); ++v) {
+    const std::string name = key_words(variables[v].key);
+    plots.emplace_back(objective_marks(
+        record, {.title = "Over the " + name, .x = {.label = name, .unit = key_unit(variables[v].key)}},
+        [&](std::size_t i) { return v < record.evaluations[i].x.size() ? record.evaluations[i].x[v] : std::nan(""); }));
+  }
+  return plots;
 }
 
 std::vector<Figure> limit_plots(const RunRecord& record) {
@@ -101,7 +121,7 @@ std::vector<Figure> limit_plots(const RunRecord& record) {
     }
     CandidateMarks marks;
     for (std::size_t i = 0; i < values.size(); ++i)
-      if (std::isfinite(values[i])) marks.add(record, i, values[i] / unit.si, unit.symbol);
+      if (std::isfinite(values[i])) marks.add(record, i, static_cast<double>(i + 1), values[i] / unit.si, unit.symbol);
     marks.add_to(plot);
     plots.push_back(std::move(plot));
   }

@@ -41,19 +41,6 @@ std::string body(const Chain& chain, const char* classes, const char* title) {
   return fmt::format("<path class=\"{}\" d=\"{}\"><title>{}</title></path>\n", classes, outline(chain), title);
 }
 
-/// The edges around the flanks on both bodies.
-Eigen::AlignedBox2d joint_window(const DesignRecord& design) {
-  constexpr std::array kShown{"flank_", "neck_fillet", "root_", "slot_", "lobe_", "runout", "mouth"};
-  Eigen::AlignedBox2d box;
-  for (const Chain* chain : {&design.profile.blade, &design.profile.disk})
-    for (const Edge& e : *chain)
-      if (std::any_of(kShown.begin(), kShown.end(), [&](const char* part) { return e.name.starts_with(part); }))
-        for (const double at : {0.0, 0.5, 1.0}) box.extend(e.point(at));
-  if (box.isEmpty()) box = geometry::bounding_box(design.profile.blade);
-  const Eigen::Vector2d margin(0.10 * box.sizes().x(), 0.14 * box.sizes().y());
-  return {box.min() - margin, box.max() + margin};
-}
-
 /// 1, 2 or 5 times a power of ten, at most `largest`.
 double round_factor(double largest) {
   const double power = std::pow(10.0, std::floor(std::log10(largest)));
@@ -120,6 +107,53 @@ std::string bodies(const DesignRecord& design, const DesignRecord* before, const
   return text;
 }
 
+/// A dimension of the study file, as it is and, where it differs, was: "8.5 \u2192 9 mm".
+std::string dimension(const DesignRecord& design, const DesignRecord* before, const std::string& key) {
+  const auto value_in = [&](const DesignRecord& of) {
+    for (const std::string& name : {"geometry.right." + key, "geometry." + key})
+      if (const auto found = of.parameters.find(name); found != of.parameters.end()) return found->second;
+    return std::nan("");
+  };
+  const double now = value_in(design);
+  if (!std::isfinite(now)) return {};
+  const std::string unit = key_unit(key), text = plain(now, 4);
+  const std::string was = before ? plain(value_in(*before), 4) : text;
+  return (was == text ? text : was + " \u2192 " + text) + (unit == "\u00b0" ? "" : "\u00a0") + unit;
+}
+
+/// Main dimensions beside the joint, each with a line to its place; on the right, where `box` has room for them.
+std::string dimensions(const DesignRecord& design, const DesignRecord* before, const Eigen::AlignedBox2d& box,
+                       double text_size) {
+  struct Label {
+    Eigen::Vector2d at;
+    std::string text;
+  };
+  std::vector<Label> labels;
+  const auto add = [&](const Chain& chain, const char* edge, const std::string& words, const std::string& value) {
+    const auto found = std::ranges::find(chain, edge, &Edge::name);
+    if (found != chain.end() && !value.empty()) labels.push_back({found->point(0.5), words + " " + value});
+  };
+  add(design.profile.blade, "neck_right", "neck", dimension(design, before, "neck_width_mm"));
+  add(design.profile.blade, "neck_fillet_right", "R", dimension(design, before, "neck_fillet_radius_mm"));
+  add(design.profile.blade, "flank_right", "flank", dimension(design, before, "flank_length_mm"));
+  add(design.profile.blade, "flank_right", "angle", dimension(design, before, "flank_angle_deg"));
+  add(design.profile.blade, "root_corner_right", "R", dimension(design, before, "root_corner_radius_mm"));
+  add(design.profile.disk, "slot_fillet_right", "slot R", dimension(design, before, "slot_fillet_radius_mm"));
+  std::string text;
+  const double x = 1e3 * box.max().x() - 12.5 * text_size, spacing = 1.9 * text_size;
+  double y = -1e3 * box.max().y() + 2 * text_size;
+  for (const auto& [at, words] : labels) {
+    y = std::max(y, -1e3 * at.y() - 2 * text_size);
+    text += fmt::format(
+        "<path class=\"leader\" d=\"M{0}L{1:.3f} {2:.3f}\"/><circle class=\"leader\" cx=\"{3:.3f}\" cy=\"{4:.3f}\" "
+        "r=\"{5:.3f}\"/><text x=\"{6:.3f}\" y=\"{7:.3f}\" font-size=\"{8:.3f}\">{9}</text>\n",
+        point(at), x, y, 1e3 * at.x(), -1e3 * at.y(), 0.16 * text_size, x + 0.3 * text_size, y + 0.35 * text_size,
+        text_size, escape(words));
+    y += spacing;
+  }
+  return text;
+}
+
 std::string legend(bool before, bool form) {
   std::string text =
       "<li><svg viewBox=\"0 0 24 12\"><path class=\"blade\" d=\"M1 1H23V11H1Z\"/></svg>blade</li>"
@@ -132,16 +166,36 @@ std::string legend(bool before, bool form) {
 
 }  // namespace
 
+Eigen::AlignedBox2d joint_window(const DesignRecord& design) {
+  constexpr std::array kShown{"flank_", "neck_fillet", "root_", "slot_", "lobe_", "runout", "mouth"};
+  Eigen::AlignedBox2d box;
+  for (const Chain* chain : {&design.profile.blade, &design.profile.disk})
+    for (const Edge& e : *chain)
+      if (std::any_of(kShown.begin(), kShown.end(), [&](const char* part) { return e.name.starts_with(part); }))
+        for (const double at : {0.0, 0.5, 1.0}) box.extend(e.point(at));
+  if (box.isEmpty()) box = geometry::bounding_box(design.profile.blade);
+  const Eigen::Vector2d margin(0.10 * box.sizes().x(), 0.14 * box.sizes().y());
+  return {box.min() - margin, box.max() + margin};
+}
+
 std::string joint_figure(const DesignRecord& design, const DesignRecord* before) {
   const std::string title = "<h3>Joint</h3>\n";
   if (design.profile.blade.empty() || design.profile.disk.empty())
     return "<figure class=\"nothing\">" + title + "<p>Nothing to show: the section was not built.</p></figure>\n";
   if (before && before->profile.blade.empty()) before = nullptr;
-  const Eigen::AlignedBox2d box = joint_window(design);
+  Eigen::AlignedBox2d box = joint_window(design);
+  const double text_size = 0.03e3 * box.sizes().x();
   const double gap = largest_gap(design);
   // Below a nanometre a flank is flat to any machine.
   const bool formed = gap > 1e-9;
   const double factor = formed ? std::max(1.0, round_factor(0.09 * box.sizes().y() / gap)) : 1;
+  if (!design.parameters.empty()) box.extend(Eigen::Vector2d(box.max().x() + 13e-3 * text_size, box.max().y()));
+  std::string beside = dimensions(design, before, box, text_size) + scale_bar(box);
+  if (formed)
+    beside += fmt::format(
+        "<text class=\"factor\" x=\"{:.3f}\" y=\"{:.3f}\" font-size=\"{:.3f}\" text-anchor=\"end\">form of the "
+        "flanks \u00d7\u00a0{}</text>\n",
+        1e3 * box.max().x() - text_size, -1e3 * box.min().y() - text_size, text_size, significant(factor, 1));
   std::string caption = "Section of the joint; the blade is pulled upwards.";
   if (formed)
     caption +=
@@ -151,7 +205,7 @@ std::string joint_figure(const DesignRecord& design, const DesignRecord* before)
     caption += " Both flanks are flat and parallel.";
   return "<figure>" + title + legend(before != nullptr, formed) +
          drawing(box, "Section of the joint",
-                 bodies(design, before, formed ? flank_bands(design, factor) : "") + scale_bar(box)) +
+                 bodies(design, before, formed ? flank_bands(design, factor) : "") + beside) +
          "<figcaption>" + escape(caption) + "</figcaption></figure>\n";
 }
 

@@ -1,7 +1,5 @@
 #include "studies/report/words/html.hpp"
 
-#include <fmt/format.h>
-
 namespace dovetail::report {
 
 namespace {
@@ -61,13 +59,6 @@ std::string escape(std::string_view text) {
 std::string folded(const std::string& style, const std::string& summary, const std::string& html) {
   return "<details" + (style.empty() ? "" : " class=\"" + style + "\"") + "><summary>" + escape(summary) +
          "</summary>" + html + "</details>\n";
-}
-
-std::string svg_begin(const std::string& style, const std::string& title, double width, double height) {
-  return fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"{}\" viewBox=\"0 0 {} {}\" role=\"img\" "
-      "aria-label=\"{}\">\n",
-      style, width, height, escape(title));
 }
 
 }  // namespace dovetail::report

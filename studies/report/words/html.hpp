@@ -12,7 +12,4 @@ namespace dovetail::report {
 /// HTML under a line that opens it; a class of the style sheet or none.
 [[nodiscard]] std::string folded(const std::string& style, const std::string& summary, const std::string& html);
 
-/// An inline drawing up to its first element, of role img with its title.
-[[nodiscard]] std::string svg_begin(const std::string& style, const std::string& title, double width, double height);
-
 }  // namespace dovetail::report

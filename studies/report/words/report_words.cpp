@@ -42,6 +42,7 @@ std::string verb(double from, double to) {
 std::string from_to(const std::string& response, double from, double to) {
   const Unit unit = response_unit(response, std::max(std::abs(from), std::abs(to)));
   const std::string symbol = unit.symbol.empty() ? "" : "\u00a0" + unit.symbol;
+  if (from == to) return "at " + significant(to / unit.si, 3) + symbol;
   std::string text =
       fmt::format("from {} to {}{}", significant(from / unit.si, 3), significant(to / unit.si, 3), symbol);
   if (from > 0 && to > 0) text += " (" + per_cent(to, from, 1, 2) + ")";
@@ -80,22 +81,6 @@ std::string objective_value(const RunRecord& record, const EvaluationRecord& bes
   return fmt::format("{} {} of {}", article, said, with_error(value, bar, response_unit(term.response, value)));
 }
 
-/// "peak_amplitude_m:upper" -> "upper limit of the peak amplitude (8.0 mm)".
-std::string limit_words(const std::string& name, const optimizer::Problem& problem) {
-  const std::size_t colon = name.rfind(':');
-  const auto [response, over] = optimizer::split_case(std::string_view(name).substr(0, colon));
-  const std::string limited(response), side = colon == std::string::npos ? "" : name.substr(colon + 1);
-  std::string text = fmt::format("the {} limit of the {}{}", side, words(limited),
-                                 over_words(problem, over.empty() ? to_string(optimizer::Over::worst) : over));
-  for (const optimizer::ResponseConstraint& constraint : problem.constraints) {
-    if (constraint.response != limited || (!over.empty() && constraint.over != over)) continue;
-    const std::optional<double> limit = side == "upper" ? constraint.upper : constraint.lower;
-    if (limit) text += " (" + plain(*limit, response_unit(limited, *limit)) + ")";
-    break;
-  }
-  return text;
-}
-
 }  // namespace
 
 const EvaluationRecord* baseline_of(const RunRecord& record) {
@@ -124,6 +109,22 @@ Unit response_unit(const std::string& name, double largest) {
   Unit unit = readable_unit(si, largest);
   unit.symbol += "/cycle";
   return unit;
+}
+
+std::string limit_words(const std::string& name, const optimizer::Problem& problem, bool with_number) {
+  const std::size_t colon = name.rfind(':');
+  const auto [response, over] = optimizer::split_case(std::string_view(name).substr(0, colon));
+  const std::string limited(response), side = colon == std::string::npos ? "" : name.substr(colon + 1);
+  std::string text = fmt::format("the {} limit of the {}{}", side, words(limited),
+                                 over_words(problem, over.empty() ? to_string(optimizer::Over::worst) : over));
+  if (!with_number) return text;
+  for (const optimizer::ResponseConstraint& constraint : problem.constraints) {
+    if (constraint.response != limited || (!over.empty() && constraint.over != over)) continue;
+    const std::optional<double> limit = side == "upper" ? constraint.upper : constraint.lower;
+    if (limit) text += " (" + plain(*limit, response_unit(limited, *limit)) + ")";
+    break;
+  }
+  return text;
 }
 
 std::string wear_words(const RunRecord& record) {

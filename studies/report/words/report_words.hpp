@@ -20,6 +20,10 @@ namespace dovetail::report {
 /// " in its worst case", " in case idle"; nothing where a study has no cases.
 [[nodiscard]] std::string over_words(const optimizer::Problem& problem, std::string_view over);
 
+/// "peak_amplitude_m:upper" -> "the upper limit of the peak amplitude (8.0 mm)", or without its number.
+[[nodiscard]] std::string limit_words(const std::string& name, const optimizer::Problem& problem,
+                                      bool with_number = true);
+
 /// What a term of the objective is about: "size of the resonance drift in its worst case".
 [[nodiscard]] std::string term_words(const optimizer::Problem& problem, const optimizer::ObjectiveTerm& term);
 

@@ -39,6 +39,13 @@ std::string table_html(const Table& table) {
   return text + "</tbody></table></div>\n";
 }
 
+std::string list_html(const std::vector<std::string>& sentences) {
+  if (sentences.empty()) return {};
+  std::string text = "<ul>\n";
+  for (const std::string& sentence : sentences) text += "<li>" + escape(sentence) + "</li>\n";
+  return text + "</ul>\n";
+}
+
 std::string definition_list(const std::vector<std::pair<std::string, std::string>>& entries) {
   std::string text = "<dl>\n";
   for (const auto& [term, what] : entries)

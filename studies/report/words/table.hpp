@@ -46,6 +46,9 @@ struct Table {
 /// <table> that scrolls by itself where it is too wide.
 [[nodiscard]] std::string table_html(const Table& table);
 
+/// Sentences, which are escaped, as a list; empty without any.
+[[nodiscard]] std::string list_html(const std::vector<std::string>& sentences);
+
 /// A list of terms, each with what it is; those without are left out.
 [[nodiscard]] std::string definition_list(const std::vector<std::pair<std::string, std::string>>& entries);
 

@@ -210,4 +210,13 @@ std::string per_cent(double value, double reference, int digits, int from_ten) {
   return (change > 0 ? "+" : "") + significant(change, std::abs(change) >= 10 ? from_ten : digits) + "\u00a0%";
 }
 
+std::string difference(double from, double to, const Unit& unit) {
+  if (!std::isfinite(from) || !std::isfinite(to)) return "\u2013";
+  if (std::abs(to - from) <= 1e-8 * std::max(std::abs(from), std::abs(to))) return "none";
+  // Of what is in per cent itself it would be read as a part of it.
+  if (from > 0 && to > 0 && unit.symbol != "%") return per_cent(to, from, 2, 3);
+  const std::string symbol = unit.symbol == "%" ? "percentage points" : unit.symbol;
+  return (to > from ? "+" : "") + significant((to - from) / unit.si, 3) + (symbol.empty() ? "" : "\u00a0" + symbol);
+}
+
 }  // namespace dovetail::report

@@ -42,4 +42,8 @@ struct Unit {
 /// How far a value lies from a reference: "+0.50 %", with `from_ten` digits from 10 % on; "–" where that says nothing.
 [[nodiscard]] std::string per_cent(double value, double reference, int digits = 2, int from_ten = 2);
 
+/// From one value to another: in per cent of the first, or where one of them is not above zero in the unit;
+/// "none" where only rounding of design variables tells them apart.
+[[nodiscard]] std::string difference(double from, double to, const Unit& unit);
+
 }  // namespace dovetail::report

@@ -20,7 +20,7 @@ report::Table table_of(const std::vector<const char*>& headings) {
 
 std::string drawing(const report::Plot& plot) {
   return "<figure><h4>" + report::escape(plot.title) + "</h4>" +
-         (report::is_empty(plot) ? "<p>Nothing converged.</p>" : report::plot_svg(plot)) +
+         (report::is_empty(plot) ? "<p>Nothing converged.</p>" : report::chart_html(plot)) +
          (plot.description.empty() ? "" : "<figcaption>" + report::escape(plot.description) + "</figcaption>") +
          "</figure>\n";
 }

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <utility>
 
-#include "studies/report/plots/scale.hpp"
+#include "studies/report/plots/plot.hpp"
 #include "studies/report/words/units.hpp"
 
 namespace dovetail::work_precision {
@@ -20,7 +20,6 @@ using report::Role;
 using report::Series;
 using report::Stroke;
 
-constexpr int kWidth = 372, kHeight = 300;
 constexpr double kRounding = 1e-9;  // errors that are none
 constexpr double kDeep = 10;        // so far below what is resolved, and no further, errors are drawn
 
@@ -57,11 +56,9 @@ class Drawing {
   Plot plot() {
     Plot plot{.title = response_ == kWorst ? "worst of the responses that count" : report::words(response_),
               .x = {.label = "evaluation", .unit = "s", .logarithmic = true, .tight = true},
-              .y = {.label = "relative error", .logarithmic = true},
-              .width = kWidth,
-              .height = kHeight};
+              .y = {.label = "relative error", .logarithmic = true}};
     plot.title[0] = static_cast<char>(std::toupper(plot.title[0]));
-    if (agreement_ > kRounding) plot.hatched_below = agreement_;
+    if (agreement_ > kRounding) plot.shaded_below = agreement_;
     // Their labels come first where there is little room, their marks last and so on top.
     Series labels = choices();
     labels.name.clear();

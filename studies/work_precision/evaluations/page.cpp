@@ -111,7 +111,7 @@ std::string section(const WholeDiagram& diagram) {
     html += paragraph(choice_verdict(diagram, choice), " class=\"verdict\"");
   html += paragraph(paper_verdict(diagram), " class=\"verdict\"");
   const report::Plot worst = response_plot(diagram, kWorst);
-  html += "<h3 class=\"above\">Every response</h3>\n" + report::plot_legend(worst);
+  html += "<h3 class=\"above\">Every response</h3>\n";
   std::string drawings = drawing(worst);
   std::vector<std::string> exact;
   for (const optimizer::Response& response : optimizer::responses()) {

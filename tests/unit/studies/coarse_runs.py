@@ -38,11 +38,11 @@ UNORDERED = ("departures.jsonl", "verification.jsonl")
 JOURNALS = ("journal.jsonl", "finer.jsonl", *UNORDERED)
 
 
-def coarse_study(program, folder, study=STUDY):
-    """Writes study.toml into the folder."""
+def coarse_study(program, folder, study=STUDY, changes={}):
+    """Writes study.toml into the folder: the coarse scene with changes of its keys, and what the study asks."""
     subprocess.run([program, "new", "whole.toml"], cwd=folder, check=True, stdout=subprocess.DEVNULL)
     scene = (folder / "whole.toml").read_text().partition("# What the optimiser may change")[0]
-    for key, value in COARSE.items():
+    for key, value in {**COARSE, **changes}.items():
         lines = [f"{key} = {value}" if line.startswith(f"{key} = ") else line for line in scene.splitlines()]
         assert lines != scene.splitlines(), key
         scene = "\n".join(lines)

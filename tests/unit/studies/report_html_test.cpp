@@ -7,8 +7,10 @@
 #include <regex>
 #include <stdexcept>
 
+#include "studies/report/pages/answers.hpp"
 #include "studies/report/pages/page.hpp"
 #include "studies/report/plots/report_plots.hpp"
+#include "studies/report/record/influence.hpp"
 #include "studies/report/words/html.hpp"
 #include "studies/report/words/report_words.hpp"
 #include "studies/report/words/table.hpp"
@@ -25,6 +27,13 @@ using testing::StartsWith;
 /// A number that is none, not the middle of a word.
 bool has_nan(const std::string& page) {
   return std::regex_search(page, std::regex("(^|[^a-zA-Z])-?nan([^a-zA-Z]|$)"));
+}
+
+/// What the page says itself; the names that scripts give their variables are not words.
+std::string without_scripts(std::string page) {
+  for (std::size_t at = page.find("<script>"); at != std::string::npos; at = page.find("<script>"))
+    page.erase(at, page.find("</script>", at) + 9 - at);
+  return page;
 }
 
 TEST(ReportWords, SayWhyASearchEnded) {
@@ -81,11 +90,9 @@ TEST(Table, EscapesAllButMarkup) {
 TEST(Report, IsWellFormedAndNeedsNoOtherFile) {
   const std::string page = report_html(sample_record());
   EXPECT_EQ(markup_error(page), "");
-  EXPECT_THAT(page, Not(HasSubstr("<script")));
-  EXPECT_THAT(page, Not(HasSubstr("<link")));
-  EXPECT_THAT(page, Not(HasSubstr("href")));
-  EXPECT_THAT(page, Not(HasSubstr("src=")));
-  EXPECT_FALSE(has_nan(page));
+  EXPECT_FALSE(std::regex_search(without_scripts(page), std::regex("<(link|img)\\b|<script[^>]* src|href=\"http")));
+  EXPECT_LT(page.size(), 3'000'000U);
+  EXPECT_FALSE(has_nan(without_scripts(page)));
 }
 
 TEST(Report, EscapesWhatTheStudySays) {
@@ -147,12 +154,11 @@ TEST(Report, DoesNotCallAChangeWithinTheErrorAnImprovement) {
 TEST(Report, NamesWhatTheBestDesignRestsOnWithoutAnErrorBar) {
   RunRecord record = sample_record();
   EXPECT_THAT(without_bar(record), testing::ElementsAre("the peak amplitude"));
-  EXPECT_THAT(report_html(record),
-              HasSubstr("The best design rests on the peak amplitude, of which no error is known"));
+  EXPECT_THAT(report_html(record), HasSubstr("No error is known of the peak amplitude: the mesh does not settle it"));
   EvaluationRecord& best = record.evaluations[*record.best];
   best.error_estimates["peak_amplitude_m"] = 1e-5;
   EXPECT_THAT(without_bar(record), testing::IsEmpty());
-  EXPECT_THAT(report_html(record), testing::Not(HasSubstr("of which no error is known")));
+  EXPECT_THAT(report_html(record), testing::Not(HasSubstr("No error is known of")));
   best.error_estimates.clear();  // a run without bars
   EXPECT_THAT(without_bar(record), testing::IsEmpty());
 }
@@ -194,7 +200,7 @@ TEST(Report, SaysThatNoFeasibleDesignWasFound) {
   EXPECT_EQ(markup_error(page), "");
   EXPECT_THAT(page, HasSubstr("No feasible design was found"));
   EXPECT_THAT(page, HasSubstr("The nearest is candidate 2."));
-  EXPECT_FALSE(has_nan(page));
+  EXPECT_FALSE(has_nan(without_scripts(page)));
 }
 
 TEST(Report, SurvivesWhateverIsMissing) {
@@ -259,7 +265,7 @@ TEST(Report, ShowsAFront) {
   const RunRecord record = sample_front();
   const std::string page = report_html(record);
   EXPECT_EQ(markup_error(page), "");
-  EXPECT_FALSE(has_nan(page));
+  EXPECT_FALSE(has_nan(without_scripts(page)));
   EXPECT_EQ(
       headline(record),
       "2 designs that no other beats, from an asymptotic wear volume of 0.100\u00a0mm\u00b3 and a peak amplitude of "
@@ -268,8 +274,9 @@ TEST(Report, ShowsAFront) {
   EXPECT_THAT(page, HasSubstr("after (compromise)"));
   EXPECT_THAT(page, HasSubstr("beyond 0.9\u00a0mm\u00b3 a design counts nothing"));
   // What a point says when it is pointed at.
-  EXPECT_THAT(page, HasSubstr("<title>compromise, point 1, candidate 4\nasymptotic wear volume 0.1000 \u00b1 "
-                              "0.0020\u00a0mm\u00b3\npeak amplitude 7.990 \u00b1 0.010\u00a0mm\nflank mismatch 11.25"));
+  EXPECT_THAT(page,
+              HasSubstr("\"compromise, point 1, candidate 4\\nasymptotic wear volume 0.1000 \u00b1 "
+                        "0.0020\u00a0mm\u00b3\\npeak amplitude 7.990 \u00b1 0.010\u00a0mm\\nflank mismatch 11.25"));
   // The point without bars is in the list of all.
   EXPECT_THAT(page, HasSubstr("All 2 points"));
   EXPECT_THAT(report_html(sample_record()), Not(HasSubstr("<h2>Front</h2>")));
@@ -301,8 +308,93 @@ TEST(ReportPlots, ShowTheObjectiveInItsUnit) {
   const Plot plot = objective_plot(sample_record());
   EXPECT_EQ(plot.y.unit, "mm\u00b3");
   ASSERT_EQ(plot.series.size(), 5U);
+  EXPECT_THAT(plot.series[4].candidates, testing::ElementsAre(3));  // the best
   // Best so far: the second candidate breaks the limit, the third has no value.
   EXPECT_THAT(plot.series[0].y, testing::Pointwise(testing::DoubleEq(), {0.8, 0.8, 0.8, 0.1}));
+}
+
+TEST(ReportPlots, ShowEngineOrdersWhereTheyMeetTheMode) {
+  DesignRecord design = sample_design(1);
+  EXPECT_TRUE(engine_order_plot(design).series.empty());
+  design.parameters["scene.speed_rpm"] = 10000;
+  design.parameters["geometry.sectors"] = 47;
+  const Plot plot = engine_order_plot(design);
+  // The other mode is at 2000 Hz. Of multiples of 166.7 Hz, 2 to 4 lie next to and above 490 Hz.
+  ASSERT_EQ(plot.series.size(), 3U);
+  EXPECT_THAT(plot.series[1].x, testing::ElementsAre(2, 3));
+  EXPECT_NEAR(plot.series[1].y[1], 500, 1e-9);
+  EXPECT_EQ(plot.series[1].labels[1], "EO 3");
+}
+
+TEST(Answers, TellWhatBecameBetterAndWorse) {
+  const RunRecord record = sample_record();
+  const std::string table = outcome_table(record);
+  EXPECT_EQ(markup_error(table), "");
+  EXPECT_THAT(table, HasSubstr("asymptotic wear volume"));
+  EXPECT_THAT(table, HasSubstr("<span class=\"verdict good\">better</span>"));
+  EXPECT_THAT(table, HasSubstr("at most\u00a0"
+                               "8\u00a0mm"));
+  EXPECT_THAT(table, HasSubstr("kept, 0.12\u00a0% room (start: 12\u00a0%)"));  // 7.99 and 7 of 8 mm
+  RunRecord worse = record;
+  worse.evaluations[3].responses["asymptotic_wear_volume_m3"] = 9e-10;
+  EXPECT_THAT(outcome_table(worse), HasSubstr("<span class=\"verdict bad\">worse</span>"));
+  worse.evaluations[3].error_estimates["asymptotic_wear_volume_m3"] = 5e-10;
+  EXPECT_THAT(outcome_table(worse), HasSubstr("worse, but within the bars"));
+  worse.evaluations[3].error_estimates["peak_amplitude_m"] = 1e-4;
+  EXPECT_THAT(outcome_table(worse), HasSubstr("undecided: nearer than its bar"));
+}
+
+TEST(Answers, TellHowSureAndHowFar) {
+  RunRecord record = sample_record();
+  EXPECT_THAT(how_sure(record), testing::Contains("Error bar: asymptotic wear volume \u00b12.0\u00a0%."));
+  EXPECT_THAT(how_sure(record), testing::Contains("The best design was not held against a wear history."));
+  EXPECT_THAT(how_sure(record), testing::Contains("With 32 edges along each flank it keeps every limit."));
+  record.verifications.front().evaluation = 3;
+  EXPECT_THAT(how_sure(record), testing::Contains(HasSubstr("(cruise): agree within their bars")));
+  EXPECT_THAT(
+      how_far(record),
+      testing::ElementsAre(HasSubstr("in 0 of 1 cases"),
+                           "With friction -40 % it breaks the upper limit of the peak amplitude by 2.0\u00a0%."));
+}
+
+TEST(Answers, TellWhatToDoNext) {
+  RunRecord record = sample_record();
+  EXPECT_THAT(what_next(record), testing::Contains(HasSubstr("1 of the 2 variables stands at a bound")));
+  EXPECT_THAT(what_next(record), testing::Contains(HasSubstr("neck width (above 9\u00a0mm)")));
+  EXPECT_THAT(what_next(record), testing::Contains(HasSubstr("Loosen the upper limit of the peak amplitude")));
+  EXPECT_THAT(what_next(record), testing::Contains(HasSubstr("Go on: the search ended")));
+  EXPECT_THAT(what_next(record), testing::Contains(HasSubstr("Verify:")));
+  record.best.reset();
+  record.least_broken = 1;
+  EXPECT_THAT(what_next(record), testing::Contains(HasSubstr("Start from candidate 2")));
+}
+
+/// Candidates with y = 3 a + (b - 0.5)^2 over a grid of a and b; c does nothing.
+TEST(Influence, FindsWhatRisesAndWhatHasAValley) {
+  RunRecord record;
+  record.problem.space = optimizer::DesignSpace({{.key = "geometry.a_mm", .lower = 0, .upper = 1, .start = 0},
+                                                 {.key = "geometry.b_mm", .lower = 0, .upper = 1, .start = 0},
+                                                 {.key = "geometry.c_mm", .lower = 0, .upper = 1, .start = 0}});
+  Numbers values;
+  for (int i = 0; i < 125; ++i) {
+    const double a = 0.25 * (i % 5), b = 0.25 * (i / 5 % 5), c = 0.25 * (i / 25);
+    EvaluationRecord e;
+    e.x = {a, b, c};
+    record.evaluations.push_back(e);
+    values.push_back(a + 3 * (b - 0.5) * (b - 0.5));
+  }
+  const Influence found = influence(record, values);
+  ASSERT_EQ(found.variables.size(), 3U);
+  EXPECT_EQ(found.variables[0].trend, Trend::rises);
+  EXPECT_EQ(found.variables[1].trend, Trend::valley);
+  EXPECT_GT(found.variables[0].share, 0.3);
+  EXPECT_GT(found.variables[1].share, 0.3);
+  EXPECT_LT(found.variables[2].share, 0.01);
+  EXPECT_LE(found.explained, 1 + 1e-9);
+  // Too few tell nothing.
+  record.evaluations.resize(13);
+  values.resize(13);
+  EXPECT_TRUE(influence(record, values).variables.empty());
 }
 
 }  // namespace

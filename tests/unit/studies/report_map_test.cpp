@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <regex>
+#include <nlohmann/json.hpp>
 
 #include "tests/unit/studies/report_markup.hpp"
 
@@ -30,34 +30,35 @@ FlankMap sample() {
   return map;
 }
 
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
-  return found;
+/// Cells of all panels: place along the slot and from the neck side, ends along the slot, ends from the neck side in
+/// mm, value.
+std::vector<nlohmann::json> cells_of(const std::string& chart) {
+  const std::string open = "<script type=\"application/json\">";
+  const std::size_t from = chart.find(open) + open.size();
+  std::vector<nlohmann::json> cells;
+  const auto data = nlohmann::json::parse(chart.substr(from, chart.find("</script>", from) - from));
+  for (const nlohmann::json& panel : data["panels"])
+    cells.insert(cells.end(), panel["cells"].begin(), panel["cells"].end());
+  return cells;
 }
 
-/// Areas of the cells of a drawing and of the frames around them, in pixels.
-std::pair<double, double> areas(const std::string& svg) {
-  const std::regex sizes("width=\"([0-9.]+)\" height=\"([0-9.]+)\" fill=\"(#[0-9a-f]{6}|none)\"[^>]*>(<title>)?");
-  double cells = 0, frames = 0;
-  for (std::sregex_iterator it(svg.begin(), svg.end(), sizes), end; it != end; ++it) {
-    const double area = std::stod((*it)[1]) * std::stod((*it)[2]);
-    if ((*it)[4].matched)
-      cells += area;
-    else if ((*it)[3] == "none")
-      frames += area;
-  }
-  return {cells, frames};
+/// Areas of all cells together, mm2.
+double area_of(const std::vector<nlohmann::json>& cells) {
+  double area = 0;
+  for (const nlohmann::json& c : cells)
+    area += (c[3].get<double>() - c[2].get<double>()) * (c[5].get<double>() - c[4].get<double>());
+  return area;
 }
 
-constexpr double kWritten = 1e-3;  // coordinates are written to 0.01
+constexpr double kWritten = 1e-5;  // seven digits
 
 TEST(FlankMap, CellsTileEachFlank) {
-  const std::string svg = flank_map_svg(sample());
-  EXPECT_EQ(markup_error(svg), "");
-  EXPECT_EQ(count(svg, "</title></rect>"), 24U);
-  const auto [cells, frames] = areas(svg);
-  EXPECT_NEAR(cells, frames, kWritten * frames);
+  EXPECT_EQ(markup_error(chart_html(sample())), "");
+  const std::vector<nlohmann::json> cells = cells_of(chart_html(sample()));
+  ASSERT_EQ(cells.size(), 24U);
+  // Strips end half-way between their places at -20, -15, 3 and 20 mm: from -22.5 to 28.5. Along, places at 0, 1 and
+  // 5.5 mm end at 0.5 and 3.25: from -0.5 to 7.75.
+  EXPECT_NEAR(area_of(cells), 2 * 51 * 8.25, kWritten * 842);
 }
 
 TEST(FlankMap, CellsOfStripsThatAreDividedDifferentlyTileEachFlank) {
@@ -74,26 +75,23 @@ TEST(FlankMap, CellsOfStripsThatAreDividedDifferentlyTileEachFlank) {
   add(0, {0, 0.2e-3, 2e-3, 3e-3, 5e-3});
   add(1e-2, {0, 5e-3});
   map.panels.push_back(panel);
-  const std::string svg = flank_map_svg(map);
-  EXPECT_EQ(count(svg, "</title></rect>"), 8U);
-  const auto [cells, frames] = areas(svg);
-  EXPECT_NEAR(cells, frames, kWritten * frames);
+  const std::vector<nlohmann::json> cells = cells_of(chart_html(map));
+  ASSERT_EQ(cells.size(), 8U);
+  EXPECT_NEAR(area_of(cells), 30 * 5, kWritten * 150);
 }
 
 TEST(FlankMap, ShowsNumbersInTheUnit) {
   const std::string figure = figure_html(sample());
   EXPECT_EQ(markup_error(figure), "");
-  EXPECT_THAT(figure, HasSubstr("<title>20.0 mm, 5.50 mm: 23.00 MPa</title>"));
+  const nlohmann::json last = cells_of(figure).back();
+  EXPECT_EQ(last[0], 20.0);
+  EXPECT_EQ(last[1], 5.5);
+  EXPECT_EQ(last[6], 23.0);
   EXPECT_THAT(figure, HasSubstr("<td>right flank</td><td>20</td><td>5.5</td><td>23.000</td>"));
   EXPECT_THAT(figure, HasSubstr("Pressure &lt;&amp;&gt;"));
-}
-
-TEST(FlankMap, LargestValueIsDarkestAndUnknownOnesStayPaper) {
   FlankMap map = sample();
   map.panels[0].values[0] = std::numeric_limits<double>::quiet_NaN();
-  const std::string svg = flank_map_svg(map);
-  EXPECT_EQ(count(svg, "fill=\"#3e134b\"><title>"), 1U);
-  EXPECT_EQ(count(svg, "fill=\"var(--hair)\"><title>"), 1U);
+  EXPECT_TRUE(cells_of(chart_html(map)).front()[6].is_null());
 }
 
 TEST(FlankMap, WithoutValuesIsASentence) {
@@ -122,16 +120,23 @@ DesignRecord design_in_space() {
 
 TEST(FlankMap, ShowsTheContactOfADesignInSpaceOnly) {
   DesignRecord design = design_in_space();
-  const std::vector<Figure> maps = contact_maps(design);
+  const std::vector<Figure> maps = contact_maps({.before = nullptr, .after = &design});
   ASSERT_EQ(maps.size(), 2U);
   const FlankMap& depth = std::get<FlankMap>(maps[0]);
   EXPECT_EQ(depth.unit.symbol, "\u00b5m");
   ASSERT_EQ(depth.panels.size(), 2U);
   EXPECT_EQ(depth.panels[1].values[3], 3e-6);
+  // Beside the start both have the scale of the larger values.
+  DesignRecord start = design;
+  for (double& worn : start.contact.depth_m) worn *= 5;
+  const std::vector<Figure> both = contact_maps({.before = &start, .after = &design});
+  ASSERT_EQ(both.size(), 4U);
+  EXPECT_EQ(std::get<FlankMap>(both[1]).title, "Wear depth over the flanks, after");
+  EXPECT_EQ(std::get<FlankMap>(both[1]).full_scale, 15e-6);
   design.contact.across_m.assign(design.contact.flank.size(), 0.0);
-  EXPECT_TRUE(contact_maps(design).empty());
+  EXPECT_TRUE(contact_maps({.before = nullptr, .after = &design}).empty());
   design.contact.across_m.clear();
-  EXPECT_TRUE(contact_maps(design).empty());
+  EXPECT_TRUE(contact_maps({.before = nullptr, .after = &design}).empty());
 }
 
 TEST(WorstLine, IsTheLineAlongTheFlankWithTheLargestValue) {

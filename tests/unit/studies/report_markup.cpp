@@ -62,7 +62,7 @@ struct Scanner {
     if (!starts(">")) return fail("bad tag");
     ++at;
     open.push_back(tag);
-    if (tag == "style") at = std::min(text.find("</", at), text.size());
+    if (tag == "style" || tag == "script") at = std::min(text.find("</" + tag + ">", at), text.size());
     return true;
   }
   bool end_tag() {

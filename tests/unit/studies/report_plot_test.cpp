@@ -3,77 +3,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <limits>
-#include <random>
-#include <set>
+#include <nlohmann/json.hpp>
 
-#include "studies/report/plots/ticks.hpp"
 #include "studies/report/words/units.hpp"
 #include "tests/unit/studies/report_markup.hpp"
 
 namespace dovetail::report {
 namespace {
 
-using testing::ElementsAre;
 using testing::HasSubstr;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-TEST(Ticks, AreRoundAndCoverTheRange) {
-  const Ticks ticks = linear_ticks(0.03, 0.97, 5);
-  EXPECT_THAT(ticks.labels, ElementsAre("0.0", "0.2", "0.4", "0.6", "0.8", "1.0"));
-  EXPECT_EQ(ticks.lower, 0);
-  EXPECT_EQ(ticks.upper, 1);
-  EXPECT_THAT(linear_ticks(-3, 4, 4).labels, ElementsAre("\u22124", "\u22122", "0", "2", "4"));
-  EXPECT_THAT(linear_ticks(490.18, 490.22, 4).labels, ElementsAre("490.18", "490.19", "490.20", "490.21", "490.22"));
-}
-
-TEST(Ticks, KeepTheRangeWhenTight) {
-  const Ticks ticks = linear_ticks(0.3, 5.5, 6, true);
-  EXPECT_EQ(ticks.lower, 0.3);
-  EXPECT_EQ(ticks.upper, 5.5);
-  EXPECT_THAT(ticks.labels, ElementsAre("1", "2", "3", "4", "5"));
-}
-
-TEST(Ticks, WidenASinglePoint) {
-  for (const double value : {0.0, 1.0, -7e-9, 3e12}) {
-    const Ticks ticks = linear_ticks(value, value, 5);
-    EXPECT_LT(ticks.lower, value);
-    EXPECT_GT(ticks.upper, value);
-    EXPECT_GE(ticks.at.size(), 2U);
-  }
-}
-
-TEST(Ticks, HoldForAnyRange) {
-  std::mt19937 random(7);
-  std::uniform_real_distribution<double> exponent(-12, 12), sign(-1, 1);
-  for (int i = 0; i < 2000; ++i) {
-    const double a = sign(random) * std::pow(10, exponent(random)), b = sign(random) * std::pow(10, exponent(random));
-    const bool tight = i % 2 == 0;
-    const Ticks ticks = linear_ticks(std::min(a, b), std::max(a, b), 5, tight);
-    EXPECT_LE(ticks.lower, std::min(a, b));
-    EXPECT_GE(ticks.upper, std::max(a, b));
-    // A step of a nice number is at most 2.5 times the rough one and at least it.
-    EXPECT_GE(ticks.at.size(), 2U) << a << " " << b;
-    EXPECT_LE(ticks.at.size(), 8U) << a << " " << b;
-    EXPECT_EQ(std::set<std::string>(ticks.labels.begin(), ticks.labels.end()).size(), ticks.labels.size());
-    for (std::size_t k = 0; k < ticks.at.size(); ++k) {
-      EXPECT_GE(ticks.at[k], ticks.lower);
-      EXPECT_LE(ticks.at[k], ticks.upper);
-      if (k > 0) {
-        EXPECT_GT(ticks.at[k], ticks.at[k - 1]);
-      }
-    }
-  }
-}
-
-TEST(Ticks, OfALogarithmicAxisArePowers) {
-  EXPECT_THAT(logarithmic_ticks(2e-3, 3e2).labels, ElementsAre("0.001", "0.01", "0.1", "1", "10", "100", "1000"));
-  EXPECT_THAT(logarithmic_ticks(3, 30).labels, ElementsAre("1", "2", "5", "10", "20", "50", "100"));
-  EXPECT_THAT(logarithmic_ticks(1e3, 1e6).labels, ElementsAre("1000", "10\u2074", "10\u2075", "10\u2076"));
-  EXPECT_THAT(logarithmic_ticks(1, 1).labels.size(), testing::Ge(2U));
-}
 
 TEST(Units, AreThoseEngineersRead) {
   EXPECT_EQ(readable_unit("m", 4.9e-6).symbol, "\u00b5m");
@@ -111,6 +52,14 @@ TEST(Numbers, AreShortAndExact) {
   EXPECT_EQ(plain(100), "100");
 }
 
+TEST(Numbers, DifferInPerCentOrInTheirUnit) {
+  EXPECT_EQ(difference(2e-3, 3e-3, {.symbol = "mm", .si = 1e-3}), "+50.0\u00a0%");
+  EXPECT_EQ(difference(-1e-3, 1e-3, {.symbol = "mm", .si = 1e-3}), "+2.00\u00a0mm");
+  EXPECT_EQ(difference(1e-3, 1e-3 + 1e-12, {.symbol = "mm", .si = 1e-3}), "none");
+  // Of what is in per cent a part would be read as per cent of it.
+  EXPECT_EQ(difference(1e-3, 1.833e-3, {.symbol = "%", .si = 0.01}), "+0.0833\u00a0percentage points");
+}
+
 Plot sample_plot() {
   Plot plot{.title = "A \"title\" with <marks> & more",
             .description = "x < y",
@@ -125,34 +74,43 @@ Plot sample_plot() {
   return plot;
 }
 
+/// What the script of the page gets to draw.
+nlohmann::json data_of(const std::string& chart) {
+  const std::string open = "<script type=\"application/json\">";
+  const std::size_t from = chart.find(open) + open.size();
+  return nlohmann::json::parse(chart.substr(from, chart.find("</script>", from) - from));
+}
+
 TEST(Plot, IsWellFormedAndNamed) {
-  const std::string svg = plot_svg(sample_plot());
-  EXPECT_EQ(markup_error(svg), "");
-  EXPECT_THAT(svg, HasSubstr("role=\"img\""));
-  EXPECT_THAT(svg, HasSubstr("aria-label=\"A &quot;title&quot; with &lt;marks&gt; &amp; more\""));
-  EXPECT_THAT(svg, HasSubstr("<title>&lt;b&gt;</title>"));
   const std::string figure = figure_html(sample_plot());
   EXPECT_EQ(markup_error(figure), "");
+  EXPECT_THAT(figure, HasSubstr("data-title=\"A &quot;title&quot; with &lt;marks&gt; &amp; more\""));
   EXPECT_THAT(figure, HasSubstr("<table>"));
   EXPECT_THAT(figure, HasSubstr("one &lt;line&gt; (\u00b5m)"));
 }
 
-TEST(Plot, BreaksLinesWhereNothingIsKnown) {
-  const std::string svg = plot_svg(sample_plot());
-  const std::size_t path = svg.find("<path class=\"line after solid\"");
-  const std::string data = svg.substr(path, svg.find("/>", path) - path);
-  EXPECT_EQ(std::count(data.begin(), data.end(), 'M'), 2);
-  EXPECT_EQ(svg.find("nan"), std::string::npos);
+TEST(Plot, HandsItsDataToTheScript) {
+  const std::string chart = chart_html(sample_plot());
+  const nlohmann::json data = data_of(chart);
+  EXPECT_EQ(data["x"]["label"], "position");
+  EXPECT_EQ(data["y"]["unit"], "\u00b5m");
+  ASSERT_EQ(data["series"].size(), 5U);
+  EXPECT_EQ(data["series"][0]["name"], "one <line>");
+  EXPECT_EQ(data["series"][1]["stroke"], "dashed");
+  EXPECT_EQ(data["series"][2]["mark"], "star");
+  EXPECT_EQ(data["series"][2]["titles"][0], "<b>");
+  EXPECT_EQ(data["levels"][0]["name"], "at most 4 & so");
+  // No name may end the element.
+  EXPECT_EQ(chart.find("<line>"), std::string::npos);
 }
 
-TEST(Plot, StaysWithinItsAxes) {
+TEST(Plot, LeavesOutWhatHasNoPlace) {
   Plot plot = sample_plot();
-  plot.x.logarithmic = true;  // drops the point at 0
-  plot.y.from_zero = true;
-  const std::string svg = plot_svg(plot);
-  EXPECT_EQ(markup_error(svg), "");
-  EXPECT_EQ(svg.find("inf"), std::string::npos);
-  EXPECT_EQ(svg.find("nan"), std::string::npos);
+  plot.x.logarithmic = true;
+  const nlohmann::json data = data_of(chart_html(plot));
+  EXPECT_TRUE(data["series"][0]["points"][0].is_null());  // x is 0
+  EXPECT_TRUE(data["series"][0]["points"][1].is_null());  // y is not known
+  EXPECT_EQ(data["series"][0]["points"][3], (nlohmann::json{3.0, 3.0}));
 }
 
 TEST(Plot, GivesItsNumbersAsATable) {
@@ -167,9 +125,19 @@ TEST(Plot, WithoutNumbersIsASentence) {
   plot.series.resize(1);
   plot.series[0].y.assign(4, kNaN);
   EXPECT_TRUE(is_empty(plot));
-  EXPECT_EQ(plot_svg(plot), "");
   EXPECT_THAT(figure_html(plot), HasSubstr("Nothing to show"));
   EXPECT_FALSE(is_empty(sample_plot()));
+}
+
+TEST(Plot, OfNothingButZerosIsItsSentence) {
+  Plot plot = sample_plot();
+  plot.at_zero = "Nothing wears.";
+  EXPECT_FALSE(is_empty(plot));
+  for (Series& series : plot.series) series.y.assign(series.y.size(), 0.0);
+  EXPECT_TRUE(is_empty(plot));
+  EXPECT_THAT(figure_html(plot), HasSubstr("<p>Nothing wears.</p>"));
+  plot.at_zero.clear();
+  EXPECT_FALSE(is_empty(plot));
 }
 
 }  // namespace
