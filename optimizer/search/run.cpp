@@ -100,7 +100,7 @@ void settle_for_another(EvaluationSession& session, FinerLimits& finer, const Co
 }
 
 std::string describe(Status status, const std::string& message) {
-  if (status == Status::iteration_limit && message.empty()) return "the budget of evaluations is used up";
+  if (status == Status::iteration_limit && message.empty()) return kBudgetUsedUp;
   if (status == Status::interrupted) return "interrupted; everything finished is kept";
   return message;
 }

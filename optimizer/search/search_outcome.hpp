@@ -9,6 +9,9 @@
 
 namespace dovetail::optimizer {
 
+/// What a run says that ended for want of evaluations.
+inline constexpr const char* kBudgetUsedUp = "the budget of evaluations is used up";
+
 /// How one run of an algorithm ended. The candidates are in the session.
 struct SearchOutcome {
   Status status = Status::stalled;

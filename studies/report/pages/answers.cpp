@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "optimizer/search/search_outcome.hpp"
 #include "studies/report/record/influence.hpp"
 #include "studies/report/words/report_words.hpp"
 #include "studies/report/words/units.hpp"
@@ -193,7 +194,7 @@ std::vector<std::string> what_next(const RunRecord& record) {
       all.push_back("Verify: [optimizer] verify = 1 wears the best design cycle by cycle.");
     add_idle(record, all);
   }
-  if (status == Status::iteration_limit)
+  if (status == Status::iteration_limit && record.message == optimizer::kBudgetUsedUp)
     all.push_back(
         "Go on: the search ended because its evaluations were used up; with a larger max_evaluations, dovetail run "
         "--resume goes on where it stopped.");

@@ -60,12 +60,15 @@ Influence influence(const RunRecord& record, const Numbers& values) {
   }
   const Eigen::VectorXd weights = basis.completeOrthogonalDecomposition().solve(y);
   const Eigen::VectorXd fit = basis * weights;
+  result.explained = fit.squaredNorm() / variance;
+  double sum = 0;
   for (Eigen::Index v = 0; v < count; ++v) {
     const Eigen::VectorXd part = basis.middleCols(2 * v, 2) * weights.segment(2 * v, 2);
     result.variables.push_back(
-        {.share = std::max(0.0, part.dot(fit) / variance), .trend = trend_of(weights(2 * v), 2 * weights(2 * v + 1))});
+        {.share = std::max(0.0, part.dot(fit)), .trend = trend_of(weights(2 * v), 2 * weights(2 * v + 1))});
+    sum += result.variables.back().share;
   }
-  result.explained = fit.squaredNorm() / variance;
+  for (VariableInfluence& variable : result.variables) variable.share *= sum > 0 ? result.explained / sum : 0;
   return result;
 }
 

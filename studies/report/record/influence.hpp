@@ -25,7 +25,9 @@ struct Influence {
 
 /// Fits the ranks of the values with a parabola in each variable, of ranks too, added up: r(y) = c + sum_i f_i(r(x_i)).
 /// Ranks, because responses range over decades and candidates crowd around the best one. A variable's share is its part
-/// of the fit's variance, cov(f_i, fit) / var(r(y)), not below 0. Needs four candidates for each variable and two more.
+/// of the fit's variance, cov(f_i, fit) / var(r(y)), where that is above 0; they are scaled to add up to `explained`,
+/// as those of candidates that vary several variables at once do not. Needs four candidates for each variable and two
+/// more.
 /// @param values  one for each candidate of the run; NaN: not computed
 [[nodiscard]] Influence influence(const RunRecord& record, const Numbers& values);
 

@@ -192,6 +192,8 @@ std::string with_error(double value, double error, const Unit& unit) {
   const std::string symbol = unit.symbol.empty() ? "" : "\u00a0" + unit.symbol;
   if (!std::isfinite(shown) || !(bar > 0) || std::isinf(bar))
     return significant(shown) + (std::isinf(bar) ? " \u00b1 \u221e" : "") + symbol;
+  constexpr double kUnseen = 1e-5;
+  if (bar < kUnseen * std::abs(shown)) return significant(shown, 5) + symbol;
   // More than seven digits of a value say nothing to a reader.
   constexpr int kDigits = 7;
   const int bar_exponent = exponent_of(bar, 2);

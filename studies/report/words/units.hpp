@@ -36,7 +36,8 @@ struct Unit {
 /// That in a unit: "9 mm".
 [[nodiscard]] std::string plain(double value, const Unit& unit);
 
-/// Value with its error bar in a unit, rounded to the bar's first two digits: "0.7812 ± 0.0013".
+/// Value with its error bar in a unit, rounded to the bar's first two digits: "0.7812 ± 0.0013". One that no
+/// reader would see, below 1e-5 of the value, is left out.
 [[nodiscard]] std::string with_error(double value, double error, const Unit& unit);
 
 /// How far a value lies from a reference: "+0.50 %", with `from_ten` digits from 10 % on; "–" where that says nothing.

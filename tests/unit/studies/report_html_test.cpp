@@ -38,7 +38,7 @@ std::string without_scripts(std::string page) {
 
 TEST(ReportWords, SayWhyASearchEnded) {
   RunRecord record = sample_record();
-  EXPECT_THAT(ending(record), StartsWith("The search ended: the budget of 4 evaluations is used up. It looked at"));
+  EXPECT_THAT(ending(record), StartsWith("The search ended: the budget of evaluations is used up. It looked at"));
   record.status = "stalled";
   record.message = "";
   EXPECT_THAT(ending(record), StartsWith("The search stopped early: stalled. It looked at"));
@@ -367,6 +367,9 @@ TEST(Answers, TellWhatToDoNext) {
   record.best.reset();
   record.least_broken = 1;
   EXPECT_THAT(what_next(record), testing::Contains(HasSubstr("Start from candidate 2")));
+  // More evaluations are no advice where going on brought nothing.
+  record.message = "going on from the best design brought nothing better; 4 evaluations of the budget are left";
+  EXPECT_THAT(what_next(record), testing::Not(testing::Contains(HasSubstr("Go on"))));
 }
 
 /// Candidates with y = 3 a + (b - 0.5)^2 over a grid of a and b; c does nothing.
@@ -391,6 +394,16 @@ TEST(Influence, FindsWhatRisesAndWhatHasAValley) {
   EXPECT_GT(found.variables[1].share, 0.3);
   EXPECT_LT(found.variables[2].share, 0.01);
   EXPECT_LE(found.explained, 1 + 1e-9);
+  // Variables that go together, as in a search: b pulls against a, and no share is larger than all together.
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    std::vector<double>& x = record.evaluations[i].x;
+    x[1] = x[0] + 0.01 * static_cast<double>(i % 7);
+    values[i] = 3 * x[0] - 2 * x[1];
+  }
+  const Influence together = influence(record, values);
+  double sum = 0;
+  for (const VariableInfluence& variable : together.variables) sum += variable.share;
+  EXPECT_NEAR(sum, together.explained, 1e-12);
   // Too few tell nothing.
   record.evaluations.resize(13);
   values.resize(13);

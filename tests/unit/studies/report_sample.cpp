@@ -105,7 +105,7 @@ RunRecord sample_record() {
   record.title = "A sample & its <limits>";
   record.wear_law = "energy";
   record.status = "iteration_limit";
-  record.message = "the budget of 4 evaluations is used up";
+  record.message = "the budget of evaluations is used up";
   record.seconds = 12.5;
   record.problem.space =
       optimizer::DesignSpace({{.key = "geometry.flank_mismatch_um", .lower = -5, .upper = 25, .start = 0},
