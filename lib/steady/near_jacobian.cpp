@@ -1,6 +1,7 @@
 #include "steady/near_jacobian.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 #include <vector>
 
@@ -84,6 +85,7 @@ numerics::GmresResult of_one_stiffness(const Point& point, const FactoredJacobia
 
 numerics::GmresResult solve_near(const Point& point, const FactoredJacobian& near, const Eigen::VectorXd& rhs,
                                  const numerics::GmresOptions& options) {
+  assert(near.serve(*point.problem));
   if (point.problem->shared_system() == near.point().problem->shared_system())
     return of_one_stiffness(point, near, rhs, options);
   const JacobianBlocks here = blocks(point);

@@ -38,12 +38,11 @@ void compute(const std::function<void()>& work, Ending ending) {
       }
     });
     while (done.wait_for(kLook) != std::future_status::ready) {
-      if (!raised) {
-        const py::gil_scoped_acquire held;
-        if (PyErr_CheckSignals() != 0) raised.emplace();
-      }
-      if (!raised) continue;
-      if (ending == Ending::at_once)
+      const py::gil_scoped_acquire held;
+      if (PyErr_CheckSignals() == 0) continue;
+      const bool again = raised.has_value();
+      raised.emplace();
+      if (ending == Ending::at_once || again)
         stop = true;
       else
         studies::request_interrupt();

@@ -53,7 +53,10 @@ Answer response(const py::object& given, const py::object& frequencies, const py
   if (py::isinstance<py::float_>(frequencies) || py::isinstance<py::int_>(frequencies))
     hz = {frequencies.cast<double>()};
   else
-    for (const py::handle one : frequencies) hz.push_back(one.cast<double>());
+    for (const py::handle one : frequencies) {
+      if (!PyNumber_Check(one.ptr())) throw py::type_error("frequencies must be a number or numbers, in Hz");
+      hz.push_back(one.cast<double>());
+    }
   if (hz.empty()) studies::refuse("frequencies", "must be at least one, in Hz");
   studies::Complaints wrong;
   for (const double one : hz) wrong.require("frequencies", one, studies::kFrequencies);

@@ -10,7 +10,8 @@ namespace {
 
 constexpr const char* kFinished = "finished.json";
 
-/// Sizes of the files that a run makes its answer of: what has changed since then is looked at again.
+/// Sizes of the files that a run makes its answer of, and of what it hands over: what has changed since then is looked
+/// at again.
 Json sizes_in(const std::filesystem::path& directory) {
   Json sizes = Json::object();
   for (const char* name : {"settings.json", "best_settings.json", "journal.jsonl", "finer.jsonl", "front.jsonl",
@@ -19,6 +20,10 @@ Json sizes_in(const std::filesystem::path& directory) {
     const std::uintmax_t size = std::filesystem::file_size(directory / name, none);
     if (!none) sizes[name] = size;
   }
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(directory, none))
+    if (const std::string name = entry.path().filename().string(); name.starts_with("best.") && entry.is_regular_file())
+      sizes[name] = entry.file_size();
   return sizes;
 }
 

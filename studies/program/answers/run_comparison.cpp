@@ -110,7 +110,11 @@ std::vector<fs::path> runs_in(const std::string& directory) {
 }
 
 ComparedRun compared(const fs::path& directory) {
-  return fs::exists(directory / "results.h5") ? finished(directory) : unfinished(directory);
+  try {
+    return fs::exists(directory / "results.h5") ? finished(directory) : unfinished(directory);
+  } catch (const InputError&) {
+    return {.directory = directory.string(), .name = {}, .status = "damaged", .best = {}, .objective = {}, .start = {}};
+  }
 }
 
 std::string comparison_table(const std::vector<ComparedRun>& runs) {

@@ -23,7 +23,7 @@ struct ComparedRun {
 /// Runs in a directory: itself, or all below it, by name. Throws InputError where there is none.
 [[nodiscard]] std::vector<std::filesystem::path> runs_in(const std::string& directory);
 
-/// Of a run with results, or with a journal alone. Throws InputError for damaged ones.
+/// Of a run with results, or with a journal alone; of one that cannot be read the status "damaged".
 [[nodiscard]] ComparedRun compared(const std::filesystem::path& directory);
 
 /// One run a line, and below the variables of their best designs side by side.

@@ -19,6 +19,7 @@ namespace dovetail::studies {
 namespace {
 
 constexpr TellerParams kTeller;
+constexpr std::string_view kEventBegin = R"({"event")";
 
 double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -39,11 +40,17 @@ Teller::Teller(std::ostream& err, const TellChoice& choice, bool plain)
       shows_(!choice.quiet && (plain || terminal_)),
       quiet_(choice.quiet) {
   if (!choice.log.empty()) {
+    if (std::ifstream before(choice.log); before && before.peek() != std::ifstream::traits_type::eof()) {
+      std::string begin(kEventBegin.size(), ' ');
+      before.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+      if (begin != kEventBegin) refuse("--json-log", "exists, and is no log that could be gone on with", choice.log);
+    }
     errno = 0;
-    log_.open(choice.log, std::ios::trunc);
+    log_.open(choice.log, std::ios::app);
     if (!log_) refuse("--json-log", std::string("cannot be written: ") + std::strerror(errno), choice.log);
   }
-  if (!shows_) return;
+  // Of all streams the standard ones alone may be written to by two threads.
+  if (!shows_ || &err != &std::cerr) return;
   // Signals are for the thread that computes.
   sigset_t all, before;
   sigfillset(&all);

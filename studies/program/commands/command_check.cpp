@@ -13,6 +13,7 @@
 #include "studies/program/commands/commands.hpp"
 #include "studies/program/engine/engine.hpp"
 #include "studies/program/engine/run_folder.hpp"
+#include "studies/program/study_file/best_file.hpp"
 
 namespace dovetail::studies {
 namespace {
@@ -68,7 +69,7 @@ std::string cost_words(const Study& study, const optimizer::Scene& scene, std::v
 }  // namespace
 
 int run_check(const CheckOptions& options, const Streams& streams) {
-  const Study study = load_study(study_or_best(options.study, &streams.err), overrides(options.set));
+  const Study study = load_rewritten_study(study_or_best(options.study, &streams.err), overrides(options.set));
   const optimizer::Problem& problem = study.problem;
   std::vector<std::string> doubts = warnings(study);
   const bool searches = problem.space.size() > 0;

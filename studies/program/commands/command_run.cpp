@@ -190,12 +190,13 @@ std::string question_of(const Study& study) {
 
 /// A part of a scan is over, or interrupted.
 std::string part_words(const Study& study, const optimizer::Part& part, std::size_t done, const fs::path& directory,
-                       bool interrupted) {
+                       bool interrupted, bool late) {
   const int all = optimizer::scan_size(study.optimizer, study.problem.space.size());
   const int own = 1 + (all - part.number + part.of) / part.of;  // with the start
-  if (interrupted)
-    return fmt::format("{}: interrupted in part {} of {} of the scan: {} of its {} evaluations are kept in {}\n",
-                       study.name, part.number, part.of, done, own, directory.string());
+  if (interrupted || late)
+    return fmt::format("{}: {} in part {} of {} of the scan: {} of its {} evaluations are kept in {}\n", study.name,
+                       interrupted ? "interrupted" : "the time is over", part.number, part.of, done, own,
+                       directory.string());
   return fmt::format("{}: part {} of {} of the scan, {} evaluations in {}\n", study.name, part.number, part.of, done,
                      directory.string());
 }
@@ -233,10 +234,10 @@ int computed(const RunOptions& options, const Study& asked, const fs::path& dire
   const OrderlyInterrupt interrupt;
   auto [result, late] = searched(site, begin, options.resume, part, fingerprint_of(study), interrupt);
   if (part) {
-    streams.out << part_words(study, *part, result.evaluations.size(), directory, interrupt.requested());
-    if (!interrupt.requested()) return kDone;
+    streams.out << part_words(study, *part, result.evaluations.size(), directory, interrupt.requested(), late);
+    if (!interrupt.requested() && !late) return kDone;
     streams.err << "dovetail: the same command with --resume goes on with this part\n";
-    return kInterrupted;
+    return interrupt.requested() ? kInterrupted : kDone;
   }
   add_front_bars(site, fingerprint_of(study), interrupt, result);
 

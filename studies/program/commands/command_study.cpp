@@ -200,7 +200,14 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
       return not_converged(options.dakota.front(), "derivatives are asked for, and there are none", streams);
     }
   }
-  Study study = load_study(study_or_best(options.study, &teller.remark()), overrides(set, options.solver));
+  Study study;
+  try {
+    study = load_study(study_or_best(options.study, &teller.remark()), overrides(set, options.solver));
+  } catch (const InputError& error) {
+    // A value that a key cannot have is a design that failed; no older answer may stand for it.
+    if (dakota) replace_file(options.dakota.back(), "fail: " + one_line(error.what()) + "\n");
+    throw;
+  }
   for (const std::string& warning : warnings(study))
     teller.remark() << options.study << ": warning: " << warning << "\n";
   if (study.scene.solver.accuracy > 0) refuse_automatic(options.solver);

@@ -149,10 +149,15 @@ class StructureReader {
       if (const auto row = place(section, path)) load(*row) = 1;
       return load;
     }
+    bool acts = false;
     for (const reduction::NodalForce& force : reduction::read_nodal_forces(beside(*name))) {
       const auto row = row_of_.find(force.at);
-      if (row != row_of_.end()) load(row->second) += force.value;  // where a node is held a force does nothing
+      if (row == row_of_.end()) continue;  // where a node is held a force does nothing
+      load(row->second) += force.value;
+      acts = true;
     }
+    if (!acts)
+      problems_.missing(section.node(), path + ".file", "has no force at a node and direction of the matrices");
     return load;
   }
 

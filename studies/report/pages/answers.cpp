@@ -66,7 +66,7 @@ std::string bars_sentence(const RunRecord& record, const EvaluationRecord& best)
     if (!std::isfinite(value.bar)) continue;
     parts.push_back(term_words(record.problem, term) + " \u00b1" +
                     (value.value != 0 ? percentage(value.bar / std::abs(value.value))
-                                      : plain(value.bar, response_unit(term.response, value.bar))));
+                                      : with_error(value.bar, std::nan(""), response_unit(term.response, value.bar))));
   }
   if (parts.empty()) return "The objective has no error bar.";
   return fmt::format("Error bar{}: {}.", parts.size() == 1 ? "" : "s", listed(parts));
@@ -120,6 +120,18 @@ std::vector<std::string> how_far(const RunRecord& record) {
       "It keeps its limits in {} of {} cases in which friction, force, speed or mismatch are not as the study says.",
       kept, there.size())};
   for (const std::string& each : breaking) all.push_back(capital(each) + ".");
+  if (record.front) return all;
+  double least = std::nan(""), most = least;
+  for (const DepartureRecord* at : there) {
+    least = std::fmin(least, at->objective);
+    most = std::fmax(most, at->objective);
+  }
+  if (const ObjectiveScale scale = objective_scale(record); std::isfinite(least)) {
+    const auto shown = [&](double objective) { return significant(scale.factor * objective, 3); };
+    const std::string unit = scale.unit.empty() ? "" : "\u00a0" + scale.unit;
+    all.push_back(fmt::format("There its {} is {} to {}{}; as the study says it is {}{}.", scale.label, shown(least),
+                              shown(most), unit, shown(best_of(record)->objective), unit));
+  }
   return all;
 }
 
@@ -143,18 +155,32 @@ void add_bounds(const RunRecord& record, const EvaluationRecord& best, std::vect
                     at.size() == 1 ? "a bound" : "bounds", listed(at)));
 }
 
-/// Variables that do next to nothing to anything that counts.
+/// Variables that do next to nothing to objective and limits, where the candidates tell what does.
 void add_idle(const RunRecord& record, std::vector<std::string>& all) {
-  Numbers objective;
-  for (const EvaluationRecord& e : record.evaluations) objective.push_back(e.objective);
-  const Influence of = influence(record, objective);
+  constexpr double kNothing = 0.01, kTold = 0.5;
+  std::vector<Numbers> counting(1 + constraint_names(record.problem).size());
+  for (const EvaluationRecord& e : record.evaluations) {
+    counting[0].push_back(e.objective);
+    for (std::size_t j = 1; j < counting.size(); ++j)
+      counting[j].push_back(j <= e.constraints.size() ? e.constraints[j - 1] : std::nan(""));
+  }
+  std::vector<char> acts(record.problem.space.size(), 0);
+  for (const Numbers& values : counting) {
+    const Influence of = influence(record, values);
+    // What never varies says nothing; what varies for unknown reasons may vary by any of them.
+    const bool varies = std::ranges::adjacent_find(values, std::ranges::not_equal_to()) != values.end();
+    if (varies && (of.variables.empty() || of.explained < kTold)) return;
+    for (std::size_t v = 0; v < of.variables.size(); ++v)
+      if (of.variables[v].share >= kNothing) acts[v] = 1;
+  }
   std::vector<std::string> idle;
-  for (std::size_t v = 0; v < of.variables.size(); ++v)
-    if (of.variables[v].share < 0.01) idle.push_back(key_words(record.problem.space.variables()[v].key));
-  if (!idle.empty() && of.explained > 0.5)
-    all.push_back(fmt::format(
-        "Fix: the {} {} hardly anything to the objective among the candidates seen; without {} a search is shorter.",
-        listed(idle), idle.size() == 1 ? "does" : "do", idle.size() == 1 ? "it" : "them"));
+  for (std::size_t v = 0; v < acts.size(); ++v)
+    if (acts[v] == 0) idle.push_back(key_words(record.problem.space.variables()[v].key));
+  if (!idle.empty() && idle.size() < acts.size())
+    all.push_back(
+        fmt::format("Fix: the {} {} hardly anything to objective and limits among the candidates seen; without {} a "
+                    "search is shorter.",
+                    listed(idle), idle.size() == 1 ? "does" : "do", idle.size() == 1 ? "it" : "them"));
 }
 
 }  // namespace

@@ -54,6 +54,9 @@ Html limit_verdict(double before, double c, double bar) {
   const std::string start = !std::isfinite(before) ? ""
                             : before > 0           ? " (start: broken)"
                                                    : " (start: " + room(before) + ")";
+  if (!std::isfinite(bar))
+    return verdict("soft", (c <= 0 ? "kept, " + room(c) + " room" : "broken by " + room(c)) +
+                               ", but its response has no error bar" + start);
   if (std::abs(c) < bar) return verdict("soft", "undecided: nearer than its bar" + start);
   return c <= 0 ? verdict("good", "kept, " + room(c) + " room" + start)
                 : verdict("bad", "broken by " + room(c) + start);

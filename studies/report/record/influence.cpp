@@ -60,7 +60,9 @@ Influence influence(const RunRecord& record, const Numbers& values) {
   }
   const Eigen::VectorXd weights = basis.completeOrthogonalDecomposition().solve(y);
   const Eigen::VectorXd fit = basis * weights;
-  result.explained = fit.squaredNorm() / variance;
+  // Less what as many terms explain of noise: candidates are few.
+  const auto freedom = static_cast<double>(y.size() - 1), left = freedom - static_cast<double>(2 * count);
+  result.explained = std::max(0.0, 1 - (1 - fit.squaredNorm() / variance) * freedom / left);
   double sum = 0;
   for (Eigen::Index v = 0; v < count; ++v) {
     const Eigen::VectorXd part = basis.middleCols(2 * v, 2) * weights.segment(2 * v, 2);

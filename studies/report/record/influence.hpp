@@ -18,8 +18,8 @@ struct VariableInfluence {
 
 /// What the variables do to one quantity, as far as the candidates tell.
 struct Influence {
-  std::size_t candidates = 0;                     ///< with a value
-  double explained = 0;                           ///< of the variance of the ranks by all variables, 0 to 1
+  std::size_t candidates = 0;  ///< with a value
+  double explained = 0;  ///< of the variance of the ranks by all variables, less what they explain of noise, 0 to 1
   std::vector<VariableInfluence> variables = {};  ///< in the order of the design space; empty: too few candidates
 };
 

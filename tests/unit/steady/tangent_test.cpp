@@ -150,7 +150,7 @@ TEST(NearJacobian, SolvesAlikeWhereTheStiffnessIsTheSameAndWhereItMayDiffer) {
         EXPECT_LT((quick.x - whole.x).norm(), 100 * tolerance * whole.x.norm());
       }
       EXPECT_EQ(steady::solve_near(*near, factors, rhs, {.most = 0}).status, Status::iteration_limit);
-      EXPECT_EQ(steady::solve_near(*near, factors, 0 * rhs, {}).x, 0 * rhs);
+      EXPECT_EQ(steady::solve_near(*near, factors, Eigen::VectorXd(0 * rhs), {}).x.norm(), 0);
       // What is condensed is lent where the system is known to be the same.
       const steady::FactoredJacobian lent(near, &factors), made(near), other(same, &factors);
       EXPECT_EQ(lent.solve(rhs), made.solve(rhs));
