@@ -36,7 +36,7 @@ def other_pages():
     """A page that lists those which the contents do not."""
     contents = CONTENTS.read_text()
     names = [page.relative_to(ROOT).with_suffix("").as_posix() for page in pages()]
-    lines = [f"/{name}" for name in names if name != "README" and f"/{name}\n" not in contents]
+    lines = [f"{name.removesuffix('/README')} </{name}>" for name in names if name != "README" and f"/{name}\n" not in contents]
     return "\n".join(["# Folders, one by one", "", "```{toctree}", ":maxdepth: 1", "", *lines, "```", ""])
 
 

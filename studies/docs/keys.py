@@ -13,7 +13,7 @@ ABOUT = {  # tables of which the schema has no sentence: what they are
     "objective": "What counts: one response, or [several](studies/program/study_files.md#several-objectives).",
     "constraint": "Limits on responses, in SI.",
     "case": "[Several loads](studies/program/study_files.md#several-loads): what is different in each, by keys of the file.",
-    "uncertain": "What is not known for certain, see [several loads](studies/program/study_files.md#several-loads).",
+    "uncertain": "[What is not known for certain](studies/program/study_files.md#uncertain-numbers).",
     "export": "Formats that a run writes its best design in.",
 }
 MEANING = {
