@@ -2,7 +2,7 @@
 """Checks the pages beside the code, without Sphinx:  python3 tests/docs/check_pages.py [FOLDER]
 
 Every relative link leads to a file that is there, and to a heading where it names one; every status and doubt that a
-program may answer is explained in studies/program/statuses.md.
+program may answer is explained in studies/program/statuses.md, and every message quoted there stands in the sources.
 """
 import pathlib
 import re
@@ -68,9 +68,19 @@ def names_without_explanation():
             yield f"{STATUSES}: `{name}` is not explained"
 
 
-wrong = [*broken_links(), *names_without_explanation()]
+def messages_nobody_says():
+    sources = "".join(file.read_text() for part in ("lib", "geometry", "optimizer", "studies") for file in (ROOT / part).rglob("*.[ch]pp"))
+    sources = re.sub(r'"\s*\n?\s*"', "", sources)  # literals that follow one another are one
+    for table in re.findall(r"^\| it says .*\n\|.*\n((?:\|.*\n)+)", (ROOT / STATUSES).read_text(), re.M):
+        for row in table.splitlines():
+            for words in row.split("|")[1].split("..."):
+                if words.strip(" ,.;:") and words.strip() not in sources:
+                    yield f"{STATUSES}: \"{words.strip()}\" is said nowhere"
+
+
+wrong = [*messages_nobody_says(), *broken_links(), *names_without_explanation()]
 if len((ROOT / "README.md").read_text().splitlines()) >= 150:
     wrong.append("README.md: has 150 lines or more; what it says beyond a newcomer's needs belongs on a page of its own")
 if wrong:
     sys.exit("\n".join(wrong))
-print(f"pages: {sum(1 for _ in pages())}, every relative link leads somewhere, every status is explained")
+print(f"pages: {sum(1 for _ in pages())}, every relative link leads somewhere, every status is explained, every message is one")
