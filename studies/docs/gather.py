@@ -2,7 +2,7 @@
 
 Pages keep their places in the tree, so links between them work here as on a git host; files they link to come along.
 The front page is the README with the contents of the site at its end. Made here are the reference of keys, from the program,
-and the list of folders' pages, of all that the contents do not name.
+the list of what tests claim, from their names, and that of folders' pages, of all that the contents do not name.
 """
 
 import pathlib
@@ -11,6 +11,7 @@ import shutil
 import subprocess
 import sys
 
+import checks
 import keys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -51,6 +52,7 @@ def main(program, folder):
                 copy(target, folder)
     front = folder / "README.md"
     front.write_text(front.read_text() + "\n" + CONTENTS.read_text())
+    (folder / "checks.md").write_text(checks.page(ROOT))
     (folder / "folders.md").write_text(other_pages())
     schema = subprocess.run([program, "schema", "study"], capture_output=True, text=True, check=True).stdout
     (folder / "keys.md").write_text(keys.page(schema))

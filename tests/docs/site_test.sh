@@ -9,7 +9,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 program=$(realpath "$1")
 bash "$(dirname "$0")/../../studies/docs/build" "$program" "$folder"
-for page in index README keys studies/docs/tutorial studies/program/commands; do
+for page in index README keys checks studies/docs/tutorial studies/program/commands; do
   [ -s "$folder/$page.html" ] || { echo "no $page.html"; exit 1; }
 done
 grep -q flank_mismatch_um "$folder/keys.html" || { echo "keys.html has not the keys of the program"; exit 1; }
