@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The figures that README.md and studies/quickstart/README.md give of the quickstart, measured again.
+"""The figures that optimizer/accuracy.md and studies/quickstart/README.md give of the quickstart, measured again.
 
     bash studies/run quickstart
     python3 tests/benchmarks/quickstart_figures.py build/dovetail results/quickstart/best.toml

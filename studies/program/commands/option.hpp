@@ -14,7 +14,7 @@
 #include "studies/program/study_file/refusal.hpp"
 
 /// One table of options per struct of a command. From it follow the command line and its help (command_line.cpp), the
-/// checks of ranges and of options that contradict each other (here), and the test that the README knows them all.
+/// checks of ranges and of options that contradict each other (here), and the test that commands.md knows them all.
 namespace dovetail::studies {
 
 /// With what an option has a meaning.

@@ -115,13 +115,13 @@ void expect_in(const std::string& text) {
   visit_options(options, [&]<class S>(const S&, std::span<const Option<S>> table) {
     for (const Option<S>& option : table)
       if (option.name.starts_with("--")) {
-        EXPECT_THAT(text, HasSubstr(option.name)) << "the README does not name it";
+        EXPECT_THAT(text, HasSubstr(option.name)) << "studies/program/commands.md does not name it";
       }
   });
 }
 
-TEST(CommandOptions, AreAllInTheReadme) {
-  std::ifstream stream(README);
+TEST(CommandOptions, AreAllOnTheirPage) {
+  std::ifstream stream(PAGE_OF_COMMANDS);
   const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   expect_in<EvaluateOptions>(text);
   expect_in<ResponseOptions>(text);
