@@ -129,8 +129,9 @@ std::vector<std::string> how_far(const RunRecord& record) {
   if (const ObjectiveScale scale = objective_scale(record); std::isfinite(least)) {
     const auto shown = [&](double objective) { return significant(scale.factor * objective, 3); };
     const std::string unit = scale.unit.empty() ? "" : "\u00a0" + scale.unit;
-    all.push_back(fmt::format("There its {} is {} to {}{}; as the study says it is {}{}.", scale.label, shown(least),
-                              shown(most), unit, shown(best_of(record)->objective), unit));
+    const std::string range = shown(least) == shown(most) ? shown(least) : shown(least) + " to " + shown(most);
+    all.push_back(fmt::format("There its {} is {}{}; as the study says it is {}{}.", scale.label, range, unit,
+                              shown(best_of(record)->objective), unit));
   }
   return all;
 }
