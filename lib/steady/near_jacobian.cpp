@@ -28,7 +28,7 @@ class Difference {
   [[nodiscard]] Eigen::VectorXd apply(const Eigen::VectorXd& x) const {
     const auto rows = static_cast<Eigen::Index>(dofs_.size()), k = blocks_.coefficients();
     const Eigen::MatrixXd there = x.reshaped(system_.size(), k)(dofs_, Eigen::all);
-    const Eigen::VectorXd moved = (blocks_.penalty.asDiagonal() * there).reshaped() - system_.apply_at(dofs_, x);
+    Eigen::VectorXd moved = (blocks_.penalty.asDiagonal() * there).reshaped() - system_.apply_at(dofs_, x);
     if (rows == 0) return moved;
     return apply_derivative(blocks_, moved, false);
   }
