@@ -14,17 +14,8 @@ HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "unit" / "studies"))
 import browser  # noqa: E402
 import coarse_runs  # noqa: E402
+from coarse_runs import VARIABLES  # noqa: E402
 
-VARIABLES = """
-[[variable]]
-key = "geometry.flank_mismatch_um"
-lower = -5
-upper = 20
-[[variable]]
-key = "geometry.neck_width_mm"
-lower = 8
-upper = 9.5
-"""
 WEAR = """
 [[objective]]
 response = "asymptotic_wear_volume_m3"

@@ -2,12 +2,8 @@
 import json
 import subprocess
 
-STUDY = """
-[[case]]
-name = "plain"
-[[case]]
-name = "hard"
-"loading.tip_force_n" = 3
+# What the studies of these tests vary.
+VARIABLES = """
 [[variable]]
 key = "geometry.flank_mismatch_um"
 lower = -5
@@ -16,7 +12,14 @@ upper = 20
 key = "geometry.neck_width_mm"
 lower = 8
 upper = 9.5
-[[objective]]
+"""
+STUDY = """
+[[case]]
+name = "plain"
+[[case]]
+name = "hard"
+"loading.tip_force_n" = 3
+""" + VARIABLES + """[[objective]]
 response = "asymptotic_wear_volume_m3"
 [[constraint]]
 response = "peak_amplitude_m"

@@ -10,21 +10,12 @@ import urllib.request
 
 import jsonschema
 
-from coarse_runs import coarse_study
+from coarse_runs import VARIABLES, coarse_study
 
 program = str(pathlib.Path(sys.argv[1]).resolve())
 studies = pathlib.Path(sys.argv[2])
 
-STUDY = """
-[[variable]]
-key = "geometry.flank_mismatch_um"
-lower = -5
-upper = 20
-[[variable]]
-key = "geometry.neck_width_mm"
-lower = 8
-upper = 9.5
-[[objective]]
+STUDY = VARIABLES + """[[objective]]
 response = "asymptotic_wear_volume_m3"
 [[constraint]]
 response = "peak_amplitude_m"
