@@ -97,6 +97,7 @@ class Study:
         pseudo_penalty_normal: _Number | None = None,
         solver: str | None = None,
         accuracy: float | None = None,
+        json_log: _Path | None = None,
     ) -> Answer: ...
     def reduce(self) -> Model: ...
 
@@ -116,6 +117,7 @@ def response(
     pseudo_penalty_normal: _Number | None = None,
     solver: str | None = None,
     accuracy: float | None = None,
+    json_log: _Path | None = None,
 ) -> Answer: ...
 def wear(
     input: Model | Study | _Path,
@@ -145,6 +147,7 @@ def wear(
     pseudo_penalty_normal: _Number | None = None,
     solver: str | None = None,
     accuracy: float | None = None,
+    json_log: _Path | None = None,
 ) -> Answer: ...
 def run(
     study: Study,
@@ -155,4 +158,5 @@ def run(
     jobs: int | None = None,
     patience: float | None = None,
     part: str | None = None,
+    json_log: _Path | None = None,
 ) -> dict[str, Any]: ...

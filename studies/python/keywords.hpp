@@ -3,6 +3,7 @@
 #include <pybind11/pybind11.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <initializer_list>
 #include <string>
@@ -16,9 +17,11 @@
 /// what help() shows.
 namespace dovetail::python {
 
-/// Options that Python has in another way: words without a name, files of answers and values of a study.
+/// Options that Python has in another way: words without a name, files of answers, files of another driver, values of
+/// a study, and what the terminal shows (remarks are handed over).
 [[nodiscard]] inline bool is_keyword(std::string_view option, std::initializer_list<std::string_view> without) {
-  return option.starts_with("--") && option != "--set" && option != "--json" &&
+  constexpr std::array<std::string_view, 4> kElsewhere{"--set", "--json", "--dakota", "--quiet"};
+  return option.starts_with("--") && std::ranges::find(kElsewhere, option) == kElsewhere.end() &&
          std::ranges::find(without, option) == without.end();
 }
 
