@@ -16,7 +16,7 @@ steady::Options finer_settings(const steady::Options& steady) {
 }
 
 Certificate certificate(steady::Joint joint, double fastest, const steady::State& from) {
-  joint.options.linearise = false;
+  joint.options.linearise = joint.options.show_regular = false;  // `from` was shown to be regular
   const steady::State state =
       paths::steady_state(joint, from.omega, paths::padded(from.displacement, joint.options.harmonics));
   Certificate result{.status = state.status,

@@ -19,7 +19,7 @@ struct Certificate {
 /// may slip at more.
 ///
 /// @param fastest  largest unworn rate, m per cycle
-/// @param from     steady state near it, at the frequency wanted
+/// @param from     regular steady state near it, at the frequency wanted
 /// Cost: one steady state, warm-started.
 [[nodiscard]] Certificate certificate(steady::Joint joint, double fastest, const steady::State& from);
 
