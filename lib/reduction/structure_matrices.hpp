@@ -13,7 +13,7 @@ struct NodeDirection {
   std::int64_t node = 0;
   int direction = 1;
 
-  auto operator<=>(const NodeDirection&) const = default;
+  auto operator<=>(const NodeDirection&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 errs
 };
 
 /// A structure as another code wrote it.

@@ -81,7 +81,7 @@ class ElementReader {
       lines_.refuse(0, std::to_string(nodes_.size()) + " nodes",
                     "must list as many under ** ELEMENT NODES as *USER ELEMENT says, " + std::to_string(count_));
     if (directions_.empty()) lines_.refuse(0, {}, "does not say which directions its nodes have");
-    const std::vector<int>* list = nullptr;
+    const std::vector<int>* list = &directions_.begin()->second;
     for (std::int64_t place = 1; place <= count_; ++place) {
       if (const auto other = directions_.find(place); other != directions_.end()) list = &other->second;
       for (const int direction : *list)

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "reduction/model_file.hpp"
-#include "studies/program/engine/engine.hpp"
+#include "studies/program/engine/loaded_model.hpp"
 #include "studies/program/study_file/refusal.hpp"
 
 namespace dovetail::python {

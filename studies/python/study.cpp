@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "studies/program/commands/commands.hpp"
-#include "studies/program/engine/engine.hpp"
+#include "studies/program/engine/loaded_model.hpp"
 #include "studies/program/study_file/best_file.hpp"
 #include "studies/program/study_file/refusal.hpp"
 #include "studies/python/answer.hpp"

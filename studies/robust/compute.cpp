@@ -16,6 +16,7 @@
 #include "optimizer/problem/problem.hpp"
 #include "studies/program/commands/commands.hpp"
 #include "studies/program/engine/engine.hpp"
+#include "studies/program/engine/loaded_model.hpp"
 #include "studies/report/record/results_file.hpp"
 
 namespace dovetail::robust {

@@ -16,7 +16,7 @@
 #include "numerics/process.hpp"
 #include "paths/frequency_response.hpp"
 #include "paths/resonance.hpp"
-#include "studies/program/engine/engine.hpp"
+#include "studies/program/engine/loaded_model.hpp"
 #include "studies/ready_study/processor_time.hpp"
 #include "studies/work_precision/contact_patch.hpp"
 #include "tests/verification/wear/verdict_scenes.hpp"

@@ -1,5 +1,6 @@
 #include "studies/program/answers/version.hpp"
 #include "studies/program/engine/json_values.hpp"
+#include "studies/program/engine/number_constants.hpp"
 #include "studies/program/engine/response_curve.hpp"
 
 namespace dovetail::studies {

@@ -2,6 +2,7 @@
 #include "studies/program/answers/json.hpp"
 #include "studies/program/answers/version.hpp"
 #include "studies/program/engine/json_values.hpp"
+#include "studies/program/engine/number_constants.hpp"
 #include "studies/program/engine/wear_methods.hpp"
 
 namespace dovetail::optimizer {

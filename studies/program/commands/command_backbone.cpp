@@ -9,9 +9,10 @@
 #include "studies/program/answers/teller.hpp"
 #include "studies/program/answers/version.hpp"
 #include "studies/program/commands/commands.hpp"
-#include "studies/program/engine/engine.hpp"
 #include "studies/program/engine/interrupt.hpp"
 #include "studies/program/engine/json_values.hpp"
+#include "studies/program/engine/loaded_model.hpp"
+#include "studies/program/engine/number_constants.hpp"
 #include "studies/program/study_file/refusal.hpp"
 
 namespace dovetail::studies {

@@ -12,6 +12,7 @@
 #include "studies/program/answers/teller.hpp"
 #include "studies/program/commands/commands.hpp"
 #include "studies/program/engine/engine.hpp"
+#include "studies/program/engine/loaded_model.hpp"
 #include "studies/program/engine/run_folder.hpp"
 #include "studies/program/study_file/best_file.hpp"
 

@@ -15,6 +15,7 @@
 #include "studies/program/answers/solid_export.hpp"
 #include "studies/program/commands/commands.hpp"
 #include "studies/program/engine/engine.hpp"
+#include "studies/program/engine/loaded_model.hpp"
 #include "studies/program/engine/model_toml.hpp"
 #include "studies/program/engine/run_folder.hpp"
 #include "studies/program/study_file/best_file.hpp"

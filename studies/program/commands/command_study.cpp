@@ -26,6 +26,7 @@
 #include "studies/program/commands/commands.hpp"
 #include "studies/program/engine/engine.hpp"
 #include "studies/program/engine/interrupt.hpp"
+#include "studies/program/engine/loaded_model.hpp"
 #include "studies/program/engine/run_folder.hpp"
 #include "studies/program/engine/settled_study.hpp"
 #include "studies/program/study_file/materials.hpp"

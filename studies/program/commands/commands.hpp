@@ -12,7 +12,7 @@
 #include "optimizer/workers/worker_pool.hpp"
 #include "studies/program/answers/geometry_export.hpp"
 #include "studies/program/commands/option.hpp"
-#include "studies/program/engine/engine.hpp"
+#include "studies/program/engine/loaded_model.hpp"
 #include "studies/program/engine/run_engine.hpp"
 #include "studies/program/questions/analysis_choice.hpp"
 #include "studies/program/questions/tell_choice.hpp"

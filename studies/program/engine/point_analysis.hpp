@@ -7,7 +7,7 @@
 #include "quality/error_bars.hpp"
 #include "quality/penalty_sensitivity.hpp"
 #include "stability/stability.hpp"
-#include "studies/program/engine/engine.hpp"
+#include "studies/program/engine/loaded_model.hpp"
 #include "studies/program/questions/analysis_choice.hpp"
 #include "tractions/traction_bounds.hpp"
 

@@ -10,6 +10,7 @@
 
 #include "optimizer/journal/fingerprint.hpp"
 #include "studies/program/engine/json_values.hpp"
+#include "studies/program/engine/number_constants.hpp"
 #include "studies/program/study_file/refusal.hpp"
 
 namespace dovetail::studies {

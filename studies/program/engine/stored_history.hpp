@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "optimizer/journal/record_fields.hpp"
-#include "studies/program/engine/engine.hpp"
+#include "studies/program/engine/loaded_model.hpp"
 #include "studies/program/questions/wear_options.hpp"
 #include "wear/history/history.hpp"
 

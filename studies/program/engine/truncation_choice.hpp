@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/program/engine/engine.hpp"
+#include "studies/program/engine/loaded_model.hpp"
 
 namespace dovetail::studies {
 

@@ -7,6 +7,7 @@
 #include "paths/frequency_response.hpp"
 #include "paths/resonance.hpp"
 #include "paths/steady_state.hpp"
+#include "studies/program/engine/number_constants.hpp"
 #include "studies/program/engine/stored_history.hpp"
 #include "studies/program/engine/wear_methods.hpp"
 #include "studies/program/study_file/refusal.hpp"

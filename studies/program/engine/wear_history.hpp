@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/program/engine/engine.hpp"
+#include "studies/program/engine/loaded_model.hpp"
 #include "studies/program/engine/stored_history.hpp"
 #include "studies/program/questions/wear_options.hpp"
 #include "wear/history/history.hpp"

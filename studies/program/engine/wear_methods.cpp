@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "studies/program/engine/number_constants.hpp"
 #include "studies/program/study_file/refusal.hpp"
 #include "wear/asymptote/rest.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "paths/resonance.hpp"
-#include "studies/program/engine/engine.hpp"
+#include "studies/program/engine/loaded_model.hpp"
 #include "studies/program/engine/wear_history.hpp"
 #include "studies/program/questions/wear_options.hpp"
 #include "wear/asymptote/asymptote.hpp"

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "studies/program/study_file/problem_reader.hpp"
 #include "studies/program/study_file/scene_keys.hpp"
+#include "studies/program/study_file/variable_reader.hpp"
 
 namespace dovetail::studies {
 

@@ -1,19 +1,11 @@
 #pragma once
 
-#include <string>
-
 #include "optimizer/problem/optimizer_options.hpp"
 #include "optimizer/problem/problem.hpp"
 #include "optimizer/scene/scene.hpp"
 #include "studies/program/study_file/section_reader.hpp"
 
 namespace dovetail::studies {
-
-/// What is said of a number of a wear law that the scene does not use.
-[[nodiscard]] std::string left_aside_words(const optimizer::Scene& scene);
-
-/// Why a key that is a number cannot be a variable, or follow from some; empty when it can.
-[[nodiscard]] std::string conflict_of_variable(const Node* root, const optimizer::Parameter& parameter);
 
 /// Reads [[variable]], [[case]], [[objective]] and [[constraint]]. `scene` gives the start of a variable that names
 /// none; an accuracy of one response takes one of all, in `scene` or `options`. What is wrong goes to `problems`; the

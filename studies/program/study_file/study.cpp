@@ -13,6 +13,7 @@
 #include "studies/program/study_file/materials.hpp"
 #include "studies/program/study_file/problem_reader.hpp"
 #include "studies/program/study_file/section_reader.hpp"
+#include "studies/program/study_file/variable_reader.hpp"
 
 namespace dovetail::studies {
 namespace {

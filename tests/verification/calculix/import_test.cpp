@@ -18,7 +18,7 @@
 #include "fem/sector_system.hpp"
 #include "geometry/exports/inp.hpp"
 #include "geometry/mesh/mesh_motion.hpp"
-#include "studies/program/engine/engine.hpp"
+#include "studies/program/engine/loaded_model.hpp"
 #include "tests/verification/calculix/calculix.hpp"
 #include "wear/asymptote/asymptote.hpp"
 

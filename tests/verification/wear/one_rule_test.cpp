@@ -8,6 +8,7 @@
 
 #include "optimizer/evaluator.hpp"
 #include "studies/program/engine/engine.hpp"
+#include "studies/program/engine/loaded_model.hpp"
 #include "studies/program/engine/wear_methods.hpp"
 #include "studies/program/study_file/study.hpp"
 #include "wear/measures.hpp"
