@@ -8,6 +8,7 @@
 #include "fem/material.hpp"
 #include "fem/mesh.hpp"
 
+/// @file
 /// Kernels over one element, templates over its kind (Triangle6, Wedge18). Element dofs are interleaved: the components
 /// of node 0, of node 1, ... Stresses are (xx, yy, xy) in the plane, (xx, yy, zz, xy, yz, zx) in space, shear strains
 /// engineering strains.

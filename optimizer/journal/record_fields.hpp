@@ -3,6 +3,7 @@
 #include <string>
 #include <tuple>
 
+/// @file
 /// One table of fields per record. From it follow the record's JSON and journal line (record_json.hpp), its place in a
 /// results file (studies/report/record/results_archive.hpp) and the list of its keys in the program's help.
 namespace dovetail::optimizer {

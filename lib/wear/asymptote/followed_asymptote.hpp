@@ -21,7 +21,8 @@ struct FollowedAsymptote {
 /// starts from the depths of the one before. A history retunes all the time; this one only whenever wear has come to
 /// rest.
 ///
-/// @param unworn  steady state of `joint` at omega, or null
+/// - `unworn`: steady state of `joint` at omega, or null
+///
 /// Cost: three to ten asymptotes and resonances. Throws InputError as asymptote() does.
 [[nodiscard]] FollowedAsymptote followed_asymptote(const steady::Joint& joint, double omega,
                                                    const AsymptoteOptions& options = {},

@@ -48,7 +48,7 @@ inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();  //
 [[nodiscard]] optimizer::Cost expected_cost(const Study& study);
 
 /// The study's design, in its first case, with its fields and without curves.
-/// @param history  with its wear history, of which up to 16 states are kept
+/// - `history`: with its wear history, of which up to 16 states are kept
 [[nodiscard]] report::DesignRecord describe_fields(const Study& study, bool history = false);
 
 /// A reduced model to compute with, from a model file or from a study's candidate.
@@ -70,9 +70,9 @@ struct LoadedModel {
 [[nodiscard]] std::optional<reduction::ReducedModel> read_any_model(const std::string& input);
 
 /// Throws InputError for wrong input and for a study whose geometry is infeasible.
-/// @param given   a model, a study, or the directory of a run: its best design
-/// @param err     hears what of a study does not count here; null: nobody does
-/// @param follow  what drives the wear, where it is not what the study says: contact nodes end where its zones end
+/// - `given`: a model, a study, or the directory of a run: its best design
+/// - `err`: hears what of a study does not count here; null: nobody does
+/// - `follow`: what drives the wear, where it is not what the study says: contact nodes end where its zones end
 [[nodiscard]] LoadedModel load_model(const std::string& given, const std::vector<std::string>& set,
                                      const SolverChoice& solver, std::ostream* err = nullptr,
                                      std::optional<wear::Follow> follow = {});

@@ -11,6 +11,7 @@
 #include "wear/follow.hpp"
 #include "wear/history/history.hpp"
 
+/// @file
 /// How wear may be asked for.
 namespace dovetail::studies {
 
