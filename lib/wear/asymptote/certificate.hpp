@@ -17,7 +17,6 @@ struct Certificate {
 
 /// Solves the worn `joint`, at settings that may differ from those of `from`: what rests at H harmonics and N samples
 /// may slip at more.
-///
 /// - `fastest`: largest unworn rate, m per cycle
 /// - `from`: regular steady state near it, at the frequency wanted
 ///

@@ -40,7 +40,6 @@ struct Rest : FollowedAsymptote {
 ///
 /// What did not decide is in other_states. Without lines only the first of them holds: on nodes that are laid without
 /// regard to worn zones the direct answer wears off whole nodes as well, and nothing speaks for it against the history.
-///
 /// - `unworn`: steady state of `joint` at omega, or null
 ///
 /// Cost: a direct answer; in doubt a history besides, and where that ends elsewhere the direct answer once more and a
