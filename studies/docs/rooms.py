@@ -13,5 +13,5 @@ def page(root):
             continue
         lines += [rf"\namespace {'dovetail' if name == 'core' else 'dovetail::' + name}", rf"\brief `{folder}`: {words}", ""]
         about = "studies/program" if name == "studies" else folder
-        lines += [f"More on [its page](../{about}/README.html).", ""]
+        lines += [f"More on [its page](../{about}/README.html).", "", rf"\dir {folder}", rf"\brief {words}", ""]
     return "\n".join([*lines, "*/", ""])
