@@ -70,8 +70,8 @@ struct FinerDesign {
 /// At finer(scene, 1).
 [[nodiscard]] FinerDesign twice_as_fine(const SceneEvaluator& evaluator, const Scene& scene);
 
-/// @param result  the design as the search has it, with bars
-/// @param there  settings of more edges along the flanks
+/// `result`: the design as the search has it, with bars; `there`: settings of more edges along the flanks.
+///
 /// Never throws for what a design is like; what could not be computed is in the status. Cost: an evaluation at those
 /// settings and some 50 to 300 steady states at the design's own.
 [[nodiscard]] Verification verify(const Scene& scene, const CandidateResult& result, const FinerDesign& there,

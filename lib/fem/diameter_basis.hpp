@@ -22,7 +22,7 @@ struct PhaseMatrix {
 /// basis that does not depend on the phase: a phase costs a dense eigenproblem.
 class DiameterBasis {
  public:
-  /// @param flexibility  of springs between the flanks, see DiameterOptions
+  /// - `flexibility`: of springs between the flanks, see DiameterOptions
   DiameterBasis(const SectorMesh& sector, const Eigen::SparseMatrix<double>& stiffness,
                 const Eigen::SparseMatrix<double>& mass, BoreSupport bore, const Eigen::VectorXd& flexibility);
 

@@ -8,9 +8,9 @@
 #include "fem/material.hpp"
 #include "fem/mesh.hpp"
 
-/// Kernels over one element, templates over its kind (Triangle6, Wedge18). Element dofs are interleaved: the components
-/// of node 0, of node 1, ... Stresses are (xx, yy, xy) in the plane, (xx, yy, zz, xy, yz, zx) in space, shear strains
-/// engineering strains.
+/// @file
+/// Kernels over one element, templates over its kind (Triangle6, Wedge18). Dofs are interleaved: all of node 0, of node
+/// 1, ... Stresses are (xx, yy, xy) in the plane, (xx, yy, zz, xy, yz, zx) in space, with engineering shear strains.
 namespace dovetail::fem {
 
 /// Calls visit(Triangle6{}) or visit(Wedge18{}): the one place where the kind of a mesh is looked at.

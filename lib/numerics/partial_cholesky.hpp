@@ -43,7 +43,7 @@ class PartialCholesky {
 
   /// Only the lower triangle of `a` is read. `singular`: A_ii is not positive definite; `not_finite`.
   /// Cost: one supernodal factorisation of A (CHOLMOD) in the order that is best for A_ii, with the border last.
-  /// @param order  to take it from where the pattern is the same; null: it is found anew
+  /// - `order`: to take it from where the pattern is the same; null: it is found anew
   [[nodiscard]] Status factorise(const Eigen::SparseMatrix<double>& a, Eigen::Index border,
                                  EliminationOrder* order = nullptr);
 

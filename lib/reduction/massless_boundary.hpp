@@ -61,7 +61,7 @@ struct TraceModel : ModesRecord {
 using Factor = std::shared_ptr<const numerics::PartialCholesky>;
 
 /// First half of `reduce`, for `full` with its trace as contact. Cost and statuses as there.
-/// @param known  the factor of its stiffness, if there is one
+/// - `known`: the factor of its stiffness, if there is one
 [[nodiscard]] TraceModel trace_model(const FullModel& full, const ReductionOptions& options = {},
                                      const Factor& known = {});
 

@@ -14,10 +14,10 @@ namespace dovetail::reduction {
 /// The words of a matrix file, line by line; blank lines and comments are passed over.
 class MatrixText {
  public:
-  /// @param text      outlives this
-  /// @param kind      of file, for messages
-  /// @param blanks    what stands between words
-  /// @param comment   with what a line begins that is none
+  /// - `text`: outlives this
+  /// - `kind`: of file, for messages
+  /// - `blanks`: what stands between words
+  /// - `comment`: with what a line begins that is none
   MatrixText(std::string path, std::string kind, std::string_view text, std::string_view blanks, char comment)
       : path_(std::move(path)), kind_(std::move(kind)), rest_(text), blanks_(blanks), comment_(comment) {}
 

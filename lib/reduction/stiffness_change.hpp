@@ -22,7 +22,7 @@ struct StiffnessChange {
   [[nodiscard]] Eigen::MatrixXd on_contact(const Eigen::SparseMatrix<double>& average) const;
 };
 
-/// @param forced  displacements to unit forces on the trace, X [n, nt]
+/// - `forced`: displacements to unit forces on the trace, X [n, nt]
 [[nodiscard]] StiffnessChange stiffness_change(const ResidualFlexibility& structure, Eigen::SparseMatrix<double> change,
                                                const Eigen::MatrixXd& forced);
 

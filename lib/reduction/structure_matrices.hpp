@@ -30,7 +30,7 @@ struct StructureMatrices {
 /// The first and the last name their degrees of freedom; for the others `dofs` is a file with `node.direction` (or the
 /// two apart) in a line for each row: CalculiX's .dof. Symmetric matrices list one triangle or both. Degrees of freedom
 /// with a stiffness of 1e30 and more are held (Abaqus gives them 1e36) and left out.
-/// @param mass  may be empty: a quasi-static structure; of a *USER ELEMENT the file of both
+/// `mass` may be empty: a quasi-static structure; of a *USER ELEMENT it is the file of both.
 /// Throws InputError with file and line. Cost: a pass over the files and a sort of their entries.
 [[nodiscard]] StructureMatrices read_structure(const std::string& stiffness, const std::string& mass,
                                                const std::string& dofs);

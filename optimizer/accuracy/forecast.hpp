@@ -62,7 +62,7 @@ class Forecast {
   /// The last one is what others are foreseen from. Where one before it differs in a knob the two say the order of a
   /// part. A part that is smaller than its order lets expect after each of the two before counts for the (geometric)
   /// mean of that and of itself.
-  /// @param beside  of each response's bar by the mesh: what the mesh beside the flanks leaves, where it is known
+  /// - `beside`: of each response's bar by the mesh: what the mesh beside the flanks leaves, where it is known
   void add(const Settings& at, const Evaluation& evaluation, const std::map<std::string, double>& beside = {});
 
   /// Whether the bars of two designs that are the same but for their settings meet, as far as the two evaluations alone

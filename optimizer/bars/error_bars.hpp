@@ -33,9 +33,10 @@ struct Computation;
 /// a fraction of the cost; where they have no answer there, of the next, in the end on the design's own mesh. The bar
 /// is the sum. Responses add what their own computation knows of its error. One without a limit is `unbounded`, and
 /// whatever companions none of which converged leave open (with a message).
-/// @param builder  of the design's own mesh
-/// @param others  null: bars by harmonics, samples and pseudo-penalty alone, which the design's own mesh is asked for
-/// @param how  the design was computed: what it leaves out has no bars, and companions leave it out, too
+/// - `builder`: of the design's own mesh; `others`: null: bars by harmonics, samples and pseudo-penalty alone, which
+/// the design's own mesh is asked for
+/// - `how`: the design was computed: what it leaves out has no bars, and companions leave it out, too
+///
 /// Cost: an evaluation on a finer mesh, six on coarser ones and one or two on other grids of contact nodes; on fine
 /// meshes none on a finer one; in space five on coarser meshes and four or five on the design's own. Each has a budget
 /// of its own.

@@ -12,7 +12,7 @@ namespace dovetail::optimizer {
 }
 
 /// Contact nodes on the trace of a mesh or between those; contact dofs begin at `first`.
-/// @param surface  fem::ContactSurface or fem::ContactCells
+/// - `surface`: fem::ContactSurface or fem::ContactCells
 template <class Surface>
 [[nodiscard]] reduction::ContactNodes contact_nodes(const Surface& surface, Eigen::Index first,
                                                     const ContactProperties& properties) {

@@ -3,8 +3,8 @@
 #include <string>
 #include <tuple>
 
-/// One table of fields per record. From it follow the record's JSON and journal line (record_json.hpp), its place in a
-/// results file (studies/report/record/results_archive.hpp) and the list of its keys in the program's help.
+/// @file
+/// One table of fields per record, for JSON and journal (record_json.hpp), results (results_archive.hpp) and help.
 namespace dovetail::optimizer {
 
 /// A field of the record R: its name where it is written, with its SI unit, and the member.

@@ -37,8 +37,8 @@ inline constexpr const char* kMissionPrefix = "mission_";
 /// One grid of contact nodes for all loads, laid for the worn zones of the mission; then the unworn resonances, at
 /// which the loads wear, the mission, and the worn resonances. With `how.history` the loads are let act in turn,
 /// too, with a history where that is in doubt.
-/// @param models  of the loads, built
-/// @param from  the same at other settings, to begin with, or null; its grid where `how.grid_from` says so
+/// - `models`: of the loads, built
+/// - `from`: the same at other settings, to begin with, or null; its grid where `how.grid_from` says so
 [[nodiscard]] MissionResult mission_of(const MissionLoads& loads, std::vector<CandidateModel> models,
                                        const Computation& how, const MissionResult* from = nullptr);
 

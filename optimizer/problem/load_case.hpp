@@ -63,7 +63,7 @@ struct Barred {
 
 /// What the numbers of all cases, larger ones worse, come to. The worst may be another case within the bars. Where the
 /// cases are samples of a sequence the bar has what its second half changes besides.
-/// @param share  of the quantile, in (0, 1)
+/// - `share`: of the quantile, in (0, 1)
 [[nodiscard]] Barred over_cases(std::string_view over, std::span<const LoadCase> cases, std::span<const Barred> numbers,
                                 double share);
 

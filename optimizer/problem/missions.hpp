@@ -16,7 +16,7 @@ struct MissionCases {
 
 /// The missions of a study: all cases, or of uncertain numbers the cases of every sample.
 /// None where cases differ in their geometry: they have no flanks in common.
-/// @param named  the study names a response of them; else there is a mission only where there are [[case]]s
+/// - `named`: the study names a response of them; else there is a mission only where there are [[case]]s
 [[nodiscard]] std::vector<MissionCases> missions_of(std::span<const LoadCase> cases, bool named);
 
 }  // namespace dovetail::optimizer

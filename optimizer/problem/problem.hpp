@@ -93,7 +93,7 @@ inline constexpr const char* kSlipMargin = "slip_margin";
 [[nodiscard]] bool better(const Judgement& one, const Judgement& other);
 
 /// Judges with the exact constraints: feasible when every c <= tolerance. Pure; never throws.
-/// @param shifts  added to the response constraints before they count, order of constraint_names; empty: none
+/// - `shifts`: added to the response constraints before they count, order of constraint_names; empty: none
 [[nodiscard]] Judgement judge(const Problem& problem, const Evaluation& evaluation, double tolerance,
                               std::span<const double> shifts = {});
 

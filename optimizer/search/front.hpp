@@ -34,7 +34,7 @@ struct Front {
 
 /// At most `count` of the points of a front, its ends among them, spread: one after the other the point that is
 /// farthest from those taken, by the extent of the front in every objective. In the order of the front.
-/// @param terms  of each point
+/// - `terms`: of each point
 [[nodiscard]] std::vector<std::size_t> spread(const std::vector<std::vector<double>>& terms, std::size_t count);
 
 }  // namespace dovetail::optimizer

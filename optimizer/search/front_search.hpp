@@ -14,7 +14,7 @@ namespace dovetail::optimizer {
 /// every one ends by itself: no run hangs on `max_evaluations`, and with more of them a run goes on where it ended.
 ///
 /// The session is left focused on the last run. Throws StopSearch when it was asked to and when the budget is used up.
-/// @param search  one run of the algorithm as the session is focused, ended by its budget or by itself
+/// - `search`: one run of the algorithm as the session is focused, ended by its budget or by itself
 [[nodiscard]] SearchOutcome epsilon_constraint(EvaluationSession& session,
                                                const std::function<SearchOutcome()>& search);
 

@@ -5,7 +5,7 @@
 namespace dovetail::optimizer {
 
 /// Random numbers that are the same bits on every platform (splitmix64 [Steele, Lea, Flood 2014]); the distributions of
-/// <random> are not.
+/// `<random>` are not.
 class RandomStream {
  public:
   explicit RandomStream(std::uint64_t seed) : state_(seed) {}

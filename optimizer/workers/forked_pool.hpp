@@ -17,9 +17,9 @@ using FreeMemory = std::function<double()>;
 /// hands out the work, and end with it.
 class ForkedPool : public WorkerPool {
  public:
-  /// @param patience_s  > 0; a task that takes longer is given up
-  /// @param free  where given no more processes work at once than memory has room for, by the most that one has taken;
-  /// until one has answered nobody knows that, and it works alone
+  /// - `patience_s`: > 0; a task that takes longer is given up
+  /// - `free`: where given no more processes work at once than memory has room for, by the most that one has taken;
+  ///   until one has answered nobody knows that, and it works alone
   ForkedPool(std::size_t size, WorkerFactory factory, double patience_s, FreeMemory free = {});
   ForkedPool(const ForkedPool&) = delete;
   ForkedPool& operator=(const ForkedPool&) = delete;

@@ -1,5 +1,9 @@
 """How Sphinx makes a site of the gathered pages: see `build`."""
 
+import html
+
+import docutils.nodes
+
 project = "dovetail"
 copyright = "its authors, GPL 3 or later"
 extensions = ["myst_parser"]
@@ -20,7 +24,22 @@ html_theme_options = {
     "head_font_family": "system-ui, sans-serif",
     "font_size": "16px",
 }
-html_sidebars = {"**": ["about.html", "searchbox.html", "navigation.html"]}
-html_static_path = ["site.css"]
-html_css_files = ["site.css"]
+html_sidebars = {"**": ["about.html", "searchbox.html", "navigation.html", "reference.html"]}
+templates_path = ["."]
+# Formulas are drawn by KaTeX, which `build` puts beside these: nothing is fetched.
+myst_enable_extensions = ["dollarmath"]
+html_math_renderer = "katex"
+html_static_path = ["site.css", "equations.js"]
+html_css_files = ["site.css", "katex.min.css"]
+html_js_files = ["katex.min.js", "equations.js"]
 html_copy_source = False
+
+
+def setup(app):
+    def formula(tag):
+        def write(translator, node):
+            translator.body.append(f'<{tag} class="formula">{html.escape(node.astext())}</{tag}>')
+            raise docutils.nodes.SkipNode
+        return write
+
+    app.add_html_math_renderer("katex", (formula("span"), None), (formula("div"), None))

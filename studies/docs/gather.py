@@ -13,6 +13,7 @@ import sys
 
 import checks
 import keys
+import rooms
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PARTS = ("lib", "geometry", "optimizer", "studies", "tests")
@@ -54,6 +55,7 @@ def main(program, folder):
     front.write_text(front.read_text() + "\n" + CONTENTS.read_text())
     (folder / "checks.md").write_text(checks.page(ROOT))
     (folder / "folders.md").write_text(other_pages())
+    (folder / "rooms.dox").write_text(rooms.page(ROOT))
     schema = subprocess.run([program, "schema", "study"], capture_output=True, text=True, check=True).stdout
     (folder / "keys.md").write_text(keys.page(schema))
 

@@ -21,7 +21,7 @@ import sys
 try:
     import h5py
 except ImportError:
-    sys.exit("write_model.py: this Python has no h5py; that of Debian, /usr/bin/python3, has it after `bash .setup/install`")
+    sys.exit("write_model.py: this Python has no h5py; that of Debian, /usr/bin/python3, has it after `bash .setup/install studies`")
 import numpy as np
 
 

@@ -95,7 +95,7 @@ class Browser:
             self.message()
         self.ask("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done())))")
         seconds = time.monotonic() - start
-        self.ask("dovetail.ready")
+        self.ask("typeof dovetail === 'undefined' || dovetail.ready")
         return seconds
 
     def ask(self, expression):

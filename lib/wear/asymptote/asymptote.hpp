@@ -130,10 +130,10 @@ struct Asymptote {
 /// Where the direct answer is in `doubt` the implicit history decides; if it ends elsewhere, `depth` is the history's
 /// and other_states holds the direct one. A verdict without asymptote is confirmed by it too. Should the history fail,
 /// a certified direct answer stands with confirmed_by_history = false.
+/// - `omega`: excitation frequency rad/s, held; the unworn resonance is a good choice
+/// - `joint`: with the wear depth already there (the result includes it); it must release no node
+/// - `unworn`: steady state of `joint` at omega to begin with, or null
 ///
-/// @param omega      excitation frequency rad/s, held; the unworn resonance is a good choice
-/// @param joint      with the wear depth already there (the result includes it); it must release no node
-/// @param unworn     steady state of `joint` at omega to begin with, or null
 /// Cost: 5 to 15 steady states, warm-started; a history 50 to 200 Jacobians more. Throws InputError for options out of
 /// range and for nodes released at the start.
 [[nodiscard]] Asymptote asymptote(const steady::Joint& joint, double omega, const AsymptoteOptions& options = {},

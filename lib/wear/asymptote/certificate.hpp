@@ -17,9 +17,9 @@ struct Certificate {
 
 /// Solves the worn `joint`, at settings that may differ from those of `from`: what rests at H harmonics and N samples
 /// may slip at more.
+/// - `fastest`: largest unworn rate, m per cycle
+/// - `from`: regular steady state near it, at the frequency wanted
 ///
-/// @param fastest  largest unworn rate, m per cycle
-/// @param from     regular steady state near it, at the frequency wanted
 /// Cost: one steady state, warm-started.
 [[nodiscard]] Certificate certificate(steady::Joint joint, double fastest, const steady::State& from);
 

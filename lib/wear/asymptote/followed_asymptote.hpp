@@ -20,8 +20,8 @@ struct FollowedAsymptote {
 /// of the worn joint, until that stays to 1e-7; the verdict is not_converged when that one is lost. Each asymptote
 /// starts from the depths of the one before. A history retunes all the time; this one only whenever wear has come to
 /// rest.
+/// - `unworn`: steady state of `joint` at omega, or null
 ///
-/// @param unworn  steady state of `joint` at omega, or null
 /// Cost: three to ten asymptotes and resonances. Throws InputError as asymptote() does.
 [[nodiscard]] FollowedAsymptote followed_asymptote(const steady::Joint& joint, double omega,
                                                    const AsymptoteOptions& options = {},

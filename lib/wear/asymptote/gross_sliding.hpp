@@ -28,9 +28,9 @@ struct Bearing {
 /// times the number of nodes across, which makes it p L / E of the flank whatever the mesh. Of the flank with the most.
 [[nodiscard]] double flank_compression(const dynamics::CondensedModel& model, const steady::State& state);
 
-/// @param unworn  the state before wear
-/// @param worn    the state at rest
-/// @param depth   [Nc] what it has worn, m
+/// - `unworn`: the state before wear
+/// - `worn`: the state at rest
+/// - `depth`: [Nc] what it has worn, m
 [[nodiscard]] Bearing bearing(const dynamics::CondensedModel& model, const steady::State& unworn,
                               const steady::State& worn, const Eigen::VectorXd& depth);
 

@@ -30,20 +30,20 @@ struct Rest : FollowedAsymptote {
 
 /// The rule for where wear comes to rest. The direct answer is looked for first, and by the history where there is
 /// none. Where it is in doubt, the history decides, with these exceptions, in which the direct answer stands, in doubt:
-///   - the history does not come to an end;
-///   - it ends within a node of the direct answer at the ends of worn zones (a_node_apart): on other nodes it may well
-///     end in it;
-///   - the two volumes are far apart, and a second history with 2H+1 harmonics and 2N samples ends nearer to the direct
-///     one. Which nodes lift off first may hang on harmonics and samples: then histories of neighbouring designs and
-///     meshes end far from one another, and more of both tell where wear goes. Where that one comes to no end, the
-///     first history decides.
+/// - the history does not come to an end;
+/// - it ends within a node of the direct answer at the ends of worn zones (a_node_apart): on other nodes it may well
+///   end in it;
+/// - the two volumes are far apart, and a second history with 2H+1 harmonics and 2N samples ends nearer to the direct
+///   one. Which nodes lift off first may hang on harmonics and samples: then histories of neighbouring designs and
+///   meshes end far from one another, and more of both tell where wear goes. Where that one comes to no end, the
+///   first history decides.
+///
 /// What did not decide is in other_states. Without lines only the first of them holds: on nodes that are laid without
 /// regard to worn zones the direct answer wears off whole nodes as well, and nothing speaks for it against the history.
+/// - `unworn`: steady state of `joint` at omega, or null
 ///
-/// @param unworn  steady state of `joint` at omega, or null
 /// Cost: a direct answer; in doubt a history besides, and where that ends elsewhere the direct answer once more and a
-/// second history at twice the harmonics and samples. Throws as
-/// asymptote() does.
+/// second history at twice the harmonics and samples. Throws as asymptote() does.
 [[nodiscard]] Rest comes_to_rest(const steady::Joint& joint, double omega, const RestOptions& options,
                                  const steady::State* unworn = nullptr, const Watcher& watcher = {});
 

@@ -74,8 +74,8 @@ struct Spread {
 /// ends; the source wear_coefficient measures this. Residual tractions are slip origins of the nodes that stay stuck in
 /// `unworn`: the corners where every stuck node of a flank (of half of it, when there is one flank) is at its friction
 /// limit the same way.
+/// - `unworn`: steady state of the unchanged unworn joint with its tangent; without: no residual tractions
 ///
-/// @param unworn  steady state of the unchanged unworn joint with its tangent; without: no residual tractions
 /// Cost: ten to fifteen calls of `compute`. Throws InputError for options out of range.
 [[nodiscard]] Spread spread(const steady::Joint& joint, const WornEnd& nominal, const WornComputation& compute,
                             const steady::State* unworn = nullptr, const SpreadOptions& options = {});

@@ -1,9 +1,9 @@
 #pragma once
 
+/// @file
 /// How much of an answer hangs on where, within a contact node, its zones end. A wear history wears off whole nodes,
 /// the direct method ends worn zones where friction just holds; before any wear, zones that slip end somewhere in a
 /// node.
-
 #include <Eigen/Core>
 #include <span>
 #include <vector>

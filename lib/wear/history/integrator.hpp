@@ -39,7 +39,7 @@ class Integrator {
 /// (eq. 33-35). A jump whose state does not converge is halved; with `tolerance` jumps are shortened to their local
 /// error besides.
 ///
-/// @param first  the state that the history begins or goes on with
+/// - `first`: the state that the history begins or goes on with
 [[nodiscard]] std::unique_ptr<Integrator> explicit_jumps(WearingJoint& joint, const HistoryOptions& options,
                                                          steady::State first, const ExplicitParams& params = {});
 

@@ -1,5 +1,6 @@
 #include "studies/program/answers/schema.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "optimizer/journal/evaluation_json.hpp"
@@ -10,6 +11,7 @@
 #include "studies/program/answers/version.hpp"
 #include "studies/program/engine/json_values.hpp"
 #include "studies/program/study_file/export.hpp"
+#include "studies/program/study_file/key_words.hpp"
 #include "studies/program/study_file/materials.hpp"
 #include "studies/program/study_file/study_template.hpp"
 
@@ -120,9 +122,32 @@ void add_problem(Json& properties) {
                                     {"lower", kNumber},
                                     {"upper", kNumber},
                                     {"plus_minus", positive},
-                                    {"relative", positive},
+                                    {"relative", number_schema({.lower = 0, .upper = 1, .lower_open = true})},
                                     {"mean", kNumber}},
                                    Json::array({"key"}));
+}
+
+bool is_number(const Json& schema) {
+  if (schema.contains("anyOf")) return std::ranges::any_of(schema["anyOf"], is_number);
+  return schema.contains("type") && (schema["type"] == "number" || schema["type"] == "integer");
+}
+
+/// Says what each key below a table means that has no words yet, and the unit of each number ("1": a pure one).
+void add_words(Json& table, const std::string& above) {
+  if (table.contains("anyOf"))
+    for (Json& choice : table["anyOf"]) add_words(choice, above);
+  if (table.contains("items")) add_words(table["items"], above);
+  if (!table.contains("properties")) return;
+  for (auto& [key, schema] : table["properties"].items()) {
+    const std::string path = above + key;
+    const KeyWords words = key_words(path);
+    if (!schema.contains("description") && !words.words.empty()) schema["description"] = std::string(words.words);
+    if (is_number(schema)) {
+      const std::string unit = words.unit.empty() ? unit_of_key(key) : std::string(words.unit);
+      schema["unit"] = unit.empty() ? "1" : unit;
+    }
+    add_words(schema, path + ".");
+  }
 }
 
 /// The type of a value that an answer has.
@@ -152,17 +177,20 @@ std::string study_schema() {
     // Keys of all flanks.
     if constexpr (std::is_same_v<S, geometry::FlankParameters>) add_fields(section_at(root, "geometry"), table);
   });
-  std::vector<std::string_view> materials;
-  for (const NamedMaterial& material : named_materials()) materials.push_back(material.name);
+  std::string materials;
+  for (const NamedMaterial& material : named_materials())
+    materials += (materials.empty() ? "" : ", ") + std::string(material.name);
   for (const char* body : {"material.blade", "material.disk"})
     section_at(root, body)["properties"]["grade"] = kText;  // capital letters do not count
-  properties["material"] = {{"anyOf", Json::array({kText, properties["material"]})},
-                            {"description", "One of " + texts(materials).dump()}};
+  properties["material"] = {
+      {"anyOf", Json::array({kText, properties["material"]})},
+      {"description", "Of both bodies the name of a material (" + materials + "), or a table of each."}};
   add_fields(section_at(root, "optimizer"), option_table<optimizer::OptimizerOptions>());
   add_fields(section_at(root, "robust"), option_table<optimizer::RobustOptions>());
   add_problem(properties);
   section_at(root, "export")["properties"]["formats"] = {{"type", "array"},
                                                          {"items", one_of_texts(names_of<ExportFormat>())}};
+  add_words(root, "");
   schema.update(root);
   return text(schema);
 }

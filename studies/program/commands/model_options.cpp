@@ -4,6 +4,7 @@
 
 #include "optimizer/scene/scene.hpp"
 #include "studies/program/commands/commands.hpp"
+#include "studies/program/study_file/key_words.hpp"
 #include "studies/program/study_file/study_template.hpp"
 
 namespace dovetail::studies {

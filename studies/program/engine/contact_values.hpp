@@ -4,7 +4,7 @@
 #include "studies/program/engine/node_lists.hpp"
 #include "studies/program/study_file/section_reader.hpp"
 
-/// What the documents of reduced models and of structures have in common.
+// What the documents of reduced models and of structures have in common.
 namespace dovetail::studies {
 
 /// The key `version` of a document: 1.

@@ -35,7 +35,7 @@ namespace dovetail::studies {
 [[nodiscard]] optimizer::Cost expected_cost(const Study& study);
 
 /// The study's design, in its first case, with its fields and without curves.
-/// @param history  with its wear history, of which up to 16 states are kept
+/// - `history`: with its wear history, of which up to 16 states are kept
 [[nodiscard]] report::DesignRecord describe_fields(const Study& study, bool history = false);
 
 /// The sentences of the geometric rules that a design breaks.

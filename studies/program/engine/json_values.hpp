@@ -17,7 +17,7 @@ inline constexpr auto kFields<steady::Options> =
 
 }  // namespace dovetail::optimizer
 
-/// Answers as JSON: a number that is not finite does not exist and is null.
+// Answers as JSON: a number that is not finite does not exist and is null.
 namespace dovetail::studies {
 
 using Json = nlohmann::ordered_json;

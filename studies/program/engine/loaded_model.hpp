@@ -34,9 +34,9 @@ struct LoadedModel {
 [[nodiscard]] std::optional<reduction::ReducedModel> read_any_model(const std::string& input);
 
 /// Throws InputError for wrong input and for a study whose geometry is infeasible.
-/// @param given   a model, a study, or the directory of a run: its best design
-/// @param err     hears what of a study does not count here; null: nobody does
-/// @param follow  what drives the wear, where it is not what the study says: contact nodes end where its zones end
+/// - `given`: a model, a study, or the directory of a run: its best design
+/// - `err`: hears what of a study does not count here; null: nobody does
+/// - `follow`: what drives the wear, where it is not what the study says: contact nodes end where its zones end
 [[nodiscard]] LoadedModel load_model(const std::string& given, const std::vector<std::string>& set,
                                      const SolverChoice& solver, std::ostream* err = nullptr,
                                      std::optional<wear::Follow> follow = {});

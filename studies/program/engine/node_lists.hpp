@@ -17,7 +17,7 @@ namespace dovetail::studies {
 /// Lists of numbers; what is wrong is reported at its place and read as nothing.
 class Lists {
  public:
-  /// @param counted  the key whose list says how many contact nodes there are
+  /// - `counted`: the key whose list says how many contact nodes there are
   explicit Lists(Problems& problems, std::string counted = "contact.normal")
       : problems_(problems), counted_(std::move(counted)) {}
 

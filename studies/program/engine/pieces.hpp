@@ -11,7 +11,7 @@
 namespace dovetail::studies {
 
 /// What a worker needs to know of a run before it is asked for pieces of it, as text.
-/// @param finer  the study whose settings designs are verified at; null: the engine chooses them
+/// - `finer`: the study whose settings designs are verified at; null: the engine chooses them
 [[nodiscard]] std::string description_of(const Study& study, const Study* finer = nullptr);
 
 /// Workers that make the engine of such a description. A piece is asked for, and answered, as text.

@@ -11,12 +11,12 @@ namespace dovetail::studies {
 
 /// What solver.accuracy asks of a study: of the responses that its objective and limits name, at settings that the file
 /// does not give. Nothing where it asks for no accuracy, or of no response that is known until then.
-/// @param until  responses that need a later stage are not asked
+/// - `until`: responses that need a later stage are not asked
 [[nodiscard]] std::optional<optimizer::AccuracyGoal> accuracy_goal(
     const Study& study, optimizer::Stage until = optimizer::Stage::worn_resonance);
 
 /// The same of the harmonics and samples that are to be chosen automatically; nothing where none are.
-/// @param until  responses that need a later stage are not asked
+/// - `until`: responses that need a later stage are not asked
 [[nodiscard]] std::optional<optimizer::AccuracyGoal> truncation_goal(const Study& study, const SolverChoice& solver,
                                                                      optimizer::Stage until);
 
@@ -32,7 +32,7 @@ inline constexpr double kTellWhole = 1.05;
 
 /// Of the responses that an accuracy is asked of, the one whose whole bar, with what no setting buys of it, is largest
 /// over what was asked; nothing where none has a bar.
-/// @param asked_history  of doubts of worn states; where none was, what only a history would settle does not count
+/// - `asked_history`: of doubts of worn states; where none was, what only a history would settle does not count
 [[nodiscard]] std::optional<optimizer::Dominant> whole_bar(const optimizer::AccuracyGoal& goal,
                                                            const optimizer::Evaluation& evaluation,
                                                            bool asked_history = true);
@@ -44,7 +44,7 @@ struct AccuracyHeld {
   bool reached = false;  ///< with all parts of the bars
   std::string words = {};
 };
-/// @param asked_history  see whole_bar
+/// - `asked_history`: see whole_bar
 [[nodiscard]] AccuracyHeld accuracy_held(const optimizer::Scene& scene, const optimizer::AccuracyGoal& goal,
                                          const optimizer::Evaluation& evaluation, bool asked_history = true);
 

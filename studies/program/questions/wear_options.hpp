@@ -11,7 +11,7 @@
 #include "wear/follow.hpp"
 #include "wear/history/history.hpp"
 
-/// How wear may be asked for.
+// How wear may be asked for.
 namespace dovetail::studies {
 
 /// What finds the worn state.

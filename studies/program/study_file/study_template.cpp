@@ -1,6 +1,5 @@
 #include "studies/program/study_file/study_template.hpp"
 
-#include <array>
 #include <string_view>
 #include <utility>
 
@@ -9,6 +8,7 @@
 #include "optimizer/scene/scene.hpp"
 #include "optimizer/scene/scene_kind.hpp"
 #include "studies/program/study_file/export.hpp"
+#include "studies/program/study_file/key_words.hpp"
 
 namespace dovetail::studies {
 namespace {
@@ -64,6 +64,10 @@ std::string header(const std::string& section, const std::string& comment) {
   return "\n# " + comment + "\n[" + section + "]\n";
 }
 
+std::string header(const std::string& section) {
+  return header(section, std::string(key_words(section).words));
+}
+
 /// What differs from the defaults, which are those of a section.
 Scene scene_of(Template kind) {
   Scene scene;
@@ -82,34 +86,34 @@ std::string scene_sections(Template kind) {
   Scene scene = scene_of(kind);
   scene.disk = scene.blade;
   const auto flanks = option_table<geometry::FlankParameters>();
-  std::string text = header("scene", "What is modelled and how it vibrates.");
+  std::string text = header("scene");
   text += lines(type_of(scene), option_table<optimizer::SceneType>()) +
           lines(scene.loading, optimizer::scene_loading_fields());
-  text += header("geometry", "Dimensions of the section of one sector; x is tangential, y radial.");
+  text += header("geometry");
   text += lines(scene.geometry, option_table<geometry::ProfileParameters>());
   text += "\n# What only a sector in space has; a plane section leaves it aside.\n";
   text += lines(scene.solid, option_table<geometry::SolidParameters>());
   text += "\n# Both flanks; a section [geometry.left] or [geometry.right] with the same keys overrides one of them.\n";
   text += lines(scene.geometry.flanks.front(), flanks);
-  text += header("limits", "Rules every design has to keep besides fitting together.");
+  text += header("limits");
   text += lines(scene.limits, option_table<geometry::FeasibilityLimits>());
   text += header("material.blade",
                  "Ti-6Al-4V, annealed. Instead of numbers, or before some of them: grade = \"NAME\" (see `dovetail "
                  "materials`).\n# The disk's material is the blade's unless [material.disk] differs.");
   text += lines(scene.blade, option_table<fem::Material>());
   text += "\n[material.disk]\n" + lines(scene.disk, option_table<fem::Material>(), "# ");
-  text += header("contact", "Friction and wear on the flanks.");
+  text += header("contact");
   optimizer::visit_contact_tables(scene.contact,
                                   [&]<class S>(std::string_view, const S& object, std::span<const Field<S>> fields) {
                                     text += lines(object, fields);
                                   });
-  text += header("loading", "What excites the blade, besides the rotation.");
+  text += header("loading");
   text += lines(scene.loading, optimizer::loading_fields());
-  text += header("mesh", "Sizes of the finite elements.");
+  text += header("mesh");
   text += lines(scene.mesh, option_table<geometry::MeshSizes>());
   text += "\n# Along the slot, and of the contact on it.\n";
   text += lines(scene.solid_mesh, option_table<geometry::SolidSizes>());
-  text += header("solver", "Sizes and tolerances of the contact computation.");
+  text += header("solver");
   text += lines(scene.solver, option_table<optimizer::SolverSettings>());
   return text;
 }
@@ -251,23 +255,6 @@ std::string capitalised(std::string_view help) {
   return text;
 }
 
-std::string unit_of_key(std::string_view key) {
-  if (const contact::WearParameter* wear = contact::find_wear_parameter(key)) return std::string(wear->unit);
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 10> endings{{{"_n_per_m3", "N/m^3"},
-                                                                                          {"_kg_m3", "kg/m^3"},
-                                                                                          {"_n_per_m", "N/m"},
-                                                                                          {"_gpa", "GPa"},
-                                                                                          {"_rpm", "1/min"},
-                                                                                          {"_deg", "degrees"},
-                                                                                          {"_mm", "mm"},
-                                                                                          {"_um", "um"},
-                                                                                          {"_hz", "Hz"},
-                                                                                          {"_n", "N"}}};
-  for (const auto& [ending, unit] : endings)
-    if (key.ends_with(ending)) return std::string(unit);
-  return {};
-}
-
 std::string study_template(const std::string& title, Template kind) {
   std::string text =
       "# A study of dovetail. Check it with `dovetail check`, compute the design it describes with `dovetail "
@@ -279,9 +266,9 @@ std::string study_template(const std::string& title, Template kind) {
       "\"\n# Folder of its results below `results`, where `run` is given none (if not given, the name of this file).\n"
       "# name = \"mine\"\n";
   text += scene_sections(kind) + problem_sections(kind);
-  text += header("optimizer", "How the optimiser searches.");
+  text += header("optimizer");
   text += lines(optimizer_of(kind), option_table<optimizer::OptimizerOptions>());
-  text += header("export", "Files of the best design a run writes besides its results: " + export_formats() + ".");
+  text += header("export", std::string(key_words("export").words) + " Formats: " + export_formats() + ".");
   text += "formats = [\"dxf\"]\n";
   return text;
 }

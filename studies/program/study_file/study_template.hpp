@@ -31,7 +31,4 @@ constexpr EnumNames<Template, 4> enum_names(Template) {
 /// A sentence of an option table as a text of its own: with a capital letter.
 [[nodiscard]] std::string capitalised(std::string_view help);
 
-/// Unit a key ends with, for people: "mm" of neck_width_mm, "" when the key is a pure number.
-[[nodiscard]] std::string unit_of_key(std::string_view key);
-
 }  // namespace dovetail::studies

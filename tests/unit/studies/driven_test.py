@@ -29,12 +29,25 @@ def answer(*arguments, folder=None, status=0):
     return done.stdout
 
 
+def wordless(schema, path=""):
+    """Keys of which the schema does not say what they mean, and numbers without a unit."""
+    for choice in (*schema.get("anyOf", []), *([schema["items"]] if "items" in schema else [])):
+        yield from wordless(choice, path)
+    for key, of in schema.get("properties", {}).items():
+        number = any(choice.get("type") in ("number", "integer") for choice in (of, *of.get("anyOf", [])))
+        if not of.get("description") or number != ("unit" in of):
+            yield path + key
+        yield from wordless(of, path + key + ".")
+
+
 def check_schemas(folder):
     """Every study there is is one by the schema, and what is none is none; so are real answers."""
     schema = json.loads(answer("schema", "study"))
     jsonschema.Draft202012Validator.check_schema(schema)
     validator = jsonschema.Draft202012Validator(schema)
-    files = sorted(studies.glob("*/study.toml"))
+    assert not list(wordless(schema)), list(wordless(schema))
+    assert schema["properties"]["geometry"]["properties"]["flank_mismatch_um"]["unit"] == "um"
+    files = sorted(studies.rglob("*.toml"))
     for template in ("section", "sector", "robust", "front"):
         answer("new", f"{template}.toml", "--template", template, folder=folder)
         files.append(folder / f"{template}.toml")
