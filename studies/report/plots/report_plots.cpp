@@ -122,6 +122,26 @@ bool in_space(const ContactRecord& contact) {
   return least != contact.across_m.end() && *most > *least;
 }
 
+namespace {
+
+/// "Largest: 3.5 µm, on the left flank, 0.5 mm from its neck side, -7.5 mm along the slot from its middle."
+std::string largest_place(const FlankMap& map) {
+  double most = 0;
+  std::string place;
+  for (const FlankPanel& panel : map.panels)
+    for (std::size_t i = 0; i < panel.values.size(); ++i)
+      if (std::isfinite(panel.values[i]) && panel.values[i] > most * (1 + 1e-6)) {
+        most = panel.values[i];
+        place = fmt::format("on the {}, {}\u00a0mm from its neck side, {}\u00a0mm along the slot from its middle",
+                            panel.name, significant(panel.along[i] / 1e-3, 3), plain(panel.across[i] / 1e-3, 3));
+      }
+  return place.empty()
+             ? ""
+             : fmt::format(" Largest: {}\u00a0{}, {}.", significant(most / map.unit.si, 3), map.unit.symbol, place);
+}
+
+}  // namespace
+
 std::vector<Figure> contact_maps(const Comparison& designs) {
   std::vector<Figure> maps;
   const auto add = [&](Numbers ContactRecord::*quantity, const char* si_unit, const FlankMap& look) {
@@ -134,17 +154,24 @@ std::vector<Figure> contact_maps(const Comparison& designs) {
       map.unit = readable_unit(si_unit, most);
       map.panels = flank_panels(design->contact, design->contact.*quantity);
       map.full_scale = most;
+      map.description += largest_place(map);
       maps.emplace_back(std::move(map));
     }
   };
   add(&ContactRecord::depth_m, "m",
       {.title = "Wear depth over the flanks",
        .description = "When wear has come to rest; worn off both surfaces together.",
-       .quantity = "worn depth"});
+       .quantity = "worn depth",
+       .at_zero = "Nothing wears: the depth is zero everywhere."});
   add(&ContactRecord::preload_pressure_pa, "Pa",
       {.title = "Pressure over the flanks after spin-up",
        .description = "Under the centrifugal load alone, before any vibration.",
        .quantity = "pressure"});
+  add(&ContactRecord::slip_m_per_cycle, "m",
+      {.title = "Slip over the flanks",
+       .description = "Path that slips under load in one cycle of the unworn resonance.",
+       .quantity = "slip per cycle",
+       .at_zero = "Nothing slips: both flanks stick everywhere."});
   return maps;
 }
 
@@ -242,6 +269,21 @@ Plot nodal_diameter_plot(const DesignRecord& design) {
   return plot;
 }
 
+namespace {
+
+/// The resonance in the middle, as many of its per cent to both sides as the nearest engine order needs to be seen, and
+/// 3 at least: then flat blade modes and what veers off them are told apart. On round numbers.
+Bounds around_resonance(double mode, double turns) {
+  constexpr double kLeast = 0.03, kBeyondOrder = 1.3;
+  const double nearest = turns * std::max(1.0, std::round(mode / turns));
+  const double half = std::max(kLeast * mode, kBeyondOrder * std::abs(nearest - mode));
+  const double step = std::pow(10.0, std::floor(std::log10(half)));
+  return {.lower = std::max(0.0, step * std::floor((mode - half) / step)),
+          .upper = step * std::ceil((mode + half) / step)};
+}
+
+}  // namespace
+
 Plot engine_order_plot(const DesignRecord& design) {
   Plot plot{.title = "Engine orders around the resonance",
             .description =
@@ -258,21 +300,21 @@ Plot engine_order_plot(const DesignRecord& design) {
                mode = number(design.responses, "resonance_hz");
   const auto blades = static_cast<long>(number(design.parameters, "geometry.sectors"));
   if (!std::isfinite(turns) || !std::isfinite(mode) || blades < 2) return plot;
-  // From the engine order below the mode to the one above, and a tenth of its frequency at least.
-  const double lower = std::min(0.9 * mode, turns * std::floor(mode / turns)),
-               upper = std::max(1.1 * mode, turns * std::ceil(mode / turns));
+  const Bounds range = around_resonance(mode, turns);
+  plot.y.range = range;
+  const auto seen = [&range](double y) { return y >= range.lower && y <= range.upper; };
+  std::size_t number_of_mode = 0;
   for (Series& series : nodal_diameter_plot(design).series) {
-    for (double& frequency : series.y)
-      if (!(frequency >= lower && frequency <= upper)) frequency = std::numeric_limits<double>::quiet_NaN();
-    if (std::ranges::none_of(series.y, [](double y) { return std::isfinite(y); })) continue;
-    series.name = fmt::format("mode {}", plot.series.size() + 1);
+    ++number_of_mode;
+    if (std::ranges::none_of(series.y, seen)) continue;
+    series.name = fmt::format("mode {}", number_of_mode);
     series.role = plot.series.empty() ? Role::after : Role::before;
     plot.series.push_back(std::move(series));
   }
   if (plot.series.empty()) return plot;
   Series orders{.name = "engine orders", .role = Role::bad, .stroke = Stroke::none, .mark = Mark::cross};
-  for (long order = std::lround(std::ceil(lower / turns - 1e-9));
-       static_cast<double>(order) * turns <= upper * (1 + 1e-9); ++order) {
+  for (long order = std::lround(std::ceil(range.lower / turns)); static_cast<double>(order) * turns <= range.upper;
+       ++order) {
     const long folded = order % blades;
     orders.add(static_cast<double>(std::min(folded, blades - folded)), static_cast<double>(order) * turns);
     orders.labels.push_back(fmt::format("EO {}", order));
