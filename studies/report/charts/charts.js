@@ -251,8 +251,8 @@ const dovetail = (() => {
   function onPaper() {
     while (waiting.length) next();
     printing = true;
-    charts.forEach(({chart, place}) => {
-      const [width, height] = place.closest(".wide,.field") ? [660, 225] : place.closest(".small") ? [195, 130] : [305, 150];
+    charts.forEach(({chart, host, place}) => {
+      const [width, height] = place.closest(".wide,.field") ? [660, 225] : host.dataset.kind === "map" ? [305, 185] : place.closest(".small") ? [195, 130] : [305, 150];
       chart.resize({width, height});
       tools(chart, false);
       chart.getZr().flush();  // paper does not wait for the next frame
