@@ -59,6 +59,9 @@
         wrong.push(`one over the other: "${words(boxes[i].node)}" and "${words(boxes[j].node)}"`);
     }
   }
+  // What answers is seen without moving it sideways.
+  for (const table of document.querySelectorAll("table.outcome,table.influence,table.figures"))
+    if (seen(table) && Math.max(table.getBoundingClientRect().width, table.scrollWidth) > table.parentElement.clientWidth + 1) wrong.push(`wider than its place: table "${words(table)}"`);
   for (const place of document.querySelectorAll(".drawing-place"))
     if (seen(place) && !place.querySelector("svg path")) wrong.push(`nothing drawn: "${place.getAttribute("aria-label")}"`);
   return wrong;

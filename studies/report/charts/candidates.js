@@ -40,6 +40,7 @@ for (const host of document.querySelectorAll(".chart[data-kind=candidates]")) do
       else lines[lines.length - 1] += (lines[lines.length - 1] ? " " : "") + word;
     return lines.join("\n");
   };
+  const deepest = Math.max(5, ...axes.map(axis => broken(titled(axis)).split("\n").length));
   const lines = () => drawn.map(i => {
     const look = states[candidates[i].state], chosen = dovetail.chosen();
     const shown = chosen.size === 0 || chosen.has(i);
@@ -47,7 +48,7 @@ for (const host of document.querySelectorAll(".chart[data-kind=candidates]")) do
       lineStyle: {color: ink(look.role), width: look.width + (chosen.has(i) ? 1 : 0), opacity: shown ? (chosen.has(i) ? 1 : look.opacity) : .06},
       emphasis: {lineStyle: {color: ink(look.role), width: look.width + 1.5, opacity: 1}}};
   });
-  parallel.setOption({animation: false, parallel: {left: 46, right: 46, top: 80, bottom: 16, axisExpandable: false},
+  parallel.setOption({animation: false, parallel: {left: 46, right: 46, top: 20 + 12 * deepest, bottom: 16, axisExpandable: false},
     tooltip: {...tooltip, trigger: "item", formatter: item => `<b>${escaped(said(drawn[item.dataIndex]))}</b><br>${numbers(drawn[item.dataIndex])}`},
     parallelAxis: axes.map((axis, dim) => ({dim, name: broken(titled(axis)), type: "value", scale: true,
       min: axis.of === "variable" ? axis.lower : undefined, max: axis.of === "variable" ? axis.upper : undefined,

@@ -65,8 +65,8 @@ const dovetail = (() => {
     return {
       type: axis.log ? "log" : "value", scale: !axis.zero, name: across ? titled(axis) : "",
       nameLocation: "middle", nameGap: 26, nameTextStyle: {...text, color: ink("ink")},
-      min: across && (axis.log ? axis.tight : !axis.zero) ? range => axis.log ? round(range.min, false) : range.min - beside(range) : undefined,
-      max: across && (!axis.log || axis.tight) ? range => axis.log ? round(range.max, true) : range.max + beside(range) : undefined,
+      min: axis.range ? axis.range[0] : across && (axis.log ? axis.tight : !axis.zero) ? range => axis.log ? round(range.min, false) : range.min - beside(range) : undefined,
+      max: axis.range ? axis.range[1] : across && (!axis.log || axis.tight) ? range => axis.log ? round(range.max, true) : range.max + beside(range) : undefined,
       minInterval: axis.whole ? 1 : undefined, splitNumber: across ? 5 : 4,
       axisLine: {show: across, onZero: false, lineStyle: {color: ink("base")}}, axisTick: {show: across, lineStyle: {color: ink("base")}},
       axisLabel: {...text, hideOverlap: true, showMinLabel: plain(ends[0]), showMaxLabel: plain(ends[1]), alignMaxLabel: across && axis.log ? "right" : null,
@@ -166,7 +166,7 @@ const dovetail = (() => {
         renderItem: (_, api) => {
           const [ax, ay] = api.coord([api.value(2), api.value(4)]), [bx, by] = api.coord([api.value(3), api.value(5)]);
           return {type: "rect", shape: {x: Math.min(ax, bx), y: Math.min(ay, by), width: Math.abs(bx - ax), height: Math.abs(by - ay)},
-            style: {fill: isFinite(api.value(6)) ? api.visual("color") : ink("hair"), shapeRendering: "crispEdges"}};
+            style: {fill: isFinite(api.value(6)) ? api.visual("color") : ink("hair"), stroke: isFinite(api.value(6)) ? api.visual("color") : ink("hair"), lineWidth: .6}};
         }});
     });
     return option;
@@ -251,8 +251,8 @@ const dovetail = (() => {
   function onPaper() {
     while (waiting.length) next();
     printing = true;
-    charts.forEach(({chart, place}) => {
-      const [width, height] = place.closest(".wide,.field") ? [660, 225] : place.closest(".small") ? [195, 130] : [305, 150];
+    charts.forEach(({chart, host, place}) => {
+      const [width, height] = place.closest(".wide,.field") ? [660, 225] : host.dataset.kind === "map" ? [305, 185] : place.closest(".small") ? [195, 130] : [305, 150];
       chart.resize({width, height});
       tools(chart, false);
       chart.getZr().flush();  // paper does not wait for the next frame

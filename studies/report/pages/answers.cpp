@@ -59,6 +59,10 @@ auto of_best(const RunRecord& record, const Records& records) {
   return found;
 }
 
+std::string plain_bar(double bar, const Unit& unit) {
+  return significant(bar / unit.si, 2) + (unit.symbol.empty() ? "" : "\u00a0" + unit.symbol);
+}
+
 std::string bars_sentence(const RunRecord& record, const EvaluationRecord& best) {
   std::vector<std::string> parts;
   for (const optimizer::ObjectiveTerm& term : record.problem.objective) {
@@ -66,7 +70,7 @@ std::string bars_sentence(const RunRecord& record, const EvaluationRecord& best)
     if (!std::isfinite(value.bar)) continue;
     parts.push_back(term_words(record.problem, term) + " \u00b1" +
                     (value.value != 0 ? percentage(value.bar / std::abs(value.value))
-                                      : with_error(value.bar, std::nan(""), response_unit(term.response, value.bar))));
+                                      : plain_bar(value.bar, response_unit(term.response, value.bar))));
   }
   if (parts.empty()) return "The objective has no error bar.";
   return fmt::format("Error bar{}: {}.", parts.size() == 1 ? "" : "s", listed(parts));
@@ -110,9 +114,9 @@ std::vector<std::string> how_far(const RunRecord& record) {
   for (const DepartureRecord* at : there) {
     const std::vector<std::string> limits = broken(record, at->constraints);
     if (!optimizer::converged(at->status))
-      breaking.push_back(fmt::format("with {} it cannot be computed ({})", at->departure, at->status));
+      breaking.push_back(fmt::format("with {} it cannot be computed ({})", departure_words(*at), at->status));
     else if (!limits.empty())
-      breaking.push_back(fmt::format("with {} it breaks {}", at->departure, listed(limits)));
+      breaking.push_back(fmt::format("with {} it breaks {}", departure_words(*at), listed(limits)));
     else
       ++kept;
   }
@@ -184,6 +188,26 @@ void add_idle(const RunRecord& record, std::vector<std::string>& all) {
                     listed(idle), idle.size() == 1 ? "does" : "do", idle.size() == 1 ? "it" : "them"));
 }
 
+/// Where the objective does not tell the designs apart, or not the best one from the start.
+void add_indifferent(const RunRecord& record, const EvaluationRecord& best, std::vector<std::string>& all) {
+  const EvaluationRecord* start = baseline_of(record);
+  std::vector<double> objectives;
+  for (const EvaluationRecord& e : record.evaluations)
+    if (std::isfinite(e.objective)) objectives.push_back(e.objective);
+  if (objectives.size() > 1 && std::ranges::adjacent_find(objectives, std::ranges::not_equal_to()) == objectives.end())
+    all.push_back(
+        "Ask for something else: the objective is the same for all candidates, so it chooses none of them. Another "
+        "response, a larger load or other limits would.");
+  else if (start && start != &best && !record.front && record.problem.objective.size() == 1) {
+    const optimizer::ObjectiveTerm& term = record.problem.objective.front();
+    const optimizer::Barred from = shown_term(record.problem, term, *start),
+                            to = shown_term(record.problem, term, best);
+    if (std::abs(to.value - from.value) <= from.bar + to.bar)
+      all.push_back(
+          "Compute more accurately ([solver] accuracy): start and best design are not told apart by their error bars.");
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> what_next(const RunRecord& record) {
@@ -198,6 +222,7 @@ std::vector<std::string> what_next(const RunRecord& record) {
       all.push_back(
           fmt::format("Start from candidate {}, which is nearest to keeping every limit.", *record.least_broken + 1));
   } else {
+    add_indifferent(record, *best, all);
     const bool doubted = std::ranges::any_of(of_best(record, record.verifications), [](const VerificationRecord* v) {
       return !optimizer::converged(v->status);
     });

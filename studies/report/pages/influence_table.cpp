@@ -56,12 +56,17 @@ std::vector<Answer> answers_of(const RunRecord& record) {
   return answers;
 }
 
-Html share_cell(const VariableInfluence& of) {
+/// Behind the name of the quantity, which is seen where there is no room for a head.
+Html named_cell(const Answer& answer, const std::string& html) {
+  return {"<span class=\"label\">" + escape(answer.name) + "</span>" + html};
+}
+
+std::string share_html(const VariableInfluence& of) {
   const double per_cent = 100 * of.share;
-  if (per_cent < 2) return {"<span class=\"soft\">little</span>"};
-  return {fmt::format(
+  if (per_cent < 2) return "<span class=\"soft\">little</span>";
+  return fmt::format(
       "<span class=\"share\" style=\"--share:{0:.0f}%\">{0:.0f}\u00a0% <span class=\"soft\">{1}</span></span>",
-      per_cent, words_of(of.trend))};
+      per_cent, words_of(of.trend));
 }
 
 }  // namespace
@@ -74,15 +79,16 @@ std::string influence_table(const RunRecord& record) {
   Row explained{.cells = {"all of them together"}, .style = "soft"};
   for (const Answer& answer : answers) {
     table.columns.push_back({answer.name, true});
-    explained.cells.emplace_back(answer.influence.variables.empty()
-                                     ? std::string("\u2013")
-                                     : fmt::format("{:.0f}\u00a0%", 100 * answer.influence.explained));
+    explained.cells.emplace_back(named_cell(
+        answer, answer.influence.variables.empty() ? std::string("\u2013")
+                                                   : fmt::format("{:.0f}\u00a0%", 100 * answer.influence.explained)));
   }
   for (std::size_t v = 0; v < variables.size(); ++v) {
     Row row{.cells = {key_words(variables[v].key)}};
     for (const Answer& answer : answers)
-      row.cells.push_back(v < answer.influence.variables.size() ? Cell(share_cell(answer.influence.variables[v]))
-                                                                : Cell("\u2013"));
+      row.cells.emplace_back(named_cell(answer, v < answer.influence.variables.size()
+                                                    ? share_html(answer.influence.variables[v])
+                                                    : std::string("\u2013")));
     table.rows.push_back(std::move(row));
   }
   table.rows.push_back(std::move(explained));

@@ -14,6 +14,7 @@
 #include "studies/report/plots/section_drawing.hpp"
 #include "studies/report/plots/stress_contours.hpp"
 #include "studies/report/texts.hpp"
+#include "studies/report/words/headline.hpp"
 #include "studies/report/words/html.hpp"
 #include "studies/report/words/report_words.hpp"
 #include "studies/report/words/table.hpp"
@@ -39,12 +40,12 @@ std::string when(bool holds) {
 }
 
 std::string notes(const Comparison& designs) {
-  std::string text;
+  std::vector<std::string> all;
   for (const auto& [design, whose] : {std::pair{designs.before, "Before: "}, {designs.after, "After: "}})
     if (design)
       for (const std::string& note : design->notes)
-        text += "<p class=\"soft\">" + std::string(designs.before ? whose : "") + escape(note) + "</p>\n";
-  return text;
+        all.push_back(std::string(designs.before ? whose : "") + in_words(note));
+  return list_html(all);
 }
 
 void add_opening(const RunRecord& record, Blanks& blanks) {
@@ -130,7 +131,9 @@ void add_search(const RunRecord& record, Blanks& blanks) {
   blanks["variables"] = variable_table(record);
   blanks["evaluations"] = evaluation_table(record);
   blanks["influence"] = influence_table(record);
-  blanks["over_variables"] = record.evaluations.empty() ? "" : figures_html(variable_plots(record));
+  std::vector<Figure> over_variables = variable_plots(record);
+  std::erase_if(over_variables, [](const Figure& figure) { return is_empty(std::get<Plot>(figure)); });
+  blanks["over_variables"] = over_variables.empty() ? "" : figures_html(over_variables);
   blanks["candidates"] = candidates_chart(record);
 }
 

@@ -24,8 +24,10 @@ constexpr std::array kStrokes{"none", "solid", "dashed", "dotted"};
 constexpr std::array kMarks{"none", "dot", "circle", "cross", "triangle", "star"};
 
 json axis_json(const PlotAxis& axis) {
-  return {{"label", axis.label}, {"unit", axis.unit},      {"log", axis.logarithmic},
-          {"whole", axis.whole}, {"zero", axis.from_zero}, {"tight", axis.tight}};
+  json data{{"label", axis.label}, {"unit", axis.unit},      {"log", axis.logarithmic},
+            {"whole", axis.whole}, {"zero", axis.from_zero}, {"tight", axis.tight}};
+  if (!axis.range.empty()) data["range"] = {chart_number(axis.range.lower), chart_number(axis.range.upper)};
+  return data;
 }
 
 /// The value has a place on the axis.

@@ -59,8 +59,8 @@ std::string nothing(const Plot& plot) {
              ? plot.at_zero
              : "Nothing to show: these values were not computed.";
 }
-std::string nothing(const FlankMap& /*map*/) {
-  return "Nothing to show: no value above zero.";
+std::string nothing(const FlankMap& map) {
+  return map.at_zero.empty() ? "Nothing to show: no value above zero." : map.at_zero;
 }
 
 std::string csv(const Plot& plot) {

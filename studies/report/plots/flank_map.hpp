@@ -21,6 +21,7 @@ struct FlankMap {
   std::string title = {};
   std::string description = {};  ///< a sentence below
   std::string quantity = {};     ///< "pressure"
+  std::string at_zero = {};  ///< a sentence in place of the drawing when no value is above zero; empty: a general one
   Unit unit = {};
   std::vector<FlankPanel> panels = {};
   double full_scale = 0;  ///< SI, of the darkest colour when it is above the largest value: for maps to be compared

@@ -103,7 +103,6 @@ Plot front_plot(const RunRecord& record, std::size_t other) {
     for (std::size_t i = 0; i < front.columns(); ++i)
       objectives.emplace_back(front.value(point, i), front.bar(point, i));
     const bool chosen = static_cast<std::int64_t>(point) == front.compromise;
-    if (chosen) compromise.labels.push_back("compromise");
     const auto candidate = static_cast<std::size_t>(front.evaluation[point]);
     add(chosen ? compromise : points, candidate, objectives[0].first, objectives[other].first,
         told(record, fmt::format("{}point {}, ", chosen ? "compromise, " : "", point + 1), candidate, objectives));

@@ -54,6 +54,7 @@ struct PlotAxis {
   bool whole = false;      ///< counts something: ticks at whole numbers only
   bool tight = false;      ///< logarithmic: ends at the ticks next to the values, not at decades
   bool from_zero = false;  ///< the range includes 0
+  Bounds range = {};       ///< what is shown, lines beyond it cut; empty: all values
 
   /// "position along the flank (mm)"
   [[nodiscard]] std::string title() const { return unit.empty() ? label : label + " (" + unit + ")"; }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -122,6 +121,26 @@ bool in_space(const ContactRecord& contact) {
   return least != contact.across_m.end() && *most > *least;
 }
 
+namespace {
+
+/// "Largest: 3.5 µm, on the left flank, 0.5 mm from its neck side, -7.5 mm along the slot from its middle."
+std::string largest_place(const FlankMap& map) {
+  double most = 0;
+  std::string place;
+  for (const FlankPanel& panel : map.panels)
+    for (std::size_t i = 0; i < panel.values.size(); ++i)
+      if (std::isfinite(panel.values[i]) && panel.values[i] > most * (1 + 1e-6)) {
+        most = panel.values[i];
+        place = fmt::format("on the {}, {}\u00a0mm from its neck side, {}\u00a0mm along the slot from its middle",
+                            panel.name, significant(panel.along[i] / 1e-3, 3), plain(panel.across[i] / 1e-3, 3));
+      }
+  return place.empty()
+             ? ""
+             : fmt::format(" Largest: {}\u00a0{}, {}.", significant(most / map.unit.si, 3), map.unit.symbol, place);
+}
+
+}  // namespace
+
 std::vector<Figure> contact_maps(const Comparison& designs) {
   std::vector<Figure> maps;
   const auto add = [&](Numbers ContactRecord::*quantity, const char* si_unit, const FlankMap& look) {
@@ -134,17 +153,24 @@ std::vector<Figure> contact_maps(const Comparison& designs) {
       map.unit = readable_unit(si_unit, most);
       map.panels = flank_panels(design->contact, design->contact.*quantity);
       map.full_scale = most;
+      map.description += largest_place(map);
       maps.emplace_back(std::move(map));
     }
   };
   add(&ContactRecord::depth_m, "m",
       {.title = "Wear depth over the flanks",
        .description = "When wear has come to rest; worn off both surfaces together.",
-       .quantity = "worn depth"});
+       .quantity = "worn depth",
+       .at_zero = "Nothing wears: the depth is zero everywhere."});
   add(&ContactRecord::preload_pressure_pa, "Pa",
       {.title = "Pressure over the flanks after spin-up",
        .description = "Under the centrifugal load alone, before any vibration.",
        .quantity = "pressure"});
+  add(&ContactRecord::slip_m_per_cycle, "m",
+      {.title = "Slip over the flanks",
+       .description = "Path that slips under load in one cycle of the unworn resonance.",
+       .quantity = "slip per cycle",
+       .at_zero = "Nothing slips: both flanks stick everywhere."});
   return maps;
 }
 
@@ -221,69 +247,6 @@ Plot response_plot(const Comparison& designs) {
                                .role = role,
                                .stroke = stroke});
   return readable(std::move(plot), "m");
-}
-
-Plot nodal_diameter_plot(const DesignRecord& design) {
-  const NodalDiameterRecord& record = design.nodal_diameters;
-  Plot plot{.title = "Natural frequencies of the glued bladed disk",
-            .description = "At speed, over the number of nodal diameters; flat stretches are blade modes.",
-            .x = {.label = "nodal diameters", .whole = true},
-            .y = {.label = "frequency", .unit = "Hz", .from_zero = true}};
-  const auto modes = static_cast<std::size_t>(std::max<std::int64_t>(record.modes, 0));
-  if (record.frequency_hz.size() != modes * record.nodal_diameter.size()) return plot;
-  for (std::size_t mode = 0; mode < modes; ++mode) {
-    Series series{.mark = Mark::dot};
-    for (std::size_t d = 0; d < record.nodal_diameter.size(); ++d)
-      series.add(static_cast<double>(record.nodal_diameter[d]), optimizer::converged(record.status[d])
-                                                                    ? record.frequency_hz[d * modes + mode]
-                                                                    : std::numeric_limits<double>::quiet_NaN());
-    plot.series.push_back(std::move(series));
-  }
-  return plot;
-}
-
-Plot engine_order_plot(const DesignRecord& design) {
-  Plot plot{.title = "Engine orders around the resonance",
-            .description =
-                "The same frequencies near the mode under study. A multiple of the speed of rotation, an "
-                "engine order, excites the one nodal diameter it comes to on so many blades; where its mark "
-                "meets a line there is a resonance at speed.",
-            .x = {.label = "nodal diameters", .whole = true},
-            .y = {.label = "frequency", .unit = "Hz"}};
-  const auto number = [&](const std::map<std::string, double>& of, const char* name) {
-    const auto found = of.find(name);
-    return found != of.end() && found->second > 0 ? found->second : std::nan("");
-  };
-  const double turns = number(design.parameters, "scene.speed_rpm") / 60,
-               mode = number(design.responses, "resonance_hz");
-  const auto blades = static_cast<long>(number(design.parameters, "geometry.sectors"));
-  if (!std::isfinite(turns) || !std::isfinite(mode) || blades < 2) return plot;
-  // From the engine order below the mode to the one above, and a tenth of its frequency at least.
-  const double lower = std::min(0.9 * mode, turns * std::floor(mode / turns)),
-               upper = std::max(1.1 * mode, turns * std::ceil(mode / turns));
-  for (Series& series : nodal_diameter_plot(design).series) {
-    for (double& frequency : series.y)
-      if (!(frequency >= lower && frequency <= upper)) frequency = std::numeric_limits<double>::quiet_NaN();
-    if (std::ranges::none_of(series.y, [](double y) { return std::isfinite(y); })) continue;
-    series.name = fmt::format("mode {}", plot.series.size() + 1);
-    series.role = plot.series.empty() ? Role::after : Role::before;
-    plot.series.push_back(std::move(series));
-  }
-  if (plot.series.empty()) return plot;
-  Series orders{.name = "engine orders", .role = Role::bad, .stroke = Stroke::none, .mark = Mark::cross};
-  for (long order = std::lround(std::ceil(lower / turns - 1e-9));
-       static_cast<double>(order) * turns <= upper * (1 + 1e-9); ++order) {
-    const long folded = order % blades;
-    orders.add(static_cast<double>(std::min(folded, blades - folded)), static_cast<double>(order) * turns);
-    orders.labels.push_back(fmt::format("EO {}", order));
-  }
-  plot.series.push_back(std::move(orders));
-  plot.series.push_back({.name = "resonance of the joint",
-                         .x = {0, static_cast<double>(blades / 2)},
-                         .y = {mode, mode},
-                         .role = Role::muted,
-                         .stroke = Stroke::dashed});
-  return plot;
 }
 
 }  // namespace dovetail::report

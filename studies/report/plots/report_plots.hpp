@@ -30,7 +30,8 @@ struct Comparison {
 
 /// The contact nodes spread along the slot too.
 [[nodiscard]] bool in_space(const ContactRecord& contact);
-/// Wear depth and pressure over the flanks of a joint in space, start and best with one scale; none in the plane.
+/// Wear depth, pressure and slip over the flanks of a joint in space, start and best with one scale and the largest
+/// value of each in words; none in the plane.
 [[nodiscard]] std::vector<Figure> contact_maps(const Comparison& designs);
 
 // Each figure is empty when the designs do not hold what it shows. Colours tell before from after; line
@@ -42,8 +43,8 @@ struct Comparison {
 [[nodiscard]] Plot response_plot(const Comparison& designs);
 [[nodiscard]] Plot nodal_diameter_plot(const DesignRecord& design);
 /// The same around the resonance, with the engine orders: a multiple of the speed of rotation excites the nodal
-/// diameter it comes to on so many blades, and meets a mode where its mark stands on a line. Empty without a resonance
-/// or speed.
+/// diameter it comes to on so many blades, and meets a mode where its mark stands on a line. As wide as the engine
+/// order nearest to the resonance asks for. Empty without a resonance or speed.
 [[nodiscard]] Plot engine_order_plot(const DesignRecord& design);
 /// What wear histories come to over their cycles: worn volume, largest depth, amplitude, profiles.
 [[nodiscard]] std::vector<Figure> history_plots(const Comparison& designs);

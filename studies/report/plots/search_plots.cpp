@@ -38,6 +38,7 @@ template <class Place>
 Plot objective_marks(const RunRecord& record, Plot plot, Place&& place) {
   const ObjectiveScale scale = objective_scale(record);
   plot.y = {.label = scale.label, .unit = scale.unit};
+  plot.at_zero = "It is zero for every candidate.";
   CandidateMarks marks;
   Series failed{.name = "not computed", .role = Role::muted, .stroke = Stroke::none, .mark = Mark::triangle};
   Bounds values;

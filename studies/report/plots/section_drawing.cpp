@@ -24,18 +24,6 @@ std::string point(const Eigen::Vector2d& metres) {
   return fmt::format("{:.4f} {:.4f}", 1e3 * metres.x(), -1e3 * metres.y());
 }
 
-std::string outline(const Chain& chain) {
-  std::string data = "M" + point(chain.front().start);
-  for (const Edge& e : chain) {
-    if (e.is_arc())
-      data += fmt::format("A{0:.4f} {0:.4f} 0 {1} {2} {3}", 1e3 * e.radius,
-                          std::abs(e.sweep) > std::numbers::pi ? 1 : 0, e.sweep > 0 ? 0 : 1, point(e.end));
-    else
-      data += "L" + point(e.end);
-  }
-  return data + "Z";
-}
-
 std::string body(const Chain& chain, const char* classes, const char* title) {
   if (chain.empty()) return {};
   return fmt::format("<path class=\"{}\" d=\"{}\"><title>{}</title></path>\n", classes, outline(chain), title);
@@ -121,37 +109,47 @@ std::string dimension(const DesignRecord& design, const DesignRecord* before, co
   return (was == text ? text : was + " \u2192 " + text) + (unit == "\u00b0" ? "" : "\u00a0") + unit;
 }
 
+/// Where a main dimension is, and what it is called beside the drawing.
+struct Dimension {
+  const char *key, *edge, *word;
+};
+constexpr std::array<Dimension, 6> kDimensions{{{"neck_width_mm", "neck_right", "neck"},
+                                                {"neck_fillet_radius_mm", "neck_fillet_right", "R"},
+                                                {"flank_length_mm", "flank_right", "flank"},
+                                                {"flank_angle_deg", "flank_right", "angle"},
+                                                {"root_corner_radius_mm", "root_corner_right", "R"},
+                                                {"slot_fillet_radius_mm", "slot_fillet_right", "slot R"}}};
+
 /// Main dimensions beside the joint, each with a line to its place; on the right, where `box` has room for them.
 std::string dimensions(const DesignRecord& design, const DesignRecord* before, const Eigen::AlignedBox2d& box,
                        double text_size) {
-  struct Label {
-    Eigen::Vector2d at;
-    std::string text;
-  };
-  std::vector<Label> labels;
-  const auto add = [&](const Chain& chain, const char* edge, const std::string& words, const std::string& value) {
-    const auto found = std::ranges::find(chain, edge, &Edge::name);
-    if (found != chain.end() && !value.empty()) labels.push_back({found->point(0.5), words + " " + value});
-  };
-  add(design.profile.blade, "neck_right", "neck", dimension(design, before, "neck_width_mm"));
-  add(design.profile.blade, "neck_fillet_right", "R", dimension(design, before, "neck_fillet_radius_mm"));
-  add(design.profile.blade, "flank_right", "flank", dimension(design, before, "flank_length_mm"));
-  add(design.profile.blade, "flank_right", "angle", dimension(design, before, "flank_angle_deg"));
-  add(design.profile.blade, "root_corner_right", "R", dimension(design, before, "root_corner_radius_mm"));
-  add(design.profile.disk, "slot_fillet_right", "slot R", dimension(design, before, "slot_fillet_radius_mm"));
   std::string text;
   const double x = 1e3 * box.max().x() - 12.5 * text_size, spacing = 1.9 * text_size;
   double y = -1e3 * box.max().y() + 2 * text_size;
-  for (const auto& [at, words] : labels) {
+  for (const auto& [key, edge, word] : kDimensions) {
+    const std::string value = dimension(design, before, key);
+    const Chain& chain = std::string_view(edge).starts_with("slot") ? design.profile.disk : design.profile.blade;
+    const auto found = std::ranges::find(chain, edge, &Edge::name);
+    if (found == chain.end() || value.empty()) continue;
+    const Eigen::Vector2d at = found->point(0.5);
     y = std::max(y, -1e3 * at.y() - 2 * text_size);
     text += fmt::format(
         "<path class=\"leader\" d=\"M{0}L{1:.3f} {2:.3f}\"/><circle class=\"leader\" cx=\"{3:.3f}\" cy=\"{4:.3f}\" "
-        "r=\"{5:.3f}\"/><text x=\"{6:.3f}\" y=\"{7:.3f}\" font-size=\"{8:.3f}\">{9}</text>\n",
+        "r=\"{5:.3f}\"/><text x=\"{6:.3f}\" y=\"{7:.3f}\" font-size=\"{8:.3f}\">{9} {10}</text>\n",
         point(at), x, y, 1e3 * at.x(), -1e3 * at.y(), 0.16 * text_size, x + 0.3 * text_size, y + 0.35 * text_size,
-        text_size, escape(words));
+        text_size, word, escape(value));
     y += spacing;
   }
-  return text;
+  return "<g class=\"dimension\">" + text + "</g>";
+}
+
+/// The same below the drawing, where that is too small for letters.
+std::string dimension_list(const DesignRecord& design, const DesignRecord* before) {
+  std::string text;
+  for (const Dimension& of : kDimensions)
+    if (const std::string value = dimension(design, before, of.key); !value.empty())
+      text += "<li>" + escape(key_words(of.key) + " " + value) + "</li>";
+  return text.empty() ? "" : "<ul class=\"label\">" + text + "</ul>\n";
 }
 
 std::string legend(bool before, bool form) {
@@ -165,6 +163,18 @@ std::string legend(bool before, bool form) {
 }
 
 }  // namespace
+
+std::string outline(const geometry::Chain& chain) {
+  std::string data = "M" + point(chain.front().start);
+  for (const Edge& e : chain) {
+    if (e.is_arc())
+      data += fmt::format("A{0:.4f} {0:.4f} 0 {1} {2} {3}", 1e3 * e.radius,
+                          std::abs(e.sweep) > std::numbers::pi ? 1 : 0, e.sweep > 0 ? 0 : 1, point(e.end));
+    else
+      data += "L" + point(e.end);
+  }
+  return data + "Z";
+}
 
 Eigen::AlignedBox2d joint_window(const DesignRecord& design) {
   constexpr std::array kShown{"flank_", "neck_fillet", "root_", "slot_", "lobe_", "runout", "mouth"};
@@ -206,7 +216,7 @@ std::string joint_figure(const DesignRecord& design, const DesignRecord* before)
   return "<figure>" + title + legend(before != nullptr, formed) +
          drawing(box, "Section of the joint",
                  bodies(design, before, formed ? flank_bands(design, factor) : "") + beside) +
-         "<figcaption>" + escape(caption) + "</figcaption></figure>\n";
+         dimension_list(design, before) + "<figcaption>" + escape(caption) + "</figcaption></figure>\n";
 }
 
 std::string sector_figure(const DesignRecord& design, const DesignRecord* before) {

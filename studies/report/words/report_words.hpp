@@ -24,6 +24,18 @@ namespace dovetail::report {
 [[nodiscard]] std::string limit_words(const std::string& name, const optimizer::Problem& problem,
                                       bool with_number = true);
 
+/// That without its article and number: "peak amplitude, upper".
+[[nodiscard]] std::string constraint_words(const optimizer::Problem& problem, const std::string& name);
+
+/// Its name as people write it: "speed \u221210 %".
+[[nodiscard]] std::string departure_words(const DepartureRecord& departure);
+
+/// A sentence of the program with names of responses as words.
+[[nodiscard]] std::string in_words(std::string text);
+
+/// A value of a variable; what is nothing beside its range is 0.
+[[nodiscard]] std::string variable_value(const optimizer::DesignVariable& variable, double value);
+
 /// What a term of the objective is about: "size of the resonance drift in its worst case".
 [[nodiscard]] std::string term_words(const optimizer::Problem& problem, const optimizer::ObjectiveTerm& term);
 
@@ -44,10 +56,6 @@ struct ObjectiveScale {
   std::string label = "objective";
 };
 [[nodiscard]] ObjectiveScale objective_scale(const RunRecord& record);
-
-/// What was optimised, from what to what, and whether that is beyond the error bars. Plain text sentences; says so when
-/// no feasible design was found.
-[[nodiscard]] std::string headline(const RunRecord& record);
 
 /// The limits and rules that no candidate keeps, each with how near the nearest one comes.
 [[nodiscard]] std::vector<std::string> never_kept(const RunRecord& record);

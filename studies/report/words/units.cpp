@@ -217,8 +217,10 @@ std::string difference(double from, double to, const Unit& unit) {
   if (std::abs(to - from) <= 1e-8 * std::max(std::abs(from), std::abs(to))) return "none";
   // Of what is in per cent itself it would be read as a part of it.
   if (from > 0 && to > 0 && unit.symbol != "%") return per_cent(to, from, 2, 3);
-  const std::string symbol = unit.symbol == "%" ? "percentage points" : unit.symbol;
-  return (to > from ? "+" : "") + significant((to - from) / unit.si, 3) + (symbol.empty() ? "" : "\u00a0" + symbol);
+  const std::string symbol = unit.symbol == "%"    ? " percentage points"
+                             : unit.symbol.empty() ? ""
+                                                   : "\u00a0" + unit.symbol;
+  return (to > from ? "+" : "") + significant((to - from) / unit.si, 3) + symbol;
 }
 
 }  // namespace dovetail::report

@@ -57,7 +57,7 @@ TEST(Numbers, DifferInPerCentOrInTheirUnit) {
   EXPECT_EQ(difference(-1e-3, 1e-3, {.symbol = "mm", .si = 1e-3}), "+2.00\u00a0mm");
   EXPECT_EQ(difference(1e-3, 1e-3 + 1e-12, {.symbol = "mm", .si = 1e-3}), "none");
   // Of what is in per cent a part would be read as per cent of it.
-  EXPECT_EQ(difference(1e-3, 1.833e-3, {.symbol = "%", .si = 0.01}), "+0.0833\u00a0percentage points");
+  EXPECT_EQ(difference(1e-3, 1.833e-3, {.symbol = "%", .si = 0.01}), "+0.0833 percentage points");
 }
 
 Plot sample_plot() {
