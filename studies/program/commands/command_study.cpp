@@ -34,11 +34,33 @@
 
 namespace dovetail::studies {
 
+namespace {
+
+/// What the model of a study takes, s, where anybody sees it: nearly all of an evaluation of one case without bars.
+double model_seconds(const Study& study, const Teller& teller) {
+  if (!teller.shows()) return 0;
+  return expected_cost(study).seconds / static_cast<double>(std::max<std::size_t>(study.problem.cases.size(), 1));
+}
+
+}  // namespace
+
 void deliver_json(const std::string& where, const std::string& text, const Streams& streams) {
   if (where.empty()) return;
   if (where != "-") return replace_file(where, text);
   streams.out << text << std::flush;
   if (!streams.out) refuse("standard output", "cannot be written");
+}
+
+LoadedModel told_model(const std::string& input, const std::vector<std::string>& set, const SolverChoice& solver,
+                       Teller& teller, std::optional<wear::Follow> follow) {
+  teller.begin("reading the input");
+  return load_model(input, set, solver, &teller.remark(), follow,
+                    [&](const Study& study) { teller.begin("the reduced model", model_seconds(study, teller)); });
+}
+
+LoadedModel told_model(const Study& study, Teller& teller, std::optional<wear::Follow> follow) {
+  teller.begin("the reduced model", model_seconds(study, teller));
+  return load_model(study, &teller.remark(), follow);
 }
 
 int interrupted(const std::string& kept, const Streams& streams) {
@@ -291,7 +313,9 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
 }
 
 int run_reduce(const ReduceOptions& options, const Streams& streams) {
-  const LoadedModel loaded = load_model(options.study, options.set, {}, &streams.err);
+  Teller teller(streams.err, options.tell);
+  const LoadedModel loaded = told_model(options.study, options.set, {}, teller);
+  teller.end();
   if (!loaded.failure.empty()) return not_converged(options.study, "not converged: " + loaded.failure, streams);
   reduction::write_model(options.model, loaded.model);
   streams.out << fmt::format("{}: {} coordinates, {} contact nodes\n", options.model, loaded.model.size(),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <iosfwd>
 #include <limits>
 #include <memory>
@@ -73,9 +74,11 @@ struct LoadedModel {
 /// @param given   a model, a study, or the directory of a run: its best design
 /// @param err     hears what of a study does not count here; null: nobody does
 /// @param follow  what drives the wear, where it is not what the study says: contact nodes end where its zones end
+/// @param begins  hears of a study before its model is made, which takes long
 [[nodiscard]] LoadedModel load_model(const std::string& given, const std::vector<std::string>& set,
                                      const SolverChoice& solver, std::ostream* err = nullptr,
-                                     std::optional<wear::Follow> follow = {});
+                                     std::optional<wear::Follow> follow = {},
+                                     const std::function<void(const Study&)>& begins = {});
 
 /// The same of a reduced model in memory, which messages call by `name`. Throws InputError for one that is not valid.
 [[nodiscard]] LoadedModel take_model(const std::string& name, reduction::ReducedModel model,
