@@ -12,6 +12,7 @@
 #include "studies/program/answers/candidate_table.hpp"
 #include "studies/program/answers/field_export.hpp"
 #include "studies/program/answers/geometry_export.hpp"
+#include "studies/program/answers/run_clock.hpp"
 #include "studies/program/answers/solid_export.hpp"
 #include "studies/program/answers/teller.hpp"
 #include "studies/program/commands/commands.hpp"
@@ -218,6 +219,9 @@ int run_merge(const MergeOptions& options, const Streams& streams) {
   for (const char* name : {"study.toml", "settings.json"})
     if (const fs::path file = fs::path(options.directories.front()) / name; fs::exists(file, error))
       fs::copy_file(file, merged / name, error);
+  double seconds = 0;
+  for (const std::string& directory : options.directories) seconds += seconds_taken(directory);
+  keep_seconds_taken(merged, seconds);
   teller.end();
   streams.out << fmt::format("{}: {} different evaluations of {} runs\n", options.directory, evaluations,
                              options.directories.size());

@@ -162,9 +162,12 @@ struct ServeOptions {
 int run_serve(const ServeOptions& options, const Streams& streams);
 
 /// What a schema is of.
-enum class SchemaOf { study, evaluate };
-constexpr EnumNames<SchemaOf, 2> enum_names(SchemaOf) {
-  return {{{SchemaOf::study, "study"}, {SchemaOf::evaluate, "evaluate"}}};
+enum class SchemaOf { study, evaluate, runs, materials };
+constexpr EnumNames<SchemaOf, 4> enum_names(SchemaOf) {
+  return {{{SchemaOf::study, "study"},
+           {SchemaOf::evaluate, "evaluate"},
+           {SchemaOf::runs, "runs"},
+           {SchemaOf::materials, "materials"}}};
 }
 struct SchemaOptions {
   SchemaOf of = SchemaOf::study;
