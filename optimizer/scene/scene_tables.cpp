@@ -142,7 +142,9 @@ std::span<const Field<optimizer::SolverSettings>> option_table<optimizer::Solver
                .help =
                    "how the stress of the preload stiffens the vibrating structure; own: assembled for each design, "
                    "shared: that of flanks without gaps for all designs with one mesh, with what a design's own "
-                   "adds to first order. shared unless given where no variable changes the mesh, else own"},
+                   "adds to first order. shared unless given where no variable changes the mesh, else own; large "
+                   "sectors assemble their own "
+                   "whatever is said here"},
       Field<S>{.key = "accuracy",
                .member = &S::accuracy,
                .range = {.lower = kAccuracyRange.lower, .upper = kAccuracyRange.upper, .zero = "as given"},

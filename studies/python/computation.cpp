@@ -22,7 +22,7 @@ constexpr std::chrono::milliseconds kLook{20};
 }  // namespace
 
 void compute(const std::function<void()>& work, Ending ending) {
-  std::atomic<bool> stop{false};
+  std::atomic<bool> stop{false}, end{false};  // at once, in order
   // Python handles signals in its main thread, between its own instructions: so the work has a thread of its own.
   std::optional<py::error_already_set> raised;
   std::exception_ptr thrown;
@@ -31,6 +31,7 @@ void compute(const std::function<void()>& work, Ending ending) {
     const std::future<void> done = std::async(std::launch::async, [&] {
       try {
         const Interruptible interruptible(stop);
+        const studies::AskedToEnd asked(end);
         work();
       } catch (const Interrupted&) {
       } catch (...) {
@@ -42,10 +43,7 @@ void compute(const std::function<void()>& work, Ending ending) {
       if (PyErr_CheckSignals() == 0) continue;
       const bool again = raised.has_value();
       raised.emplace();
-      if (ending == Ending::at_once || again)
-        stop = true;
-      else
-        studies::request_interrupt();
+      (ending == Ending::at_once || again ? stop : end) = true;
     }
   }
   if (raised) throw py::error_already_set(*raised);

@@ -149,7 +149,8 @@ PYBIND11_MODULE(dovetail, module) {
   module.doc() =
       "Optimises dovetail profiles against fretting wear: the program `dovetail` as functions.\n\n"
       "Answers are mappings with the names and numbers of the program's JSON, SI; wrong input raises InputError;\n"
-      "what does not converge says so in its status. Ctrl-C ends a computation, and other threads go on meanwhile.\n"
+      "what does not converge says so in its status. Ctrl-C ends the computation of the main thread; several\n"
+      "threads may compute at once, and what ends one of them is nothing to the others.\n"
       "Importing the module sets OpenBLAS, which numpy may use, too, to one thread.";
   module.attr("__version__") = studies::version();
   warn_of_kernels(dovetail::numerics::prepare_library());

@@ -2,14 +2,13 @@
 
 #include <pybind11/stl.h>
 
-#include <map>
 #include <memory>
 #include <utility>
 
 #include "studies/program/commands/commands.hpp"
 #include "studies/program/engine/loaded_model.hpp"
+#include "studies/program/engine/run_folder.hpp"
 #include "studies/program/study_file/best_file.hpp"
-#include "studies/program/study_file/refusal.hpp"
 #include "studies/python/answer.hpp"
 #include "studies/python/keywords.hpp"
 #include "studies/python/model.hpp"
@@ -25,7 +24,10 @@ std::string toml_text(const py::handle& value) {
   if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
   if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) {
     std::string text;
-    for (const py::handle item : value) text += (text.empty() ? "" : ", ") + toml_text(item);
+    for (const py::handle item : value)
+      text += (text.empty() ? "" : ", ") + (py::isinstance<py::str>(item)
+                                                ? py::module_::import("json").attr("dumps")(item).cast<std::string>()
+                                                : toml_text(item));
     return "[" + text + "]";
   }
   // A number of numpy is written like one of Python.
@@ -44,7 +46,7 @@ Model reduced(const StudyFile& study) {
 
 }  // namespace
 
-StudyFile::StudyFile(std::string path) : path_(std::move(path)) {
+StudyFile::StudyFile(const std::string& path) : path_(studies::study_or_best(path, nullptr)) {
   (void)read();
 }
 
@@ -60,33 +62,27 @@ studies::Study StudyFile::read() const {
 }
 
 studies::Study StudyFile::rewritten() const {
-  if (set_.empty()) return read();
-  studies::Document document = studies::load_document(path_);
-  const studies::Document original = document;
-  studies::apply_overrides(document, studies::overrides(set_));
-  std::map<std::string, double> values;
-  for (const studies::Override& given : studies::overrides(set_)) {
-    const studies::Node* node = document.root.at(given.key);
-    if (node == nullptr || !node->is_number())
-      studies::refuse(given.key, "is set and no number; a run takes it from the file", given.value, path_);
-    values[given.key] = node->real;
-  }
-  return studies::read_study(studies::parse_document(studies::with_values(original, values), path_));
+  return studies::load_rewritten_study(path_, studies::overrides(set_));
 }
 
 void bind_study(py::module_& module) {
-  py::class_<StudyFile>(module, "Study", R"(A study file (TOML): the joint, what may change, what counts.
+  py::class_<StudyFile>(
+      module, "Study",
+      R"(A study file (TOML): the joint, what may change, what counts; or the best design of a run, by its
+directory.
 
 Raises InputError, a sentence for each thing that is wrong.)")
       .def(py::init([](const py::object& path) { return StudyFile(py::str(path).cast<std::string>()); }),
-           py::arg("path"), "__init__(self, path)\n--\n\nReads the study file. Raises InputError.")
+           py::arg("path"),
+           "__init__(self, path)\n--\n\nReads the study file, or best.toml in the directory of a run. Raises "
+           "InputError.")
       .def("set", &StudyFile::set, py::arg("key"), py::arg("value"), R"(set(self, key, value)
 --
 
 Replaces a value of the study, in the unit that its key names: set("geometry.flank_mismatch_um", 5).
 
 Raises InputError, and then the study is as before.)")
-      .def_property_readonly("path", &StudyFile::path, "The file.")
+      .def_property_readonly("path", &StudyFile::path, "The file that is computed with.")
       .def(
           "warnings", [](const StudyFile& self) { return studies::warnings(self.read()); }, R"(warnings(self)
 --

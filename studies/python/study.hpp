@@ -12,8 +12,8 @@ namespace dovetail::python {
 /// A study file and the values that were set besides, as --set has them.
 class StudyFile {
  public:
-  /// Throws InputError for a file that is not valid.
-  explicit StudyFile(std::string path);
+  /// Of the directory of a run its best design. Throws InputError for a file that is not valid.
+  explicit StudyFile(const std::string& path);
 
   /// Throws InputError, and then the study is as before.
   void set(const std::string& key, const pybind11::handle& value);
@@ -21,8 +21,7 @@ class StudyFile {
   [[nodiscard]] const std::string& path() const { return path_; }
   [[nodiscard]] const std::vector<std::string>& assignments() const { return set_; }  ///< KEY=VALUE
   [[nodiscard]] studies::Study read() const;
-  /// With the values that were set in its text, so that the files of a run have them. Throws InputError for one that
-  /// is no number.
+  /// With the values that were set in its text, so that the files of a run have them.
   [[nodiscard]] studies::Study rewritten() const;
 
  private:

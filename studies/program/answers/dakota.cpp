@@ -90,6 +90,17 @@ Section section_of(const std::string& tag) {
   return Section::none;
 }
 
+/// Lines that a section may announce, and what an active set vector may ask for: 1 + 2 + 4.
+constexpr Range kLines{.lower = 0, .upper = 1e6}, kAsked{.lower = 0, .upper = 7};
+
+int whole(const std::string& file, const Line& line, const Range& range) {
+  const std::optional<double> value = number(line.value);
+  if (!value || !range.contains(*value) || *value != std::floor(*value))
+    refuse(line.tag, "must be a whole number, " + range.phrase().substr(std::string_view("must be ").size()),
+           one_line(line.value), file);
+  return static_cast<int>(*value);
+}
+
 }  // namespace
 
 bool DakotaQuestion::asks_for_derivatives() const {
@@ -113,9 +124,7 @@ DakotaQuestion read_dakota(const std::string& file) {
     if (left == 0) {
       section = section_of(line->tag);
       if (section == Section::none && line->tag != "eval_id" && line->tag != "DAKOTA_EVAL_ID") wrong(text);
-      const std::optional<double> count = number(line->value);
-      if (section != Section::none && (!count || *count < 0)) wrong(text);
-      left = section == Section::none ? 0 : static_cast<int>(*count);
+      left = section == Section::none ? 0 : whole(file, *line, kLines);
       continue;
     }
     --left;
@@ -125,7 +134,7 @@ DakotaQuestion read_dakota(const std::string& file) {
     if (section == Section::variables)
       question.set.push_back(key_of(file, line->tag) + "=" + shortest(*value));
     else
-      question.functions.push_back({.response = response_of(file, line->tag), .asked = static_cast<int>(*value)});
+      question.functions.push_back({.response = response_of(file, line->tag), .asked = whole(file, *line, kAsked)});
   }
   if (left > 0 || question.functions.empty()) refuse(file, "is no Dakota parameters file, or it is cut short");
   return question;

@@ -8,6 +8,8 @@
 
 #include "optimizer/journal/journal.hpp"
 #include "studies/program/answers/candidate_table.hpp"
+#include "studies/program/answers/run_clock.hpp"
+#include "studies/program/answers/version.hpp"
 #include "studies/program/engine/json_values.hpp"
 #include "studies/program/study_file/refusal.hpp"
 #include "studies/program/study_file/study.hpp"
@@ -61,7 +63,8 @@ ComparedRun unfinished(const fs::path& directory) {
                   .status = "unfinished",
                   .best = {},
                   .objective = {},
-                  .start = {}};
+                  .start = {},
+                  .seconds = seconds_taken(directory)};
   std::optional<optimizer::Judgement> best;
   for (const optimizer::JournalRecord& record : optimizer::read_journal(directory / "journal.jsonl").records) {
     const optimizer::Judgement judgement =
@@ -180,7 +183,7 @@ std::string comparison_json(const std::vector<ComparedRun>& runs) {
                     {"variables", json_of(run.variables)},
                     {"responses", json_of(run.responses)},
                     {"seconds", run.seconds}});
-  return text(list);
+  return text({{"version", kAnswerVersion}, {"runs", list}});
 }
 
 }  // namespace dovetail::studies

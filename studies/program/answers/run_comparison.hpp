@@ -17,7 +17,7 @@ struct ComparedRun {
   std::optional<double> objective, start;        ///< of the best one, and of the start; of a front its first one
   std::map<std::string, double> variables = {};  ///< of the best one by key, in the file's unit
   std::map<std::string, double> responses = {};  ///< of the best one, SI
-  double seconds = 0;                            ///< of the last call
+  double seconds = 0;                            ///< of all its sessions
 };
 
 /// Runs in a directory: itself, or all below it, by name. Throws InputError where there is none.
@@ -30,8 +30,8 @@ struct ComparedRun {
 [[nodiscard]] std::string comparison_table(const std::vector<ComparedRun>& runs);
 /// One run a line: what the table has, all variables and responses of the best designs.
 [[nodiscard]] std::string comparison_csv(const std::vector<ComparedRun>& runs);
-/// [{"directory", "name", "status", "evaluations", "feasible", "failed", "best", "objective", "start", "variables",
-/// "responses", "seconds"}]
+/// {"version", "runs": [{"directory", "name", "status", "evaluations", "feasible", "failed", "best", "objective",
+/// "start", "variables", "responses", "seconds"}]}
 [[nodiscard]] std::string comparison_json(const std::vector<ComparedRun>& runs);
 
 }  // namespace dovetail::studies

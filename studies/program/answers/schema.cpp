@@ -208,4 +208,45 @@ std::string evaluation_schema() {
   return text(schema);
 }
 
+namespace {
+
+/// An answer that lists rows under a name; every row has all keys.
+std::string list_schema(const char* command, const char* name, const Json& row) {
+  Json keys = Json::array();
+  for (const auto& [key, type] : row.items()) keys.push_back(key);
+  return text({{"$schema", kDraft},
+               {"title", std::string("answer of dovetail ") + command},
+               {"type", "object"},
+               {"properties", {{"version", {{"const", kAnswerVersion}}}, {name, tables(row, keys)}}},
+               {"required", Json::array({"version", name})}});
+}
+
+}  // namespace
+
+std::string runs_schema() {
+  const Json count{{"type", "integer"}, {"minimum", 0}}, known = type_schema<double>();
+  const Json values = type_schema<std::map<std::string, double>>();
+  return list_schema("runs", "runs",
+                     {{"directory", kText},
+                      {"name", kText},
+                      {"status", kText},
+                      {"evaluations", count},
+                      {"feasible", count},
+                      {"failed", count},
+                      {"best", {{"type", Json::array({"integer", "null"})}, {"minimum", 1}}},
+                      {"objective", known},
+                      {"start", known},
+                      {"variables", values},
+                      {"responses", values},
+                      {"seconds", {{"type", "number"}, {"minimum", 0}}}});
+}
+
+std::string materials_schema() {
+  Json row{{"name", kText}};
+  for (const Field<fem::Material>& field : option_table<fem::Material>())
+    row[std::string(field.key)] = number_schema(field.range);
+  row["source"] = kText;
+  return list_schema("materials", "materials", row);
+}
+
 }  // namespace dovetail::studies

@@ -11,4 +11,8 @@ namespace dovetail::studies {
 /// Of what `evaluate --json` answers: made of the table that writes it.
 [[nodiscard]] std::string evaluation_schema();
 
+/// Of what `runs --json` and `materials --json` answer.
+[[nodiscard]] std::string runs_schema();
+[[nodiscard]] std::string materials_schema();
+
 }  // namespace dovetail::studies

@@ -93,8 +93,7 @@ int run_backbone(const BackboneOptions& options, const Streams& streams) {
   const std::vector<double> values = parameters(options);
   if (options.solver.automatic()) refuse("--harmonics, --samples", "must be whole numbers for a backbone", "auto");
   Teller teller(streams.err, options.tell);
-  teller.begin("the reduced model");
-  LoadedModel loaded = load_model(options.input, options.set, options.solver, &teller.remark());
+  LoadedModel loaded = told_model(options.input, options.set, options.solver, teller);
   if (!loaded.failure.empty()) return not_converged(options.input, "not converged: " + loaded.failure, streams);
   paths::BackboneOptions settings;
   const int output = output_index(options, loaded);

@@ -70,20 +70,26 @@ std::string cost_words(const Study& study, const optimizer::Scene& scene, std::v
 }  // namespace
 
 int run_check(const CheckOptions& options, const Streams& streams) {
-  const Study study = load_rewritten_study(study_or_best(options.study, &streams.err), overrides(options.set));
+  Teller teller(streams.err, options.tell);
+  const Study study = load_rewritten_study(study_or_best(options.study, &teller.remark()), overrides(options.set));
   const optimizer::Problem& problem = study.problem;
   std::vector<std::string> doubts = warnings(study);
   const bool searches = problem.space.size() > 0;
   const optimizer::Scene scene = optimizer::in_first_case(searches ? start_scene(study) : study.scene, problem.cases);
+  teller.begin("trying whether the design fits together, before it is meshed");
   std::string foreseen = fit_words(scene, searches ? "the start design" : "the design", doubts);
   // What does not fit together has no mesh.
   if (optimizer::feasibility_of(scene).feasible) try {
+      teller.begin("meshing the design, which comes last");
       foreseen += cost_words(study, scene, doubts);
     } catch (const InputError& error) {
       doubts.push_back(std::string("the design cannot be meshed: ") + error.what());
     }
+  teller.end();
+  // Where they count as errors they are told as errors are.
+  std::ostream& told = options.strict ? streams.err : teller.remark();
   for (const std::string& doubt : doubts)
-    streams.err << options.study << (options.strict ? ": " : ": warning: ") << doubt << "\n";
+    told << options.study << (options.strict ? ": " : ": warning: ") << doubt << "\n";
   if (options.strict && !doubts.empty()) return kWrongInput;
   const auto counted = [](std::size_t count, const char* what) {
     return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");

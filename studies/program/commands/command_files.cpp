@@ -12,7 +12,9 @@
 #include "studies/program/answers/candidate_table.hpp"
 #include "studies/program/answers/field_export.hpp"
 #include "studies/program/answers/geometry_export.hpp"
+#include "studies/program/answers/run_clock.hpp"
 #include "studies/program/answers/solid_export.hpp"
+#include "studies/program/answers/teller.hpp"
 #include "studies/program/commands/commands.hpp"
 #include "studies/program/engine/engine.hpp"
 #include "studies/program/engine/loaded_model.hpp"
@@ -49,7 +51,8 @@ Document candidate_document(const std::string& directory, int number) {
 /// What is to be exported: a study, or a design of a run.
 class Exported {
  public:
-  explicit Exported(const ExportOptions& options) : options_(options), of_run_(fs::is_directory(options.input)) {
+  Exported(const ExportOptions& options, Teller& teller)
+      : options_(options), teller_(teller), of_run_(fs::is_directory(options.input)) {
     if (options.candidate && !of_run_)
       refuse("--candidate", "only has a meaning with the directory of a run", std::to_string(*options.candidate));
   }
@@ -70,11 +73,14 @@ class Exported {
   /// With fields and contact; what a run keeps of its best design is not computed again.
   [[nodiscard]] report::DesignRecord design(bool history) const {
     if (of_run_ && !options_.candidate && options_.set.empty()) {
+      teller_.begin("reading the results");
       const report::RunRecord record = results_of(options_.input);
       if (record.best_design && record.best_design->fields.mesh.element_count() > 0) return *record.best_design;
       refuse(options_.input, "holds no fields of a best design");
     }
     const Study study = this->study();
+    teller_.begin(history ? "computing the design and its wear history" : "computing the design",
+                  teller_.shows() && !history ? expected_cost(study).seconds : 0);
     report::DesignRecord design = describe_fields(study, history);
     if (design.fields.mesh.element_count() > 0) return design;
     if (optimizer::outcome_of(design.status) == optimizer::Outcome::infeasible)
@@ -84,6 +90,7 @@ class Exported {
 
  private:
   const ExportOptions& options_;
+  Teller& teller_;
   bool of_run_;
 };
 
@@ -107,12 +114,15 @@ void check_export(const ExportOptions& options, std::optional<ExportFormat> form
 }  // namespace
 
 int run_import(const ImportOptions& options, const Streams& streams) {
+  Teller teller(streams.err, options.tell);
+  teller.begin("reading the model, and reducing it where it is a structure");
   const std::optional<reduction::ReducedModel> model = read_any_model(options.input);
   if (!model)
     refuse(options.input,
            "is not a reduced model: it does not say format = \"dovetail-reduced-model\"; of a study, `dovetail reduce` "
            "writes the model");
   reduction::write_model(options.model, *model);
+  teller.end();
   streams.out << fmt::format("{}: {} coordinates, {} contact nodes\n", options.model, model->size(),
                              model->contact.count());
   return kDone;
@@ -120,11 +130,13 @@ int run_import(const ImportOptions& options, const Streams& streams) {
 
 namespace {
 
-int export_model(const ExportOptions& options, const Exported& exported, const Streams& streams) {
-  const LoadedModel loaded = exported.of_run() ? load_model(exported.study(), &streams.err)
-                                               : load_model(options.input, options.set, {}, &streams.err);
+int export_model(const ExportOptions& options, const Exported& exported, Teller& teller, const Streams& streams) {
+  const LoadedModel loaded =
+      exported.of_run() ? told_model(exported.study(), teller) : told_model(options.input, options.set, {}, teller);
+  teller.begin("writing " + options.file);
   if (!loaded.failure.empty()) return not_converged(options.input, "not converged: " + loaded.failure, streams);
   write_model_document(options.file, loaded.model, options.input);
+  teller.end();
   streams.out << options.file << ": written, with three matrices beside it\n";
   return kDone;
 }
@@ -134,27 +146,33 @@ int export_model(const ExportOptions& options, const Exported& exported, const S
 int run_export(const ExportOptions& options, const Streams& streams) {
   const std::optional<ExportFormat> format = named<ExportFormat>(options.format);
   check_export(options, format);
-  const Exported exported(options);
+  Teller teller(streams.err, options.tell);
+  const Exported exported(options, teller);
   const bool of_run = exported.of_run();
-  if (!format) return export_model(options, exported, streams);
+  if (!format) return export_model(options, exported, teller, streams);
   if (!of_run && (is_hdf5_file(options.input) || is_model_document(load_document(options.input))))
     refuse(options.input, "is a reduced model: it has matrices (--format matrix-market), no geometry");
   if (format == ExportFormat::csv) {
     if (!of_run) refuse(options.input, "must be the directory of a run for csv, the table of its candidates");
+    teller.begin("reading the results");
     replace_file(options.file, candidate_table(results_of(options.input)));
   } else if (has_fields(*format)) {
     const bool series = format == ExportFormat::pvd;
-    (series ? export_history : export_fields)(exported.design(series), options.file);
+    const report::DesignRecord design = exported.design(series);
+    teller.begin("writing " + options.file);
+    (series ? export_history : export_fields)(design, options.file);
   } else if (options.worn) {
     const report::DesignRecord design = exported.design(false);
     if (design.contact.depth_m.empty() || design.status != "converged")
       refuse(options.input, "has no worn flanks: its wear has not come to an end (" + design.status + ")");
     // The record is of the first case.
     const Study study = exported.study();
+    teller.begin("writing " + options.file);
     export_solids(optimizer::in_first_case(study.scene, study.problem.cases), *format, &design.contact, options.file);
   } else {
     const optimizer::Scene scene = exported.study().scene;
     const std::vector<std::string> broken = broken_rules(scene);
+    teller.begin("writing " + options.file);
     try {
       export_geometry(scene, *format, options.deck, options.file);
     } catch (const InputError&) {
@@ -162,20 +180,26 @@ int run_export(const ExportOptions& options, const Streams& streams) {
       throw infeasible(options.input, broken);
     }
     for (const std::string& rule : broken)
-      streams.err << "dovetail: " << options.input << ": the design is infeasible: " << rule << "\n";
+      teller.remark() << "dovetail: " << options.input << ": the design is infeasible: " << rule << "\n";
   }
+  teller.end();
   streams.out << options.file << ": written\n";
   return kDone;
 }
 
 int run_report(const ReportOptions& options, const Streams& streams) {
-  const report::RunRecord record = report::read_results(run_file(options.directory, "results.h5", "results"));
+  Teller teller(streams.err, options.tell);
+  teller.begin("reading the results, of which the report is made");
+  const report::RunRecord record = results_of(options.directory);
+  teller.begin("writing the report");
   report::write_report(options.file, record);
+  teller.end();
   streams.out << options.file << ": written\n";
   return kDone;
 }
 
 int run_merge(const MergeOptions& options, const Streams& streams) {
+  Teller teller(streams.err, options.tell);
   const fs::path merged(options.directory);
   std::error_code error;
   if (fs::exists(merged, error) && !fs::is_empty(merged, error))
@@ -183,16 +207,23 @@ int run_merge(const MergeOptions& options, const Streams& streams) {
   fs::create_directories(merged, error);
   if (error) refuse(options.directory, "cannot be created: " + error.message());
   std::size_t evaluations = 0;
-  for (const std::string& name : {std::string("journal.jsonl"), std::string("finer.jsonl")}) {
+  const std::vector<std::string> names{"journal.jsonl", "finer.jsonl"};
+  teller.begin("merging journals", 0, static_cast<int>(names.size()));
+  for (const std::string& name : names) {
     std::vector<fs::path> files;
     for (const std::string& directory : options.directories) files.push_back(run_file(directory, name, "journal"));
     const std::size_t records = optimizer::merge_journals(files, merged / name);
     evaluations = std::max(evaluations, records);
+    teller.step(name == names.front() ? 1 : 2);
   }
   // What the first of them searched with.
   for (const char* name : {"study.toml", "settings.json"})
     if (const fs::path file = fs::path(options.directories.front()) / name; fs::exists(file, error))
       fs::copy_file(file, merged / name, error);
+  double seconds = 0;
+  for (const std::string& directory : options.directories) seconds += seconds_taken(directory);
+  keep_seconds_taken(merged, seconds);
+  teller.end();
   streams.out << fmt::format("{}: {} different evaluations of {} runs\n", options.directory, evaluations,
                              options.directories.size());
   return kDone;

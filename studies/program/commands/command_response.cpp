@@ -148,9 +148,7 @@ int run_response(const ResponseOptions& options, const Streams& streams) {
 
 int answer_response(const ResponseOptions& options, const std::vector<double>& hz, const Streams& streams) {
   Teller teller(streams.err, options.tell);
-  teller.begin("the reduced model");
-  return answer_response(options, hz, load_model(options.input, options.set, options.solver, &teller.remark()), teller,
-                         streams);
+  return answer_response(options, hz, told_model(options.input, options.set, options.solver, teller), teller, streams);
 }
 
 int answer_response(const ResponseOptions& options, const std::vector<double>& hz, LoadedModel loaded, Teller& teller,

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <ostream>
@@ -15,6 +14,7 @@
 #include "optimizer/workers/forked_pool.hpp"
 #include "optimizer/workers/memory.hpp"
 #include "studies/program/answers/finished_run.hpp"
+#include "studies/program/answers/run_clock.hpp"
 #include "studies/program/answers/run_departures.hpp"
 #include "studies/program/answers/run_front.hpp"
 #include "studies/program/answers/run_output.hpp"
@@ -36,11 +36,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using optimizer::OptimizationResult;
-
-using Clock = std::chrono::steady_clock;
-double seconds_of(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
 
 /// Edges of a mesh over those of another from which on one verifies the other: less and both may err alike.
 constexpr double kFiner = 1.5;
@@ -135,9 +130,12 @@ struct Searched {
   bool late = false;  ///< the time of the run was over before it ended
 };
 
-/// The search, with its journals in the directory, of a run that began then.
-Searched searched(const RunSite& site, Clock::time_point begin, bool resume, const std::optional<optimizer::Part>& part,
+/// The search, with its journals in the directory.
+Searched searched(const RunSite& site, RunClock& clock, bool resume, const std::optional<optimizer::Part>& part,
                   const std::string& fingerprint, const OrderlyInterrupt& interrupt) {
+  if (const fs::path before = site.directory / "journal.jsonl"; resume && fs::exists(before))
+    if (const std::string of = optimizer::read_journal(before).fingerprint; !of.empty() && of != fingerprint)
+      refuse_changed(site.directory, site.study);
   const auto opened = [&](const char* name) {
     const fs::path file = site.directory / name;
     optimizer::Journal journal =
@@ -155,13 +153,14 @@ Searched searched(const RunSite& site, Clock::time_point begin, bool resume, con
                             .progress =
                                 [&](const optimizer::Progress& at) {
                                   progress(at);
+                                  clock.tick();
                                   if (site.told) site.told(at);
                                 },
                             .stop = &interrupt.flag(),
                             .finer = {},
                             .finer_journal = &finer_journal,
                             .part = part};
-  if (limit > 0) hooks.time_over = [&] { return late = late || seconds_of(begin) >= limit; };
+  if (limit > 0) hooks.time_over = [&] { return late = late || clock.session() >= limit; };
   hooks.many = site.engine.many;
   if (site.engine.finer)
     hooks.finer = [&](std::span<const double> x, int level) {
@@ -218,7 +217,7 @@ namespace {
 int computed(const RunOptions& options, const Study& asked, const fs::path& directory, const Streams& streams,
              Teller& teller, const RunEngineFactory& make_engine, const PoolFactory& pools,
              const std::function<void(const optimizer::Progress&)>& told) {
-  const auto begin = Clock::now();
+  RunClock clock(directory, options.resume);
   const std::optional<optimizer::Part> part = part_of(options, asked);
   teller.keeps("what is finished is kept in " + directory.string() + "; the same command with --resume goes on");
   const SettledStudy settled = settled_run(asked, directory, options.resume, make_engine, teller);
@@ -232,7 +231,7 @@ int computed(const RunOptions& options, const Study& asked, const fs::path& dire
   const RunSite site{
       .study = study, .engine = engine, .directory = directory, .teller = teller, .pool = pool.get(), .told = told};
   const OrderlyInterrupt interrupt;
-  auto [result, late] = searched(site, begin, options.resume, part, fingerprint_of(study), interrupt);
+  auto [result, late] = searched(site, clock, options.resume, part, fingerprint_of(study), interrupt);
   if (part) {
     streams.out << part_words(study, *part, result.evaluations.size(), directory, interrupt.requested(), late);
     if (!interrupt.requested() && !late) return kDone;
@@ -276,7 +275,7 @@ int computed(const RunOptions& options, const Study& asked, const fs::path& dire
   if (pool) pool->prepare(description_of(handed));  // who has nothing left to do gives his memory back
 
   end.describes = !interrupt.requested();
-  const WrittenRun written = write_run(end, result, seconds_of(begin), verifications, departures);
+  const WrittenRun written = write_run(end, result, clock.total(), verifications, departures);
   teller.end();
   const std::string answer =
       conclusion(study, result, written.record, directory) + verified_words(verifications) + held_words(written.record);

@@ -23,6 +23,7 @@
 #include "studies/program/answers/json.hpp"
 #include "studies/program/answers/schema.hpp"
 #include "studies/program/answers/teller.hpp"
+#include "studies/program/answers/version.hpp"
 #include "studies/program/commands/commands.hpp"
 #include "studies/program/engine/engine.hpp"
 #include "studies/program/engine/interrupt.hpp"
@@ -35,11 +36,33 @@
 
 namespace dovetail::studies {
 
+namespace {
+
+/// What the model of a study takes, s, where anybody sees it: nearly all of an evaluation of one case without bars.
+double model_seconds(const Study& study, const Teller& teller) {
+  if (!teller.shows()) return 0;
+  return expected_cost(study).seconds / static_cast<double>(std::max<std::size_t>(study.problem.cases.size(), 1));
+}
+
+}  // namespace
+
 void deliver_json(const std::string& where, const std::string& text, const Streams& streams) {
   if (where.empty()) return;
   if (where != "-") return replace_file(where, text);
   streams.out << text << std::flush;
   if (!streams.out) refuse("standard output", "cannot be written");
+}
+
+LoadedModel told_model(const std::string& input, const std::vector<std::string>& set, const SolverChoice& solver,
+                       Teller& teller, std::optional<wear::Follow> follow) {
+  teller.begin("reading the input");
+  return load_model(input, set, solver, &teller.remark(), follow,
+                    [&](const Study& study) { teller.begin("the reduced model", model_seconds(study, teller)); });
+}
+
+LoadedModel told_model(const Study& study, Teller& teller, std::optional<wear::Follow> follow) {
+  teller.begin("the reduced model", model_seconds(study, teller));
+  return load_model(study, &teller.remark(), follow);
 }
 
 int interrupted(const std::string& kept, const Streams& streams) {
@@ -65,7 +88,10 @@ int run_new(const NewOptions& options, const Streams& streams) {
 }
 
 int run_schema(const SchemaOptions& options, const Streams& streams) {
-  streams.out << (options.of == SchemaOf::study ? study_schema() : evaluation_schema());
+  streams.out << (options.of == SchemaOf::study      ? study_schema()
+                  : options.of == SchemaOf::evaluate ? evaluation_schema()
+                  : options.of == SchemaOf::runs     ? runs_schema()
+                                                     : materials_schema());
   return kDone;
 }
 
@@ -82,7 +108,8 @@ int run_materials(const MaterialsOptions& options, const Streams& streams) {
                          one.at_20_c.poisson_ratio, one.at_20_c.density, one.source);
   }
   if (options.json != "-") streams.out << table;
-  deliver_json(options.json, list.dump(2) + "\n", streams);
+  const nlohmann::ordered_json answer{{"version", kAnswerVersion}, {"materials", list}};
+  deliver_json(options.json, answer.dump(2) + "\n", streams);
   return kDone;
 }
 
@@ -173,6 +200,11 @@ bool answers(const optimizer::SettingsChoice& choice, const optimizer::AccuracyG
   return as_far && !purpose.history;
 }
 
+/// Dakota takes it as a design that failed; no older answer may stand for it.
+void fail_dakota(const std::string& results, const InputError& error) {
+  replace_file(results, "fail: " + one_line(error.what()) + "\n");
+}
+
 /// Two ways to choose the same.
 void refuse_automatic(const SolverChoice& solver) {
   std::vector<Violation> found;
@@ -192,8 +224,13 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
   std::vector<std::string> set = options.set;
   std::optional<DakotaQuestion> dakota;
   if (!options.dakota.empty()) {
-    dakota = read_dakota(options.dakota.front());
     check_replaceable(options.dakota.back());
+    try {
+      dakota = read_dakota(options.dakota.front());
+    } catch (const InputError& error) {
+      fail_dakota(options.dakota.back(), error);
+      throw;
+    }
     set.insert(set.end(), dakota->set.begin(), dakota->set.end());
     // Dakota takes it as a design that failed, and nothing needs to be computed.
     if (dakota->asks_for_derivatives()) {
@@ -205,8 +242,7 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
   try {
     study = load_study(study_or_best(options.study, &teller.remark()), overrides(set, options.solver));
   } catch (const InputError& error) {
-    // A value that a key cannot have is a design that failed; no older answer may stand for it.
-    if (dakota) replace_file(options.dakota.back(), "fail: " + one_line(error.what()) + "\n");
+    if (dakota) fail_dakota(options.dakota.back(), error);
     throw;
   }
   for (const std::string& warning : warnings(study))
@@ -292,7 +328,9 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
 }
 
 int run_reduce(const ReduceOptions& options, const Streams& streams) {
-  const LoadedModel loaded = load_model(options.study, options.set, {}, &streams.err);
+  Teller teller(streams.err, options.tell);
+  const LoadedModel loaded = told_model(options.study, options.set, {}, teller);
+  teller.end();
   if (!loaded.failure.empty()) return not_converged(options.study, "not converged: " + loaded.failure, streams);
   reduction::write_model(options.model, loaded.model);
   streams.out << fmt::format("{}: {} coordinates, {} contact nodes\n", options.model, loaded.model.size(),

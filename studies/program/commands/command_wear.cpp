@@ -203,9 +203,7 @@ int run_wear(const WearOptions& given, const Streams& streams) {
   std::optional<wear::Follow> follow;
   if (given.follow) follow = given.follow == Drive::resonance ? wear::Follow::resonance : wear::Follow::fixed;
   Teller teller(streams.err, given.tell);
-  teller.begin("the reduced model");
-  return answer_wear(given, load_model(given.input, given.set, given.solver, &teller.remark(), follow), teller,
-                     streams);
+  return answer_wear(given, told_model(given.input, given.set, given.solver, teller, follow), teller, streams);
 }
 
 int answer_wear(const WearOptions& given, LoadedModel loaded, Teller& teller, const Streams& streams) {

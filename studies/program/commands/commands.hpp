@@ -43,6 +43,7 @@ struct CheckOptions {
   std::string study;
   std::vector<std::string> set;  ///< KEY=VALUE, as given with --set
   bool strict = false;           ///< warnings are errors
+  TellChoice tell = {};
 };
 int run_check(const CheckOptions& options, const Streams& streams);
 
@@ -72,6 +73,7 @@ struct ReduceOptions {
   std::string study;
   std::string model;
   std::vector<std::string> set;  ///< KEY=VALUE, as given with --set
+  TellChoice tell = {};
 };
 int run_reduce(const ReduceOptions& options, const Streams& streams);
 
@@ -160,9 +162,12 @@ struct ServeOptions {
 int run_serve(const ServeOptions& options, const Streams& streams);
 
 /// What a schema is of.
-enum class SchemaOf { study, evaluate };
-constexpr EnumNames<SchemaOf, 2> enum_names(SchemaOf) {
-  return {{{SchemaOf::study, "study"}, {SchemaOf::evaluate, "evaluate"}}};
+enum class SchemaOf { study, evaluate, runs, materials };
+constexpr EnumNames<SchemaOf, 4> enum_names(SchemaOf) {
+  return {{{SchemaOf::study, "study"},
+           {SchemaOf::evaluate, "evaluate"},
+           {SchemaOf::runs, "runs"},
+           {SchemaOf::materials, "materials"}}};
 }
 struct SchemaOptions {
   SchemaOf of = SchemaOf::study;
@@ -184,6 +189,7 @@ inline constexpr std::string_view kMatrixMarket = "matrix-market";
 struct ImportOptions {
   std::string input;  ///< MODEL.toml
   std::string model;  ///< MODEL.h5
+  TellChoice tell = {};
 };
 int run_import(const ImportOptions& options, const Streams& streams);
 
@@ -195,18 +201,21 @@ struct ExportOptions {
   std::optional<int> candidate;  ///< number of an evaluation of a run, from 1; absent: its best design
   bool worn = false;             ///< solids with the flanks that wear leaves
   DeckOptions deck;              ///< of the format inp
+  TellChoice tell = {};
 };
 int run_export(const ExportOptions& options, const Streams& streams);
 
 struct MergeOptions {
   std::vector<std::string> directories;
   std::string directory;  ///< of the merged run
+  TellChoice tell = {};
 };
 int run_merge(const MergeOptions& options, const Streams& streams);
 
 struct ReportOptions {
   std::string directory;
   std::string file;
+  TellChoice tell = {};
 };
 int run_report(const ReportOptions& options, const Streams& streams);
 
@@ -277,6 +286,13 @@ template <>
 std::span<const Option<AnalysisChoice>> command_options<AnalysisChoice>();
 template <>
 std::span<const Option<DeckOptions>> command_options<DeckOptions>();
+
+/// The model that a command is about (engine.hpp); people hear that it is made, and how long that takes.
+[[nodiscard]] LoadedModel told_model(const std::string& input, const std::vector<std::string>& set,
+                                     const SolverChoice& solver, Teller& teller,
+                                     std::optional<wear::Follow> follow = {});
+/// The same of a study that is read.
+[[nodiscard]] LoadedModel told_model(const Study& study, Teller& teller, std::optional<wear::Follow> follow = {});
 
 /// Writes a command's JSON to where --json says: nowhere when empty, `out` for "-", else a file. Throws InputError.
 void deliver_json(const std::string& where, const std::string& text, const Streams& streams);

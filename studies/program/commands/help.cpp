@@ -40,7 +40,10 @@ CommandHelp reduce() {
 CommandHelp check() {
   return {.name = "check",
           .what = "Read and validate a study, computing nothing",
-          .footer = "Every problem is told at once, one sentence each, with the line it stands on."};
+          .footer =
+              "Every problem is told at once, one sentence each, with the line it stands on. --set is taken as `run` "
+              "takes it.\n"
+              "Large sectors assemble the stress of their own preload, whatever solver.prestress says."};
 }
 
 CommandHelp create() {
@@ -53,8 +56,8 @@ CommandHelp materials() {
       .what = "List the materials that a study may name",
       .footer =
           "A study names one as  material = \"Inconel 718\"  for blade and disk, or as grade in [material.blade] and\n"
-          "[material.disk], where numbers replace single values of it. JSON: [{\"name\", \"youngs_modulus_gpa\",\n"
-          "\"poisson_ratio\", \"density_kg_m3\", \"source\"}]."};
+          "[material.disk], where numbers replace single values of it. JSON: {\"version\", \"materials\":\n"
+          "[{\"name\", \"youngs_modulus_gpa\", \"poisson_ratio\", \"density_kg_m3\", \"source\"}]}."};
 }
 
 CommandHelp response() {
@@ -161,9 +164,10 @@ CommandHelp runs() {
   return {.name = "runs",
           .what = "List and compare runs: status, evaluations, objective and best values",
           .footer =
-              "A run that has no results yet counts as far as its journal goes. JSON: [{\"directory\", \"name\", "
-              "\"status\",\n\"evaluations\", \"feasible\", \"failed\", \"best\", \"objective\", \"start\", "
-              "\"variables\", \"responses\", \"seconds\"}];\nvariables and responses are those of the best design, "
+              "A run that has no results yet counts as far as its journal goes. JSON: {\"version\", \"runs\": "
+              "[{\"directory\",\n\"name\", \"status\", \"evaluations\", \"feasible\", \"failed\", \"best\", "
+              "\"objective\", \"start\", "
+              "\"variables\", \"responses\", \"seconds\"}]};\nvariables and responses are those of the best design, "
               "null what is not known."};
 }
 
@@ -177,7 +181,7 @@ CommandHelp serve() {
 }
 
 CommandHelp schema() {
-  return {.name = "schema", .what = "Write the JSON Schema of study files, or of the JSON of evaluate"};
+  return {.name = "schema", .what = "Write the JSON Schema of study files, or of the JSON of a command"};
 }
 
 CommandHelp completion() {

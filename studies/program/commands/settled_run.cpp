@@ -1,6 +1,7 @@
 #include "studies/program/commands/settled_run.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <atomic>
@@ -236,6 +237,26 @@ std::string question_of(const Study& study) {
 
 }  // namespace
 
+void refuse_changed(const std::filesystem::path& directory, const Study& study) {
+  const std::filesystem::path kept = directory / "study.toml";
+  if (!std::filesystem::exists(kept)) return;
+  std::vector<std::string> changed =
+      changed_values(load_document(kept.string()), parse_document(study.text, study.file));
+  if (changed.empty()) return;
+  constexpr std::size_t kTold = 6;
+  if (const std::size_t all = changed.size(); all > kTold) {
+    changed.resize(kTold);
+    changed.push_back(fmt::format("{} more", all - kTold));
+  }
+  throw InputError(Violation{
+      .file = directory.string(),
+      .key = "--resume",
+      .value = {},
+      .allowed = fmt::format("the run there is of another study than the one at hand: {}; give the same --set as then, "
+                             "resume {} as it is kept, or choose another directory",
+                             fmt::join(changed, ", "), kept.string())});
+}
+
 SettledStudy settled_run(const Study& asked, const std::filesystem::path& directory, bool resume,
                          const RunEngineFactory& make_engine, Teller& teller) {
   const bool chooses = asked.scene.solver.accuracy > 0;
@@ -243,12 +264,14 @@ SettledStudy settled_run(const Study& asked, const std::filesystem::path& direct
   const std::string question = question_of(asked);
   const std::filesystem::path file = directory / kFile;
   std::optional<Chosen> settled = resume ? kept(file, question) : std::nullopt;
-  if (!settled && resume && std::filesystem::exists(file) && std::filesystem::exists(directory / "journal.jsonl"))
+  if (!settled && resume && std::filesystem::exists(file) && std::filesystem::exists(directory / "journal.jsonl")) {
+    refuse_changed(directory, asked);
     throw InputError(Violation{.file = file.string(),
                                .key = "the choice in it",
                                .value = {},
                                .allowed = "was made for another study, accuracy or accuracy_work than the one at "
                                           "hand: resume that one, or begin anew without --resume"});
+  }
   if (!settled) {
     KeptRounds rounds(directory / kRounds, question);
     settled = chosen(asked, rounds, make_engine, teller);

@@ -21,6 +21,10 @@ struct SettledStudy {
   optimizer::BarParts raised = {};  ///< of the design there, see optimizer::SettingsChoice
 };
 
+/// Throws the InputError of a study that is not the one which the run in the directory was begun with, with what has
+/// changed; returns where nothing is seen to have.
+void refuse_changed(const std::filesystem::path& directory, const Study& study);
+
 /// The study with everything that a run chooses before its search, as if it stood in its file: settings for the
 /// accuracy it asks for, and the noise of its responses, both of the start. Kept in settings.json of the directory, and
 /// with `resume` taken from there when the same was asked for.

@@ -168,7 +168,7 @@ std::span<const Option<ServeOptions>> command_options<ServeOptions>() {
 template <>
 std::span<const Option<SchemaOptions>> command_options<SchemaOptions>() {
   static const std::vector<Option<SchemaOptions>> table{
-      {"OF", &SchemaOptions::of, {}, "Of a study file, or of the JSON of evaluate", true}};
+      {"OF", &SchemaOptions::of, {}, "Of a study file, or of the JSON of that command", true}};
   return table;
 }
 

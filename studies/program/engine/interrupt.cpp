@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstring>
 #include <string>
+#include <utility>
 
 #include "core/replace_file.hpp"
 
@@ -41,6 +42,8 @@ class Sentence {
 };
 Sentence finishing, ending;
 
+thread_local std::atomic<bool>* asked_to_end = nullptr;  // null: signals ask
+
 extern "C" void on_interrupt(int) {
   if (orderly.load() && !stop_requested.exchange(true)) return finishing.write();
   remove_unfinished_file();
@@ -51,23 +54,27 @@ extern "C" void on_interrupt(int) {
 }  // namespace
 
 void say_when_interrupted(const std::string& under_way, const std::string& kept) {
+  if (asked_to_end != nullptr) return;  // nobody hears it, and of all threads only one may change it
   finishing.set("\ndovetail: finishing " + under_way + "; Ctrl-C again to stop now\n");
   ending.set("\ndovetail: interrupted; " + kept + "\n");
 }
 
-OrderlyInterrupt::OrderlyInterrupt() {
+OrderlyInterrupt::OrderlyInterrupt() : flag_(asked_to_end != nullptr ? *asked_to_end : stop_requested) {
+  if (asked_to_end != nullptr) return;
   stop_requested = false;
   orderly = true;
 }
 OrderlyInterrupt::~OrderlyInterrupt() {
-  orderly = false;
+  if (&flag_ == &stop_requested) orderly = false;
 }
-const std::atomic<bool>& OrderlyInterrupt::flag() const {
-  return stop_requested;
+
+AskedToEnd::AskedToEnd(std::atomic<bool>& flag) : before_(std::exchange(asked_to_end, &flag)) {}
+AskedToEnd::~AskedToEnd() {
+  asked_to_end = before_;
 }
 
 void request_interrupt() {
-  stop_requested = true;
+  (asked_to_end != nullptr ? *asked_to_end : stop_requested) = true;
 }
 
 void install_interrupt_handler() {

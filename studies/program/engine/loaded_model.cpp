@@ -168,14 +168,19 @@ LoadedModel load_model(Study study, std::ostream* err, std::optional<wear::Follo
 }
 
 LoadedModel load_model(const std::string& given, const std::vector<std::string>& set, const SolverChoice& solver,
-                       std::ostream* err, std::optional<wear::Follow> follow) {
+                       std::ostream* err, std::optional<wear::Follow> follow,
+                       const std::function<void(const Study&)>& begins) {
   const std::string input = study_or_best(given, err);
   if (is_hdf5_file(input)) {
     const steady::Options steady = model_options(input, set, solver);
     return from_model(input, reduction::read_model(input), steady, solver);
   }
   const Document document = load_document(input);
-  if (!is_model_document(document)) return load_model(load_study(input, overrides(set, solver)), err, follow);
+  if (!is_model_document(document)) {
+    Study study = load_study(input, overrides(set, solver));
+    if (begins) begins(study);
+    return load_model(std::move(study), err, follow);
+  }
   const steady::Options steady = model_options(input, set, solver);
   return from_model(input, read_model_document(document), steady, solver);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <iosfwd>
 #include <optional>
 #include <string>
@@ -37,9 +38,11 @@ struct LoadedModel {
 /// - `given`: a model, a study, or the directory of a run: its best design
 /// - `err`: hears what of a study does not count here; null: nobody does
 /// - `follow`: what drives the wear, where it is not what the study says: contact nodes end where its zones end
+/// - `begins`: hears of a study before its model is made, which takes long
 [[nodiscard]] LoadedModel load_model(const std::string& given, const std::vector<std::string>& set,
                                      const SolverChoice& solver, std::ostream* err = nullptr,
-                                     std::optional<wear::Follow> follow = {});
+                                     std::optional<wear::Follow> follow = {},
+                                     const std::function<void(const Study&)>& begins = {});
 
 /// The same of a reduced model in memory, which messages call by `name`. Throws InputError for one that is not valid.
 [[nodiscard]] LoadedModel take_model(const std::string& name, reduction::ReducedModel model,

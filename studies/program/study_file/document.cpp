@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <utility>
 
@@ -206,6 +207,34 @@ void apply_overrides(Document& document, std::span<const Override> overrides) {
     if (table) member(*table, rest) = value_of(given);
   }
   refuse(std::move(refused));
+}
+
+namespace {
+
+/// All values by their dotted keys, of lists by their numbers, too.
+void collect_values(const Node& node, const std::string& path, std::map<std::string, std::string>& values) {
+  for (const Member& member : node.members)
+    collect_values(member.value, path.empty() ? member.key : path + "." + member.key, values);
+  for (std::size_t i = 0; i < node.items.size(); ++i)
+    collect_values(node.items[i], path + "[" + std::to_string(i) + "]", values);
+  if (node.members.empty() && node.items.empty()) values[path] = node.shown();
+}
+
+}  // namespace
+
+std::vector<std::string> changed_values(const Document& before, const Document& now) {
+  std::map<std::string, std::string> old_values, values;
+  collect_values(before.root, "", old_values);
+  collect_values(now.root, "", values);
+  std::vector<std::string> changed;
+  for (const auto& [key, value] : values)
+    if (const auto old = old_values.find(key); old == old_values.end())
+      changed.push_back(key + " = " + value + " (it was not given)");
+    else if (old->second != value)
+      changed.push_back(key + " = " + value + " (it was " + old->second + ")");
+  for (const auto& [key, value] : old_values)
+    if (!values.contains(key)) changed.push_back(key + " missing (it was " + value + ")");
+  return changed;
 }
 
 }  // namespace dovetail::studies

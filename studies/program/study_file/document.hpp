@@ -68,6 +68,9 @@ struct Document {
 /// Parses the text; `file` names it in messages. Throws InputError.
 [[nodiscard]] Document parse_document(std::string text, std::string file);
 
+/// What the study at hand says otherwise than another one did: "contact.friction = 0.6 (it was 0.5)".
+[[nodiscard]] std::vector<std::string> changed_values(const Document& before, const Document& now);
+
 /// A number as TOML writes it: with a point or an exponent, so that it is no whole number and -0 keeps its sign.
 [[nodiscard]] std::string real_text(double value);
 

@@ -5,6 +5,7 @@
 #include "paths/params.hpp"
 #include "paths/steady_state.hpp"
 #include "steady/solve.hpp"
+#include "steady/tangent.hpp"
 #include "tests/verification/steady/rod.hpp"
 
 namespace dovetail::paths {
@@ -36,6 +37,17 @@ TEST_F(FadingDashpots, LeadToTheStateWithoutThem) {
   // Both to a residual of 1e-9, and the strong dashpots leave hardly any of the motion.
   EXPECT_LT((followed.points.back().state.displacement - direct.displacement).norm(), 1e-7 * size);
   EXPECT_GT((strong_.point.displacement - direct.displacement).norm(), 1e-2 * size);
+}
+
+TEST_F(FadingDashpots, AreNotLentToTheModel) {
+  ASSERT_EQ(strong_.status, Status::converged);
+  steady::Point point = strong_.point;
+  steady::differentiate(point);
+  const auto tangent = std::make_shared<const steady::Tangent>(std::make_shared<const steady::Point>(std::move(point)));
+  ASSERT_FALSE(tangent->problem().system().of_model);
+  const steady::State direct = steady_state(joint_, kOmega), reused = steady_state(joint_, kOmega, {}, tangent);
+  ASSERT_EQ(reused.status, Status::converged);
+  EXPECT_LT((reused.displacement - direct.displacement).norm(), 1e-7 * direct.displacement.norm());
 }
 
 TEST_F(FadingDashpots, AreLostWithoutJacobians) {

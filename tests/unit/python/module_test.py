@@ -12,6 +12,7 @@ import sys
 import tempfile
 import threading
 import time
+import tomllib
 import unittest
 
 import h5py
@@ -202,7 +203,7 @@ class PythonModule(unittest.TestCase):
         read = [(self.folder / who / "journal.jsonl").read_text().splitlines() for who in ("ours", "theirs")]
         self.assertEqual(len(read[0]), len(read[1]))
         for ours, theirs in zip(*map(lambda lines: [json.loads(line) for line in lines], read)):
-            self.assertEqual(ours.get("evaluation", {}).get("responses"), theirs.get("evaluation", {}).get("responses"))
+            self.assertEqual(ours.get("record", {}).get("responses"), theirs.get("record", {}).get("responses"))
         if answer["best"]:
             self.assertEqual(pathlib.Path(answer["best"]).read_text(), (self.folder / "theirs" / "best.toml").read_text())
         with self.assertRaisesRegex(RuntimeError, "enough"):
@@ -210,6 +211,75 @@ class PythonModule(unittest.TestCase):
         stopped = []
         answer = dovetail.run(study, self.folder / "third", jobs=1, callback=lambda number, *_: stopped.append(number) or number < 2)
         self.assertEqual((answer["status"], stopped), ("interrupted", [1, 2]))
+
+    def test_values_that_are_words_lists_and_new_keys_are_in_a_run_as_in_an_evaluation(self):
+        study, _ = self.coarse()
+        for key, value in {"solver.solver": "newton", "title": 'a "title"', "solver.prestress": "own",
+                           "export.formats": ["csv", "dxf"], "optimizer.departures": False, "optimizer.verify": 0,
+                           "optimizer.finer_meshes": 0, "optimizer.scan_evaluations": 0,
+                           "optimizer.max_evaluations": np.int64(1), "geometry.left.flank_edge_radius_mm": 0.0}.items():
+            study.set(key, value)
+        log = self.folder / "run.jsonl"
+        dovetail.run(study, self.folder / "out", jobs=1, json_log=log)
+        kept = tomllib.loads((self.folder / "out" / "study.toml").read_text())
+        self.assertEqual((kept["solver"]["solver"], kept["title"]), ("newton", 'a "title"'))
+        self.assertEqual(kept["geometry"]["left"]["flank_edge_radius_mm"], 0)
+        self.assertTrue((self.folder / "out" / "best.dxf").exists())
+        evaluated, = [json.loads(line) for line in (self.folder / "out" / "journal.jsonl").read_text().splitlines()[1:]]
+        answer = study.evaluate(no_bars=True, no_history=True)
+        self.assertTrue(evaluated["record"]["responses"])
+        for name, value in evaluated["record"]["responses"].items():
+            self.assertEqual(answer.responses[name], value, name)
+        events = [json.loads(line)["event"] for line in log.read_text().splitlines()]
+        self.assertEqual((events[0], events[-1], events.count("evaluation")), ("begin", "end", 1), events)
+        # The directory of the run stands for its best design.
+        best = dovetail.Study(self.folder / "out")
+        self.assertEqual(best.path, str(self.folder / "out" / "best.toml"))
+        self.same(best.evaluate(no_bars=True), self.json("evaluate", self.folder / "out", "--no-bars"))
+        told = self.program("evaluate", self.folder, status=2).stderr.strip()
+        with self.assertRaises(dovetail.InputError) as caught:
+            dovetail.Study(self.folder)
+        self.assertEqual(str(caught.exception), told)
+
+    def test_functions_write_a_log(self):
+        path, log = self.folder / "rod.h5", self.folder / "log.jsonl"
+        write_model.write_model(path, write_model.rod(2))
+        study, _ = self.coarse()
+        for call in (lambda: study.evaluate(no_bars=True, json_log=log), lambda: dovetail.response(path, [0.3], json_log=log),
+                     lambda: dovetail.response(dovetail.Model.read(path), [0.3], json_log=str(log)),
+                     lambda: dovetail.wear(study, method="asymptote", json_log=log)):
+            log.unlink(missing_ok=True)
+            call()
+            events = [json.loads(line) for line in log.read_text().splitlines()]
+            self.assertTrue(events)
+            self.assertTrue(all(event["event"] == "stage" and event["what"] for event in events), events)
+
+    def test_what_ends_one_computation_is_nothing_to_other_threads(self):
+        text = QUICKSTART.read_text().replace("scan_evaluations = 24", "scan_evaluations = 3")
+        (self.folder / "study.toml").write_text(text)
+        study, path = dovetail.Study(self.folder / "study.toml"), self.folder / "rod.h5"
+        for key, value in COARSE.items():
+            study.set(key, value)
+        write_model.write_model(path, write_model.rod(4))
+        model, frequencies = dovetail.Model.read(path), np.linspace(0.3, 0.5, 40)
+        answers, over = [], threading.Event()
+
+        def respond():
+            while not over.is_set():
+                answers.append(dovetail.response(model, frequencies))
+
+        other = threading.Thread(target=respond)
+        other.start()
+        stopped = []
+        try:
+            run = dovetail.run(study, self.folder / "out", jobs=1,
+                               callback=lambda number, *_: stopped.append(number) or number < 2)
+        finally:
+            over.set()
+            other.join()
+        self.assertEqual((run["status"], stopped), ("interrupted", [1, 2]))
+        self.assertGreater(len(answers), 2)
+        self.assertEqual({(len(answer.frequency_hz), answer.converged) for answer in answers}, {(40, True)})
 
     @staticmethod
     def enough(*_):

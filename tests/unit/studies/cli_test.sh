@@ -102,6 +102,24 @@ expect 2 check s.toml --set geometry --set =3; lines 2; says "must be KEY=VALUE"
 expect 2 evaluate s.toml --harmonics 0; lines 1; says "--harmonics 0: must be >= 1"
 expect 2 response s.toml --from 1 --to 2 --points 2 --tolerance nan; lines 1; says "--tolerance nan"
 
+# check takes --set as run does, and says what the run would be.
+expect 0 check s.toml --set optimizer.max_evaluations=7; answers "the run: up to 7 evaluations"
+expect 0 check s.toml --set title=other --set 'export.formats=["csv"]'
+for set in geometry.neck_width_mm=-3 geometry.neck_wdth_mm=3 optimizer.algorithm=luck 'export.formats=["dwg"]' variable=3 \
+  'geometry=3' 'optimizer.max_evaluations=2.5'; do
+  expect 2 check s.toml --set "$set"; cp err of_check
+  expect 2 run s.toml -o o --set "$set"; absent o
+  cmp -s err of_check || fail "run and check refuse --set $set in other words"
+done
+# What follows from the variables cannot be set.
+{ cat s.toml; printf '\n[[linked]]\nkey = "geometry.shank_width_mm"\nvalue = "geometry_neck_width_mm + 4"\n'; } > linked.toml
+expect 0 check linked.toml
+for command in check evaluate "run -o o" "reduce -o o.h5"; do
+  # shellcheck disable=SC2086
+  expect 2 $command linked.toml --set geometry.shank_width_mm=12; lines 1
+  says "geometry.shank_width_mm"; says "follows from the design variables and cannot be set"; absent o; absent o.h5
+done
+
 # The settings of the contact computation are keys of a study, too
 expect 0 check s.toml --set solver.pseudo_penalty_n_per_m=1e8 --set solver.solver=powell_fd
 expect 2 check s.toml --set solver.pseudo_penalty_n_per_m=-1; lines 1; says "must be >= 0"
@@ -124,6 +142,12 @@ done
 
 expect 2 export s.toml --set geometry.sectors=90 --format step -o i.step; says "the design is infeasible: "; absent i.step
 expect 0 export s.toml --set geometry.sectors=90 --format dxf -o i.dxf; says "the design is infeasible: "
+for format in vtu pvd inp matrix-market; do
+  expect 2 export s.toml --set geometry.sectors=90 --format $format -o i.toml; absent i.toml
+  says "s.toml: the design is infeasible: "; grep -q "infeasible: ..*mm" err || fail "export --format $format names no rule"
+done
+expect 2 export s.toml --set geometry.sectors=90 --format stl --worn -o i.stl; absent i.stl
+says "s.toml: the design is infeasible: "; grep -q "infeasible: ..*mm" err || fail "export --worn names no rule"
 expect 3 evaluate s.toml --no-bars --set scene.speed_rpm=1e9; says "scene.speed_rpm = 1e+09 no equilibrium exists"
 expect 3 reduce s.toml -o fast.h5 --set scene.speed_rpm=1e9; says "no equilibrium exists"; absent fast.h5
 

@@ -96,6 +96,16 @@ TEST(Dakota, FilesThatMeanSomethingElseAreRefused) {
   EXPECT_THAT(told(kStandard.substr(0, kStandard.find("                  -1.2e+01"))), HasSubstr("cut short"));
   EXPECT_THAT(told("[geometry]\nneck = 3\n"), HasSubstr("is no line of a Dakota parameters file"));
   EXPECT_THAT(told(replaced_once(kStandard, "8.749999999999998e+00", "wide")), HasSubstr("is no line"));
+  for (const char* count : {"-1", "1e300", "2.5", "nan", "99999999999", "two"}) {
+    const std::string text = replaced_once(kStandard, "2 variables", std::string(count) + " variables");
+    EXPECT_THAT(told(text), HasSubstr(std::string("variables = ") + count + ": must be a whole number, >= 0 and <= "));
+    const std::string set = replaced_once(kStandard, "1 ASV_1", std::string(count) + " ASV_1");
+    EXPECT_THAT(told(set), testing::AnyOf(HasSubstr("ASV_1:mass_kg = " + std::string(count) + ": must be a whole"),
+                                          HasSubstr("two ASV_1:mass_kg: is no line")));
+  }
+  EXPECT_THAT(told(replaced_once(kStandard, "2 variables", "variables")), HasSubstr("variables: is no line"));
+  EXPECT_THAT(told(replaced_once(kStandard, "2 variables", "1 variables")), HasSubstr("is no line"));
+  EXPECT_THAT(told(replaced_once(kStandard, "1 ASV_1", "8 ASV_1")), HasSubstr("<= 7"));
 }
 
 /// A model of a sum.

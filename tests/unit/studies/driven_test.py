@@ -68,6 +68,31 @@ def check_schemas(folder):
         validator.validate(real)
     assert not validator.is_valid(real | {"feasible": "yes"})
     assert real["version"] == 1, real
+    check_lists(folder)
+
+
+def check_lists(folder):
+    """Of materials and of runs: one that is finished, one that has a journal alone, one that is damaged."""
+    for run, text in {"runs/torn": "torn", "runs/begun": None}.items():
+        (folder / run).mkdir(parents=True)
+        (folder / run / "study.toml").write_text((folder / "study.toml").read_text())
+        if text:
+            (folder / run / "journal.jsonl").write_text(text)
+    once = ["--set", "optimizer.max_evaluations=1", "--set", "optimizer.verify=0", "--set", "optimizer.departures=false",
+            "--set", "optimizer.finer_meshes=0", "--set", "optimizer.scan_evaluations=0"]
+    subprocess.run([program, "run", "study.toml", "-o", "runs/done", *once], cwd=folder, capture_output=True, check=False)
+    (folder / "runs/begun/journal.jsonl").write_text((folder / "runs/done/journal.jsonl").read_text())
+    for command, name, of, count in ((["runs", "runs"], "runs", "status", 3), (["materials"], "materials", "name", 5)):
+        schema = json.loads(answer("schema", name))
+        jsonschema.Draft202012Validator.check_schema(schema)
+        validator = jsonschema.Draft202012Validator(schema)
+        real = json.loads(answer(*command, "--json", "-", folder=folder))
+        validator.validate(real)
+        assert real["version"] == 1 and len(real[name]) >= count, real
+        assert not validator.is_valid(real | {"version": 2}) and not validator.is_valid(real[name])
+        assert not validator.is_valid(real | {name: [{key: row[key] for key in row if key != of} for row in real[name]]})
+        if name == "runs":
+            assert [run["status"] for run in real["runs"]][::2] == ["unfinished", "damaged"], real
 
 
 def check_dakota(folder):
@@ -84,6 +109,21 @@ def check_dakota(folder):
     (folder / "params.in").write_text((folder / "params.in").read_text().replace("1 ASV_1", "2 ASV_1"))
     answer("evaluate", "study.toml", *quick, "--dakota", "params.in", "results.out", folder=folder, status=3)
     assert (folder / "results.out").read_text().startswith("fail: derivatives"), (folder / "results.out").read_text()
+    # What is no question, or a value that no design has, is a design that failed: no older answer stands for it.
+    good = (folder / "params.in").read_text().replace("2 ASV_1", "1 ASV_1")
+    for old, new, told in (("1 variables", "1e300 variables", "variables = 1e300: must be a whole number"),
+                           ("2 functions", "-2 functions", "functions = -2: must be a whole number"),
+                           ("1 variables", "variables", "is no line of a Dakota parameters file"),
+                           ("1 ASV_1", "1.5 ASV_1", "ASV_1:mass_kg = 1.5: must be a whole number"),
+                           ("8.75", "-3", "geometry.neck_width_mm=-3: must be > 0"),
+                           ("8.75", "nan", "geometry.neck_width_mm=nan: must be a number > 0")):
+        (folder / "params.in").write_text(good.replace(old, new, 1))
+        (folder / "results.out").write_text("1 mass_kg\n")
+        done = subprocess.run([program, "evaluate", "study.toml", *quick, "--dakota", "params.in", "results.out"],
+                              cwd=folder, capture_output=True, text=True)
+        result = (folder / "results.out").read_text()
+        assert done.returncode == 2 and told in done.stderr, (new, done.stderr)
+        assert result.startswith("fail: ") and told in result and len(result.splitlines()) == 1, result
 
 
 def check_um_bridge(folder):

@@ -175,6 +175,17 @@ direction = 1
             self.assertIn(sentence, done.stderr)
             self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
 
+    def test_a_load_that_acts_nowhere_is_refused(self):
+        force = "[[force]]\nfile = 'load.inp'\nharmonic = 1\ncosine = 1\n"
+        for line, status in (("9, 1, 1.0", 2), ("1, 3, 1.0", 2), ("9, 1, 1.0\n2, 1, 1.0", 0)):
+            with open(os.path.join(self.folder.name, "load.inp"), "w") as file:
+                file.write(f"*CLOAD\n{line}\n")
+            done = self.run_program("import", self.structure(force), "-o", "joint.h5")
+            self.assertEqual(done.returncode, status, done.stderr)
+            if status:
+                self.assertRegex(done.stderr, r"force\[2\]\.file: has no force at a node and direction of the matrices\n$")
+                self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+
     def test_a_threshold_of_a_law_without_one_is_refused(self):
         data = {**slider(), "/contact/wear_threshold": np.array([3.0])}
         for command in (("wear", self.model, "--method", "asymptote", "--frequency", 1),

@@ -14,6 +14,7 @@
 
 #include "core/replace_file.hpp"
 #include "optimizer/journal/journal.hpp"
+#include "studies/program/answers/run_clock.hpp"
 #include "studies/program/commands/commands.hpp"
 #include "studies/program/commands/kept_rounds.hpp"
 #include "studies/program/engine/engine.hpp"
@@ -702,7 +703,53 @@ TEST_F(Run, ResumingAnotherStudyIsRefused) {
   std::ifstream stream(study());
   const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   replace_file(study(), replaced(text, "friction = 0.5", "friction = 0.4"));
-  EXPECT_THROW(run(true, counted(calls)), InputError);
+  try {
+    run(true, counted(calls));
+    ADD_FAILURE() << "resumed";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::AllOf(HasSubstr("contact.friction = 0.4 (it was 0.5); give the same --set"),
+                                             HasSubstr((results() / "study.toml").string())));
+  }
+  // What counts for nothing that was computed may change; the study that is kept is the run's.
+  const RunOptions kept{.study = (results() / "study.toml").string(),
+                        .set = {"title=other"},
+                        .directory = results().string(),
+                        .resume = true,
+                        .jobs = 1};
+  EXPECT_EQ(run_study(kept, {.out = out_, .err = err_}, counted(calls)), kDone) << err_.str();
+}
+
+TEST_F(Run, CountsTheTimeOfAllItsSessions) {
+  int calls = 0;
+  ASSERT_EQ(run(false, counted(calls)), kDone);
+  const auto seconds = [&] { return report::read_results(results() / "results.h5").seconds; };
+  const double first = seconds();
+  EXPECT_GT(first, 0);
+  EXPECT_GE(seconds_taken(results()), first);
+  keep_seconds_taken(results(), 1000);
+  const std::string text = text_of(study());
+  replace_file(study(), replaced(text, "max_evaluations = 40", "max_evaluations = 42"));
+  ASSERT_EQ(run(true, counted(calls)), kDone) << err_.str();
+  EXPECT_GT(seconds(), 1000);
+  EXPECT_LT(seconds(), 1100);
+  EXPECT_GE(seconds_taken(results()), seconds());
+  // A part of a scan counts as well, and what is merged of them is their sum.
+  const MergeOptions merge{.directories = {results().string(), results().string()},
+                           .directory = (directory_ / "merged").string()};
+  const double each = seconds_taken(results());
+  ASSERT_EQ(run_merge(merge, {.out = out_, .err = err_}), kDone);
+  EXPECT_EQ(seconds_taken(directory_ / "merged"), 2 * each);
+  replace_file(results() / "time.json", "{\"seconds\"");  // damaged
+  EXPECT_EQ(seconds_taken(results()), 0);
+}
+
+TEST_F(Run, EndsWhateverBecomesOfItsExports) {
+  fs::create_directories(results() / "best.dxf");  // no file can take its place
+  int calls = 0;
+  ASSERT_EQ(run(true, counted(calls)), kDone) << err_.str();
+  EXPECT_THAT(err_.str(), HasSubstr("best.dxf: not written: "));
+  for (const char* file : {"results.h5", "report.html", "best.toml", "finished.json"})
+    EXPECT_TRUE(fs::exists(results() / file)) << file;
 }
 
 TEST_F(Run, WithoutAFeasibleDesignNothingIsCalledBest) {
@@ -805,6 +852,23 @@ TEST_F(Run, BeginsNoEvaluationAfterItsTime) {
     ASSERT_EQ(run(true, slow, jobs), kDone) << err_.str();
     EXPECT_GT(optimizer::read_journal(results() / "journal.jsonl").records.size(), first);
   }
+  // So does a part of the scan, which a later call ends.
+  fs::remove_all(results());
+  replace_file(study(), replaced(text_of(study()), "scan_evaluations = 0", "scan_evaluations = 20"));
+  RunOptions part{.study = study(),
+                  .set = {"optimizer.time_limit_s=0.2"},
+                  .directory = results().string(),
+                  .jobs = 1,
+                  .part = "1/2"};
+  out_.str("");
+  ASSERT_EQ(run_study(part, {.out = out_, .err = err_}, slow), kDone);
+  EXPECT_THAT(out_.str(), HasSubstr("the time is over in part 1 of 2 of the scan: "));
+  EXPECT_THAT(out_.str(), HasSubstr(" of its 11 evaluations are kept in "));
+  EXPECT_LT(optimizer::read_journal(results() / "journal.jsonl").records.size(), 11U);
+  part.set.clear();
+  part.resume = true;
+  ASSERT_EQ(run_study(part, {.out = out_, .err = err_}, counted(calls)), kDone);
+  EXPECT_EQ(optimizer::read_journal(results() / "journal.jsonl").records.size(), 11U);
 }
 
 TEST_F(Run, TellsProgramsAndKeepsQuiet) {
@@ -880,7 +944,12 @@ TEST_F(Run, IsComparedWithOthers) {
   ASSERT_EQ(run_runs(options, {.out = out_, .err = err_}), kDone);
   EXPECT_THAT(out_.str(),
               testing::AllOf(HasSubstr("all/a"), HasSubstr("unfinished"), HasSubstr("geometry.neck_width_mm")));
-  const nlohmann::json runs = nlohmann::json::parse(text_of(json));
+  const auto listed = [&] {
+    const nlohmann::json answer = nlohmann::json::parse(text_of(json));
+    EXPECT_EQ(answer.at("version"), 1);
+    return answer.at("runs");
+  };
+  nlohmann::json runs = listed();
   ASSERT_EQ(runs.size(), 2U);
   EXPECT_EQ(runs[1].at("evaluations"), 4);
   EXPECT_EQ(runs[1].at("status"), "unfinished");
@@ -891,6 +960,21 @@ TEST_F(Run, IsComparedWithOthers) {
   const auto rows = table_of(csv);
   ASSERT_EQ(rows.size(), 3U);
   for (const auto& row : rows) EXPECT_EQ(row.size(), rows.front().size());
+  // A damaged one is listed and hides no other.
+  for (const char* name : {"results.h5", "journal.jsonl"}) {
+    fs::create_directories(directory_ / "all" / "aa");
+    replace_file(directory_ / "all" / "aa" / name, "torn");
+    replace_file(directory_ / "all" / "aa" / "study.toml", "[torn");
+    out_.str("");
+    ASSERT_EQ(run_runs(options, {.out = out_, .err = err_}), kDone);
+    const nlohmann::json with = listed();
+    ASSERT_EQ(with.size(), 3U);
+    EXPECT_EQ(with[1].at("status"), "damaged");
+    EXPECT_EQ(with[0], runs[0]);
+    EXPECT_EQ(with[2], runs[1]);
+    EXPECT_THAT(out_.str(), testing::AllOf(HasSubstr("damaged"), HasSubstr("unfinished")));
+    fs::remove_all(directory_ / "all" / "aa");
+  }
   EXPECT_THROW(run_runs({.directories = {directory_.string()}, .csv = {}, .json = {}}, {.out = out_, .err = err_}),
                InputError);
 }
