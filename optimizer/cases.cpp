@@ -149,17 +149,10 @@ Evaluation evaluated_in_cases(std::span<const LoadCase> cases, const Scene& scen
   if (cases.empty()) {
     answers[0] = evaluate(scene, 0);
   } else {
-    std::vector<bool> done(loads);
-    const auto compute = [&](std::size_t load) {
-      if (!done[load])
-        answers[load] = evaluated_or_refused([&] { return evaluate(in_case(scene, cases[load]), load); });
-      done[load] = true;
-    };
-    compute(0);
-    if (answers[0].infeasible()) return together(cases, scene, std::span(answers).first(1));
-    for (std::size_t first = 0; first < loads; ++first)
-      for (std::size_t load = first; load < loads; ++load)
-        if (share_matrices(cases[load], cases[first])) compute(load);
+    for (const std::size_t load : by_what_they_share(cases)) {
+      answers[load] = evaluated_or_refused([&] { return evaluate(in_case(scene, cases[load]), load); });
+      if (load == 0 && answers[0].infeasible()) return together(cases, scene, std::span(answers).first(1));
+    }
   }
   if (std::ranges::all_of(answers, &Evaluation::converged))
     for (std::size_t i = 0; i < missions.size(); ++i)

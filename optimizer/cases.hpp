@@ -34,8 +34,8 @@ using CaseEvaluator = std::function<Evaluation(const Scene& scene, std::size_t l
 /// In all of a mission, which has that place after the cases.
 using MissionEvaluator = std::function<Evaluation(const MissionCases& mission, std::size_t place)>;
 
-/// The same, each case evaluated by itself, one after the other: those that share their matrices in a row. Then the
-/// missions, where no case failed.
+/// The same, each case evaluated by itself, one after the other: those that share most in a row. Then the missions,
+/// where no case failed.
 [[nodiscard]] Evaluation evaluated_in_cases(std::span<const LoadCase> cases, const Scene& scene,
                                             const CaseEvaluator& evaluate, std::span<const MissionCases> missions = {},
                                             const MissionEvaluator& evaluate_mission = {});

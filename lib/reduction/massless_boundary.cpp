@@ -125,8 +125,10 @@ Eigen::VectorXd glued_frequencies(const TraceModel& trace) {
   const Eigen::MatrixXd forces = -g.solve(on_contact);
   Eigen::MatrixXd glued = glued_stiffness(basis, on_contact, forces);
   if (trace.change) {
-    const Eigen::MatrixXd fields = structure.field(Eigen::MatrixXd::Identity(m, m), forces);
-    glued += symmetric(numerics::transposed_product(fields, trace.change->whole * fields));
+    Eigen::MatrixXd coordinates(contact + m, m);
+    coordinates << forces, Eigen::MatrixXd::Identity(m, m);
+    glued +=
+        symmetric(numerics::transposed_product(coordinates, numerics::product(trace.change->on_trace, coordinates)));
   }
   const numerics::SymmetricPairs pairs = numerics::all_values<double>(glued);
   if (pairs.status != Status::converged) return unknown;

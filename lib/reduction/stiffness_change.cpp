@@ -50,27 +50,29 @@ StiffnessChange stiffness_change(const ResidualFlexibility& structure, Sparse ch
   StiffnessChange result;
   result.whole.swap(change);
   const Eigen::MatrixXd& phi = structure.basis().vectors;
+  const Eigen::Index nt = forced.cols(), m = phi.cols();
   const Eigen::MatrixXd on_phi = numerics::symmetric_product(result.whole, phi);
-  const Eigen::MatrixXd on_basis = numerics::transposed_product(phi, on_phi);
-  result.on_basis = 0.5 * (on_basis + on_basis.transpose());
+  result.on_trace.resize(nt + m, nt + m);
   // Fields of contact forces decay: of them the rows count where the change is not negligible.
   const std::vector<int> rows = rows_that_count(result.whole);
-  result.on_rows = on_rows(result.whole, rows);
-  result.fields = forced(rows, Eigen::all).transpose();
-  result.of_basis = on_phi(rows, Eigen::all);
+  const Eigen::MatrixXd x = forced(rows, Eigen::all);
+  const Eigen::MatrixXd changed = numerics::product(on_rows(result.whole, rows), numerics::Rows(x));
+  result.on_trace.topLeftCorner(nt, nt) = numerics::transposed_product(x, changed);
+  result.on_trace.topRightCorner(nt, m) = numerics::transposed_product(forced, on_phi);
+  result.on_trace.bottomLeftCorner(m, nt) = result.on_trace.topRightCorner(nt, m).transpose();
+  result.on_trace.bottomRightCorner(m, m) = numerics::transposed_product(phi, on_phi);
+  result.on_trace = (0.5 * (result.on_trace + result.on_trace.transpose())).eval();
   return result;
 }
 
 Eigen::MatrixXd StiffnessChange::on_contact(const Sparse& average) const {
-  const Eigen::Index nc = average.rows(), m = on_basis.rows();
-  const Eigen::MatrixXd x =
-      numerics::product(Eigen::SparseMatrix<double, Eigen::RowMajor>(average), fields).transpose();
-  const Eigen::MatrixXd changed = numerics::product(on_rows, numerics::Rows(x));
+  const Eigen::Index nc = average.rows(), nt = average.cols(), m = on_trace.rows() - nt;
+  const Eigen::MatrixXd averaged = average * on_trace.topRows(nt);  // [nc, nt + m]
   Eigen::MatrixXd result(nc + m, nc + m);
-  result.topLeftCorner(nc, nc) = numerics::transposed_product(x, changed);
-  result.topRightCorner(nc, m) = numerics::transposed_product(x, of_basis);
-  result.bottomLeftCorner(m, nc) = result.topRightCorner(nc, m).transpose();
-  result.bottomRightCorner(m, m) = on_basis;
+  result.topLeftCorner(nc, nc) = averaged.leftCols(nt) * average.transpose();
+  result.topRightCorner(nc, m) = averaged.rightCols(m);
+  result.bottomLeftCorner(m, nc) = averaged.rightCols(m).transpose();
+  result.bottomRightCorner(m, m) = on_trace.bottomRightCorner(m, m);
   return result;
 }
 

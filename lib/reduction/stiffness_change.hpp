@@ -3,20 +3,16 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
-#include "numerics/sparse_product.hpp"
 #include "reduction/residual_flexibility.hpp"
 
 namespace dovetail::reduction {
 
 /// A small change D of the stiffness since a structure was reduced, as reduced models take it to first order: what it
-/// does on the modes of its basis and on the fields of unit forces on its trace. Of the latter only what contact nodes
-/// see of them is ever asked for, which are fewer: X is kept, not X^T D X.
+/// does on the fields X of unit forces on its trace and on the modes Phi of its basis. Contact nodes laid on the trace
+/// take it from there, however often they are laid anew.
 struct StiffnessChange {
-  Eigen::SparseMatrix<double> whole;                     ///< D [n, n]
-  Eigen::MatrixXd on_basis;                              ///< Phi^T D Phi [m, m]
-  Eigen::SparseMatrix<double, Eigen::RowMajor> on_rows;  ///< D on the r rows on which it is not negligible [r, r]
-  numerics::Rows fields;                                 ///< X^T there [nt, r]
-  Eigen::MatrixXd of_basis;                              ///< D Phi there [r, m]
+  Eigen::SparseMatrix<double> whole;  ///< D [n, n]
+  Eigen::MatrixXd on_trace;           ///< [X, Phi]^T D [X, Phi] [nt + m, nt + m], symmetric
 
   /// [X A^T, Phi]^T D [X A^T, Phi] for contact nodes that are averages A [nc, nt] of the trace.
   [[nodiscard]] Eigen::MatrixXd on_contact(const Eigen::SparseMatrix<double>& average) const;

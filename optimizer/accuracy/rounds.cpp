@@ -65,59 +65,6 @@ std::optional<SettingsChoice::Digit> one_more_digit(const std::vector<Settings>&
                                .times_as_long = forecast.operations(there) / forecast.operations(choice.settings)};
 }
 
-/// Rounds whose bars do not meet contradict each other, and nothing says which bar is too small: both reach to where
-/// the other begins. One that contradicts most of the others is out of line, and heard no more.
-void judge(std::vector<KnownRound>& rounds) {
-  const auto contradicted = [&](const KnownRound& round) {
-    return std::ranges::count_if(rounds, [&](const KnownRound& other) { return !round.alone.meets(other.alone); });
-  };
-  for (KnownRound& round : rounds)
-    round.tried.out_of_line = rounds.size() > 2 && 2 * contradicted(round) > static_cast<int>(rounds.size()) - 1;
-  if (std::ranges::all_of(rounds, [](const KnownRound& round) { return round.tried.out_of_line; }))
-    for (KnownRound& round : rounds) round.tried.out_of_line = false;  // there is no line
-  for (KnownRound& round : rounds) {
-    round.forecast = round.alone;
-    for (const KnownRound& other : rounds)
-      if (!other.tried.out_of_line) round.forecast.reach(other.alone);
-    round.tried.by = round.forecast.dominant();
-    round.tried.excess = round.forecast.resolves() ? round.forecast.excess(round.tried.settings) : kInfinity;
-  }
-}
-
-/// By what is known of it; infinite where nothing is.
-double known_excess(const KnownRound& round) {
-  return round.forecast.knows() ? round.forecast.excess(round.tried.settings) : kInfinity;
-}
-
-/// The cheapest that is accurate enough; where none is, of those that are hardly less accurate than the best of them:
-/// what is missed all the same is not paid for. Where no mesh resolves all that is asked of, the rest of it counts, and
-/// without a rest the first.
-const KnownRound& best_of(const std::vector<KnownRound>& rounds) {
-  const auto resolves = [](const KnownRound& round) { return !round.tried.out_of_line && round.forecast.resolves(); };
-  const bool resolved = std::ranges::any_of(rounds, resolves);
-  const auto heard = [&](const KnownRound& round) { return resolved ? resolves(round) : !round.tried.out_of_line; };
-  double least = kInfinity;
-  for (const KnownRound& round : rounds)
-    if (heard(round)) least = std::min(least, known_excess(round));
-  const double limit = least <= 1 ? 1 : kParams.hardly_worse * least;
-  const auto rank = [&](const KnownRound& round) {
-    return std::pair{!heard(round) || known_excess(round) > limit, std::isfinite(limit) ? round.tried.operations : 0};
-  };
-  return *std::ranges::min_element(rounds, {}, rank);
-}
-
-/// Whether the last rounds brought nothing, each by what it says alone: together they raise each other's bars.
-bool runs_idle(const std::vector<KnownRound>& rounds) {
-  double least = kInfinity;
-  int idle = 0;
-  for (const KnownRound& round : rounds) {
-    const double excess = round.alone.knows() ? round.alone.excess(round.tried.settings) : kInfinity;
-    idle = excess < kParams.progress * least || !std::isfinite(least) ? 0 : idle + 1;
-    least = std::min(least, excess);
-  }
-  return idle >= kParams.patience;
-}
-
 struct Foreseen {
   Settings settings;
   double excess;

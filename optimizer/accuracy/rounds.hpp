@@ -5,15 +5,9 @@
 #include <vector>
 
 #include "optimizer/accuracy/choice.hpp"
+#include "optimizer/accuracy/known_rounds.hpp"
 
 namespace dovetail::optimizer {
-
-/// A round that has bars.
-struct KnownRound {
-  SettingsTried tried;
-  AccuracyAnswer answer;
-  Forecast alone, forecast;  ///< before and after the others were heard
-};
 
 /// The rounds of a choice of settings, and what follows from them. What it is made of outlives it.
 class Rounds {

@@ -9,7 +9,7 @@
 #include "geometry/mesh/mesh_motion.hpp"
 #include "geometry/rules/feasibility.hpp"
 #include "optimizer/candidate/contact_nodes.hpp"
-#include "optimizer/candidate/matrices.hpp"
+#include "optimizer/candidate/matrices_store.hpp"
 #include "optimizer/problem/outcome.hpp"
 #include "optimizer/scene/scene.hpp"
 #include "optimizer/scene/scene_kind.hpp"

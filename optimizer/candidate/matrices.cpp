@@ -1,12 +1,12 @@
 #include "optimizer/candidate/matrices.hpp"
 
+#include <map>
 #include <span>
 #include <utility>
 
 #include "fem/stress.hpp"
 #include "optimizer/candidate/contact_nodes.hpp"
 #include "optimizer/candidate/params.hpp"
-#include "optimizer/candidate/stopwatch.hpp"
 #include "optimizer/scene/scene_kind.hpp"
 #include "reduction/static_condensation.hpp"
 #include "steady/preload.hpp"
@@ -130,23 +130,6 @@ void MatricesStages::reduce() {
 
 namespace {
 
-std::shared_ptr<const Matrices> computed(MatricesStages stages, const Matrices* same,
-                                         std::map<std::string, double>& timings_s) {
-  Stopwatch watch;
-  if (same != nullptr) {
-    stages.go_on_from(*same);
-  } else {
-    stages.assemble();
-    timings_s["assembly"] = watch.lap();
-    stages.add_prestress();
-    if (outcome_of(stages.matrices()->status) != Outcome::converged) return stages.matrices();
-    timings_s["prestress"] = watch.lap();
-  }
-  stages.reduce();
-  timings_s["reduction"] = watch.lap();
-  return stages.matrices();
-}
-
 /// Takes the difference to the design's own preload into its matrices. Stress is linear in displacements, and the
 /// geometric stiffness in stress.
 Status add_own_preload(const Scene& scene, const fem::SectorMesh& sector, const fem::ContactCells& cells,
@@ -162,30 +145,7 @@ Status add_own_preload(const Scene& scene, const fem::SectorMesh& sector, const 
   return Status::converged;
 }
 
-MatricesOf asked_for(const Scene& scene, const fem::SectorMesh& sector, const PreloadedContact& by) {
-  std::vector<double> numbers{scene.loading.speed,
-                              by.contact.friction,
-                              by.contact.normal_stiffness,
-                              by.contact.tangential_stiffness,
-                              static_cast<double>(scene.solver.prestress),
-                              static_cast<double>(sector.sectors)};
-  for (const fem::Material& body : materials(scene))
-    numbers.insert(numbers.end(), {body.youngs_modulus, body.poisson_ratio, body.density});
-  for (const fem::Region& region : sector.mesh.regions) numbers.push_back(region.thickness);
-  numbers.insert(numbers.end(), by.gap.begin(), by.gap.end());
-  return {.nodes = sector.mesh.nodes,
-          .connectivity = sector.mesh.connectivity,
-          .region = sector.mesh.region,
-          .numbers = std::move(numbers),
-          .modes = scene.solver.modes};
-}
-
 }  // namespace
-
-bool MatricesOf::same_but_modes(const MatricesOf& other) const {
-  return numbers == other.numbers && connectivity == other.connectivity && region == other.region &&
-         nodes.rows() == other.nodes.rows() && nodes.cols() == other.nodes.cols() && nodes == other.nodes;
-}
 
 bool shares_matrices(std::string_view key) {
   if (key == "loading.tip_force_n" || key == "loading.damping_ratio") return true;
@@ -193,14 +153,44 @@ bool shares_matrices(std::string_view key) {
   return key.starts_with("contact.") && !key.ends_with("_n_per_m3");  // but the springs of rough flanks
 }
 
-bool share_matrices(const LoadCase& one, const LoadCase& other) {
-  const auto unshared = [](const LoadCase& load) {
+namespace {
+
+/// Whether the preload of designs that differ by this key alone is the same.
+bool shares_preload(std::string_view key) {
+  return shares_matrices(key) && !key.starts_with("geometry.") && !key.starts_with("contact.friction");
+}
+
+/// Whether two cases differ in keys alone that are `shared`.
+bool share(const LoadCase& one, const LoadCase& other, bool (*shared)(std::string_view)) {
+  const auto unshared = [&](const LoadCase& load) {
     std::map<std::string, std::pair<double, double>> changes;
     for (const auto& [key, value, times] : load.changes)
-      if (!shares_matrices(key)) changes[key] = {value, times};
+      if (!shared(key)) changes[key] = {value, times};
     return changes;
   };
   return unshared(one) == unshared(other);
+}
+
+}  // namespace
+
+bool share_matrices(const LoadCase& one, const LoadCase& other) {
+  return share(one, other, shares_matrices);
+}
+
+std::vector<std::size_t> by_what_they_share(std::span<const LoadCase> cases) {
+  std::vector<std::size_t> order;
+  std::vector<bool> placed(cases.size());
+  const auto place_like = [&](std::size_t like) {
+    for (std::size_t i = like; i < cases.size(); ++i) {
+      if (placed[i] || !share(cases[i], cases[like], shares_preload)) continue;
+      placed[i] = true;
+      order.push_back(i);
+    }
+  };
+  for (std::size_t first = 0; first < cases.size(); ++first)
+    for (std::size_t like = first; like < cases.size(); ++like)
+      if (!placed[like] && share_matrices(cases[like], cases[first])) place_like(like);
+  return order;
 }
 
 Eigen::SparseMatrix<double> DesignMatrices::stiffness() const {
@@ -215,7 +205,7 @@ Prestress prestress_of(const Scene& scene, const fem::SectorMesh& sector) {
 }
 
 DesignMatrices of_design(const Scene& scene, const fem::SectorMesh& sector, const fem::ContactCells& cells,
-                         std::shared_ptr<const Matrices> shared) {
+                         std::shared_ptr<const Matrices> shared, const PreloadChange& known) {
   DesignMatrices result;
   result.shared = std::move(shared);
   result.status = result.shared->status;
@@ -225,48 +215,12 @@ DesignMatrices of_design(const Scene& scene, const fem::SectorMesh& sector, cons
   result.trace.contact =
       contact_nodes(fem::contact_surface(sector), result.shared->system.internal_size(), scene.contact);
   if (scene.solver.prestress == Prestress::own) return result;
-  if (const Status status = add_own_preload(scene, sector, cells, result); status != Status::converged)
+  if (known.on_trace) {
+    result.change = known.stiffness;
+    result.trace.change = known.on_trace;
+  } else if (const Status status = add_own_preload(scene, sector, cells, result); status != Status::converged) {
     result.status = failed_at("prestress", status);
-  return result;
-}
-
-DesignMatrices MatricesStore::matrices(const Scene& asked, const fem::SectorMesh& sector,
-                                       const fem::ContactCells& cells, std::map<std::string, double>& timings_s) {
-  Scene scene = asked;
-  scene.solver.prestress = prestress_of(asked, sector);
-  std::shared_ptr<const Matrices> same = shared(scene, sector, cells, timings_s);
-  Stopwatch watch;
-  DesignMatrices result = of_design(scene, sector, cells, std::move(same));
-  if (scene.solver.prestress == Prestress::shared) timings_s["prestress"] += watch.lap();
-  return result;
-}
-
-KeptPatterns MatricesStore::patterns(const fem::Mesh& mesh) {
-  const std::lock_guard lock(mutex_);
-  if (!patterns_.assembler || !patterns_.assembler->serves(mesh))
-    patterns_.assembler = std::make_shared<const fem::Assembler>(mesh);
-  return patterns_;
-}
-
-std::shared_ptr<const Matrices> MatricesStore::shared(const Scene& scene, const fem::SectorMesh& sector,
-                                                      const fem::ContactCells& cells,
-                                                      std::map<std::string, double>& timings_s) {
-  const PreloadedContact by = stressed(scene, cells, friction_);
-  MatricesOf asked = asked_for(scene, sector, by);
-  std::shared_ptr<const Matrices> same;  // but for the modes
-  {
-    const std::lock_guard lock(mutex_);
-    if (last_ && of_.same_but_modes(asked)) {
-      if (of_.modes == asked.modes) return last_;
-      if (outcome_of(last_->status) == Outcome::converged) same = last_;
-    }
-    last_.reset();  // before the next ones are there: both need not fit into memory, unless one goes on from the other
   }
-  std::shared_ptr<const Matrices> result =
-      computed({scene, sector, cells, by, patterns(sector.mesh)}, same.get(), timings_s);
-  const std::lock_guard lock(mutex_);
-  of_ = std::move(asked);
-  last_ = result;
   return result;
 }
 

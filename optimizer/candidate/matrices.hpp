@@ -1,11 +1,9 @@
 #pragma once
 
-#include <map>
 #include <memory>
-#include <mutex>
+#include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "fem/assembly.hpp"
@@ -92,9 +90,16 @@ struct DesignMatrices {
 /// large.
 [[nodiscard]] Prestress prestress_of(const Scene& scene, const fem::SectorMesh& sector);
 
+/// What the preload of a design changes in the matrices that it shares.
+struct PreloadChange {
+  Eigen::SparseMatrix<double> stiffness;                       ///< over all nodes
+  std::shared_ptr<const reduction::StiffnessChange> on_trace;  ///< null: not known
+};
+
 /// Those of a design from the ones that it shares: with its tip force, and what its own preload changes.
 [[nodiscard]] DesignMatrices of_design(const Scene& scene, const fem::SectorMesh& sector,
-                                       const fem::ContactCells& cells, std::shared_ptr<const Matrices> shared);
+                                       const fem::ContactCells& cells, std::shared_ptr<const Matrices> shared,
+                                       const PreloadChange& known = {});
 
 /// Whether designs that differ by this key of a study file alone share their matrices.
 [[nodiscard]] bool shares_matrices(std::string_view key);
@@ -102,39 +107,8 @@ struct DesignMatrices {
 /// Whether a design has the same in both cases, but for what its own preload changes.
 [[nodiscard]] bool share_matrices(const LoadCase& one, const LoadCase& other);
 
-/// Everything that they follow from.
-struct MatricesOf {
-  Eigen::MatrixXd nodes;
-  std::vector<int> connectivity, region;  ///< of the mesh
-  std::vector<double> numbers;            ///< of bodies, loading, solver and the preload that the prestress comes from
-  int modes = 0;
-  [[nodiscard]] bool same_but_modes(const MatricesOf& other) const;
-};
-
-/// Computes matrices and keeps the last ones. May be called from several threads.
-class MatricesStore {
- public:
-  /// @param friction  of the preload on flanks without gaps, where designs share it
-  explicit MatricesStore(double friction) : friction_(friction) {}
-
-  /// - `sector`: with its trace
-  /// - `cells`: the grid of contact nodes to begin with
-  /// - `timings_s`: of its stages, unless they were there already, are added
-  [[nodiscard]] DesignMatrices matrices(const Scene& asked, const fem::SectorMesh& sector,
-                                        const fem::ContactCells& cells, std::map<std::string, double>& timings_s);
-
- private:
-  [[nodiscard]] std::shared_ptr<const Matrices> shared(const Scene& scene, const fem::SectorMesh& sector,
-                                                       const fem::ContactCells& cells,
-                                                       std::map<std::string, double>& timings_s);
-
-  [[nodiscard]] KeptPatterns patterns(const fem::Mesh& mesh);
-
-  double friction_;
-  std::mutex mutex_;
-  KeptPatterns patterns_{.assembler = {}, .order = std::make_shared<numerics::EliminationOrder>()};
-  MatricesOf of_;
-  std::shared_ptr<const Matrices> last_;
-};
+/// The places of cases as they are computed with least work: beginning with the first, those that share their matrices
+/// in a row, and of them those that share the preload, too.
+[[nodiscard]] std::vector<std::size_t> by_what_they_share(std::span<const LoadCase> cases);
 
 }  // namespace dovetail::optimizer

@@ -6,25 +6,20 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
 #include <ostream>
 
-#include "core/replace_file.hpp"
 #include "optimizer/evaluation_cost.hpp"
-#include "optimizer/journal/fingerprint.hpp"
 #include "optimizer/responses/response_table.hpp"
 #include "optimizer/scene/scene_kind.hpp"
 #include "studies/program/answers/accuracy_json.hpp"
 #include "studies/program/answers/run_output.hpp"
-#include "studies/program/answers/version.hpp"
+#include "studies/program/commands/kept_choice.hpp"
 #include "studies/program/commands/kept_rounds.hpp"
 #include "studies/program/engine/engine.hpp"
 #include "studies/program/engine/settled_study.hpp"
-#include "studies/program/study_file/best_file.hpp"
 
 namespace dovetail::studies {
 
@@ -39,13 +34,6 @@ constexpr const char *kStart = "the start", *kMiddle = "the middle of the variab
 constexpr const char* kBestFile = "best_settings.json";
 /// The rounds of a choice that is not made yet.
 constexpr const char *kRounds = "settings_rounds.jsonl", *kBestRounds = "best_settings_rounds.jsonl";
-
-/// What a run searches with and its study file does not give.
-struct Chosen {
-  std::map<std::string, double> settings;  ///< by key
-  double noise = 0;
-  Json accuracy = {};  ///< how settings were chosen, see accuracy_json
-};
 
 /// What the bars of the start, in the first case, say of differences between designs. No history is asked in a search:
 /// a doubt that only one settles is no noise. What all cases wear off together is taken to be as noisy as what the
@@ -80,40 +68,6 @@ std::optional<double> noise_of(const Study& study, const optimizer::Evaluation& 
     noise = std::max(noise, noises[i] / std::abs(sizes[i]));
   }
   return std::min(noise, 0.5);
-}
-
-void keep(const std::filesystem::path& file, const std::string& question, const Chosen& chosen) {
-  const Json json{
-      {"question", question}, {"settings", chosen.settings}, {"noise", chosen.noise}, {"accuracy", chosen.accuracy}};
-  replace_file(file, json.dump(1) + "\n");
-}
-
-InputError damaged(const std::filesystem::path& file) {
-  return InputError(Violation{.file = file.string(),
-                              .key = "the file",
-                              .value = {},
-                              .allowed = "is damaged: remove it, and --resume chooses the settings again"});
-}
-
-optimizer::BarParts raised_in(const Json& accuracy) {
-  if (!accuracy.is_object() || !accuracy.contains("raised")) return {};
-  return accuracy.at("raised").get<optimizer::BarParts>();
-}
-
-/// What was chosen before for the same question; nothing where none was. Throws InputError for a damaged file.
-std::optional<Chosen> kept(const std::filesystem::path& file, const std::string& question) {
-  std::ifstream stream(file);
-  if (!stream) return {};
-  try {
-    const Json json = Json::parse(stream);
-    if (json.at("question").get<std::string>() != question) return {};
-    (void)raised_in(json.at("accuracy"));
-    return Chosen{.settings = json.at("settings").get<std::map<std::string, double>>(),
-                  .noise = json.at("noise").get<double>(),
-                  .accuracy = json.at("accuracy")};
-  } catch (const Json::exception&) {
-    throw damaged(file);
-  }
 }
 
 /// Settings for the accuracy that the study asks for at its own design, which is `where`; nothing where it asks for
@@ -156,20 +110,6 @@ Study verified(Study study) {
   refine(study.problem.objective);
   refine(study.problem.constraints);
   return study;
-}
-
-/// The study as if what was chosen stood in its file; `kept_in` is where it was read from, if it was.
-Study with_chosen(const Study& study, const Chosen& chosen, const std::filesystem::path& kept_in) {
-  Study result = study;
-  try {
-    if (!chosen.settings.empty())
-      result =
-          read_study(parse_document(with_values(parse_document(study.text, study.file), chosen.settings), study.file));
-  } catch (const InputError&) {
-    throw damaged(kept_in);  // the study was read without them
-  }
-  result.optimizer.noise = chosen.noise;
-  return result;
 }
 
 Chosen chosen(const Study& asked, KeptRounds& rounds, const RunEngineFactory& make_engine, Teller& teller) {
@@ -220,21 +160,6 @@ std::string came_to(const Json& accuracy) {
   return text;
 }
 
-/// Everything that the choice hangs on; which keys the file gives, too, for a key that is given stays.
-std::string question_of(const Study& study) {
-  std::string text = std::string("dovetail ") + version() + "\n" + physics_text(study.scene);
-  for (const std::string& key : study.given)
-    if (optimizer::buys_accuracy(study.scene, key)) text += "given " + key + "\n";
-  const auto accuracy_of = [&](const auto& terms) {
-    for (const auto& term : terms)
-      if (study.scene.solver.accuracy > 0 && term.accuracy > 0)
-        text += "accuracy of " + term.response + " " + shortest(term.accuracy) + "\n";
-  };
-  accuracy_of(study.problem.objective);
-  accuracy_of(study.problem.constraints);
-  return optimizer::fingerprint(study.problem, study.optimizer, text);
-}
-
 }  // namespace
 
 void refuse_changed(const std::filesystem::path& directory, const Study& study) {
@@ -281,7 +206,7 @@ SettledStudy settled_run(const Study& asked, const std::filesystem::path& direct
   const bool at_start = chooses && settled->accuracy.is_object() && settled->accuracy.value("at", kStart) == kStart;
   return {.study = with_chosen(asked, *settled, file),
           .accuracy = chooses ? came_to(settled->accuracy) : "",
-          .raised = at_start ? raised_in(settled->accuracy) : optimizer::BarParts()};
+          .raised = at_start ? raised_in(*settled) : optimizer::BarParts()};
 }
 
 std::optional<optimizer::AccuracyGoal> goal_at_best(const Study& asked) {
@@ -330,7 +255,7 @@ SettledStudy settled_best(const Study& asked, const Study& searched, const optim
   }
   return {.study = with_chosen(searched, *settled, file),
           .accuracy = came_to(settled->accuracy),
-          .raised = raised_in(settled->accuracy)};
+          .raised = raised_in(*settled)};
 }
 
 }  // namespace dovetail::studies

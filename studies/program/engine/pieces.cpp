@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <numeric>
 #include <utility>
 
 #include "optimizer/cases.hpp"
@@ -93,12 +95,17 @@ void run_designs(const Study& study, const std::vector<Piece>& designs, optimize
   const std::vector<optimizer::LoadCase>& cases = study.problem.cases;
   const std::vector<optimizer::MissionCases> missions = study_missions(study, false);
   const std::size_t alone = std::max<std::size_t>(cases.size(), 1), loads = alone + missions.size();
+  // The longest first, so that none is waited for alone: a mission takes more than any of its cases. Then those that
+  // share most one after the other, for a worker keeps what the last ones shared.
+  std::vector<std::size_t> order(missions.size());
+  std::iota(order.begin(), order.end(), alone);
+  std::ranges::copy(cases.empty() ? std::vector<std::size_t>{0} : optimizer::by_what_they_share(cases),
+                    std::back_inserter(order));
   std::vector<Piece> pieces;
   std::vector<std::string> tasks;
   for (Piece piece : designs)
-    for (std::size_t i = 0; i < loads; ++i) {
-      // The longest first, so that none is waited for alone: a mission takes more than any of its cases.
-      piece.load = (alone + i) % loads;
+    for (const std::size_t load : order) {
+      piece.load = load;
       pieces.push_back(piece);
       tasks.push_back(task_of(piece));
     }

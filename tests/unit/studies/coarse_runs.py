@@ -2,7 +2,7 @@
 import json
 import subprocess
 
-# What the studies of these tests vary.
+# What the studies of these tests vary, and the loads of those that have several.
 VARIABLES = """
 [[variable]]
 key = "geometry.flank_mismatch_um"
@@ -13,13 +13,14 @@ key = "geometry.neck_width_mm"
 lower = 8
 upper = 9.5
 """
-STUDY = """
+CASES = """
 [[case]]
 name = "plain"
 [[case]]
 name = "hard"
 "loading.tip_force_n" = 3
-""" + VARIABLES + """[[objective]]
+"""
+STUDY = CASES + VARIABLES + """[[objective]]
 response = "asymptotic_wear_volume_m3"
 [[constraint]]
 response = "peak_amplitude_m"

@@ -38,6 +38,42 @@ TEST(ModelBuilder, RefusesMeshSizesOutOfRange) {
   EXPECT_THROW(ModelBuilder{scene}, InputError);
 }
 
+// What the preload changes in matrices that are shared is computed once for loads that leave the preload alone.
+TEST(ModelBuilder, KeepsWhatAPreloadChanges) {
+  Scene scene;
+  scene.mesh = {.flank_elements = 8, .fillet_fraction = 0.4, .bulk_size = 6e-3, .aerofoil_elements = 8};
+  scene.solver.prestress = Prestress::shared;
+  const ModelBuilder builder(scene);
+  Scene other = scene;
+  other.contact.friction *= 0.9;
+  Scene harder = other;
+  harder.loading.tip_force *= 3;
+  const CandidateModel first = builder.build(scene), second = builder.build(other), third = builder.build(harder);
+  ASSERT_TRUE(third.converged()) << third.status;
+  EXPECT_NE(second.matrices.trace.change, first.matrices.trace.change);
+  EXPECT_EQ(third.matrices.trace.change, second.matrices.trace.change);
+  const CandidateModel fresh = ModelBuilder(scene).build(harder);
+  EXPECT_EQ(third.model.stiffness, fresh.model.stiffness);
+  EXPECT_EQ((third.matrices.stiffness() - fresh.matrices.stiffness()).norm(), 0);
+  // Other matrices are changed otherwise.
+  harder.loading.speed *= 0.9;
+  EXPECT_NE(builder.build(harder).matrices.trace.change, third.matrices.trace.change);
+}
+
+// Those of one speed have the matrices in common, and of them those of one friction the preload.
+TEST(LoadCases, AreComputedInTheOrderOfWhatTheyShare) {
+  std::vector<LoadCase> cases;
+  for (const double force : {1, 2})
+    for (const double friction : {0.4, 0.5})
+      for (const double speed : {9000, 10000})
+        cases.push_back({.name = std::to_string(cases.size()),
+                         .changes = {{.key = "loading.tip_force_n", .value = force},
+                                     {.key = "contact.friction", .value = friction},
+                                     {.key = "scene.speed_rpm", .value = speed}}});
+  EXPECT_THAT(by_what_they_share(cases), testing::ElementsAre(0, 4, 2, 6, 1, 5, 3, 7));
+  EXPECT_THAT(by_what_they_share({}), testing::IsEmpty());
+}
+
 // A variable may start elsewhere than at the value in the file.
 TEST(StudyEngine, StartsWhereTheVariablesStart) {
   studies::Study study;

@@ -10,24 +10,10 @@ import subprocess
 import sys
 import tempfile
 
-from coarse_runs import coarse_study, records
+from coarse_runs import CASES, VARIABLES, coarse_study, records
 
 program = str(pathlib.Path(sys.argv[1]).resolve())
-STUDY = """
-[[case]]
-name = "plain"
-[[case]]
-name = "hard"
-"loading.tip_force_n" = 3
-[[variable]]
-key = "geometry.flank_mismatch_um"
-lower = -5
-upper = 12
-[[variable]]
-key = "geometry.neck_width_mm"
-lower = 8
-upper = 9.5
-[[linked]]
+STUDY = CASES + VARIABLES + """[[linked]]
 key = "geometry.shank_width_mm"
 value = "geometry_neck_width_mm + 2.5"
 [[objective]]
