@@ -31,12 +31,12 @@ struct PreloadOf {
 /// threads.
 class MatricesStore {
  public:
-  /// @param friction  of the preload on flanks without gaps, where designs share it
+  /// - `friction`: of the preload on flanks without gaps, where designs share it
   explicit MatricesStore(double friction) : friction_(friction) {}
 
-  /// @param sector  with its trace
-  /// @param cells  the grid of contact nodes to begin with
-  /// @param timings_s  of its stages, unless they were there already, are added
+  /// - `sector`: with its trace
+  /// - `cells`: the grid of contact nodes to begin with
+  /// - `timings_s`: of its stages, unless they were there already, are added
   [[nodiscard]] DesignMatrices matrices(const Scene& asked, const fem::SectorMesh& sector,
                                         const fem::ContactCells& cells, std::map<std::string, double>& timings_s);
 

@@ -1,8 +1,8 @@
 #include <ostream>
 
 #include "core/replace_file.hpp"
-#include "studies/program/answers/run_comparison.hpp"
 #include "studies/program/commands/commands.hpp"
+#include "studies/program/run/run_comparison.hpp"
 
 namespace dovetail::studies {
 

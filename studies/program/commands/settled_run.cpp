@@ -15,11 +15,11 @@
 #include "optimizer/responses/response_table.hpp"
 #include "optimizer/scene/scene_kind.hpp"
 #include "studies/program/answers/accuracy_json.hpp"
-#include "studies/program/answers/run_output.hpp"
 #include "studies/program/commands/kept_choice.hpp"
 #include "studies/program/commands/kept_rounds.hpp"
 #include "studies/program/engine/engine.hpp"
 #include "studies/program/engine/settled_study.hpp"
+#include "studies/program/run/run_output.hpp"
 
 namespace dovetail::studies {
 

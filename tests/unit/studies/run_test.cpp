@@ -14,11 +14,11 @@
 
 #include "core/replace_file.hpp"
 #include "optimizer/journal/journal.hpp"
-#include "studies/program/answers/run_clock.hpp"
 #include "studies/program/commands/commands.hpp"
 #include "studies/program/commands/kept_rounds.hpp"
 #include "studies/program/engine/engine.hpp"
 #include "studies/program/engine/interrupt.hpp"
+#include "studies/program/run/run_clock.hpp"
 #include "studies/report/record/results_file.hpp"
 #include "tests/unit/studies/sample_study.hpp"
 

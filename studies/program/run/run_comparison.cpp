@@ -1,4 +1,4 @@
-#include "studies/program/answers/run_comparison.hpp"
+#include "studies/program/run/run_comparison.hpp"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <set>
 
 #include "optimizer/journal/journal.hpp"
-#include "studies/program/answers/candidate_table.hpp"
-#include "studies/program/answers/run_clock.hpp"
 #include "studies/program/answers/version.hpp"
 #include "studies/program/engine/json_values.hpp"
+#include "studies/program/run/candidate_table.hpp"
+#include "studies/program/run/run_clock.hpp"
 #include "studies/program/study_file/refusal.hpp"
 #include "studies/program/study_file/study.hpp"
 #include "studies/report/record/results_file.hpp"

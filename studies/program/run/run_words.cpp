@@ -1,4 +1,4 @@
-#include "studies/program/answers/run_words.hpp"
+#include "studies/program/run/run_words.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "studies/program/answers/run_front.hpp"
-#include "studies/program/answers/search_progress.hpp"
+#include "studies/program/run/run_front.hpp"
+#include "studies/program/run/search_progress.hpp"
 #include "studies/report/words/report_words.hpp"
 
 namespace dovetail::studies {

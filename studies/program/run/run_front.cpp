@@ -1,4 +1,4 @@
-#include "studies/program/answers/run_front.hpp"
+#include "studies/program/run/run_front.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 
 #include "core/replace_file.hpp"
 #include "optimizer/journal/journal.hpp"
-#include "studies/program/answers/candidate_table.hpp"
+#include "studies/program/run/candidate_table.hpp"
 #include "studies/program/study_file/best_file.hpp"
 
 namespace dovetail::studies {

@@ -1,4 +1,4 @@
-#include "studies/program/answers/run_output.hpp"
+#include "studies/program/run/run_output.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -13,13 +13,13 @@
 #include "optimizer/evaluation_cost.hpp"
 #include "optimizer/scene/scene_kind.hpp"
 #include "optimizer/workers/memory.hpp"
-#include "studies/program/answers/candidate_table.hpp"
 #include "studies/program/answers/field_export.hpp"
 #include "studies/program/answers/geometry_export.hpp"
-#include "studies/program/answers/run_front.hpp"
 #include "studies/program/answers/version.hpp"
 #include "studies/program/engine/engine.hpp"
 #include "studies/program/engine/settled_study.hpp"
+#include "studies/program/run/candidate_table.hpp"
+#include "studies/program/run/run_front.hpp"
 #include "studies/program/study_file/best_file.hpp"
 #include "studies/program/study_file/export.hpp"
 #include "studies/report/pages/report_html.hpp"

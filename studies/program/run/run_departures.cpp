@@ -1,4 +1,4 @@
-#include "studies/program/answers/run_departures.hpp"
+#include "studies/program/run/run_departures.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "studies/program/answers/run_verification.hpp"
+#include "studies/program/run/run_verification.hpp"
 
 #include <fmt/format.h>
 
@@ -10,10 +10,10 @@
 #include <system_error>
 
 #include "optimizer/cases.hpp"
-#include "studies/program/answers/run_output.hpp"
 #include "studies/program/engine/engine.hpp"
 #include "studies/program/engine/json_values.hpp"
 #include "studies/program/engine/pieces.hpp"
+#include "studies/program/run/run_output.hpp"
 #include "studies/report/record/record_tables.hpp"
 
 namespace dovetail::studies {

@@ -1,4 +1,4 @@
-#include "studies/program/answers/candidate_table.hpp"
+#include "studies/program/run/candidate_table.hpp"
 
 #include <cmath>
 #include <set>

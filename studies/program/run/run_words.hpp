@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/program/answers/run_output.hpp"
+#include "studies/program/run/run_output.hpp"
 
 /// What a run came to, in words.
 namespace dovetail::studies {

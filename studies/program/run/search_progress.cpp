@@ -1,4 +1,4 @@
-#include "studies/program/answers/search_progress.hpp"
+#include "studies/program/run/search_progress.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

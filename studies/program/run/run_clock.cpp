@@ -1,4 +1,4 @@
-#include "studies/program/answers/run_clock.hpp"
+#include "studies/program/run/run_clock.hpp"
 
 #include <fstream>
 

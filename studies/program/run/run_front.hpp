@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <string>
 
-#include "studies/program/answers/run_output.hpp"
 #include "studies/program/engine/interrupt.hpp"
+#include "studies/program/run/run_output.hpp"
 
 namespace dovetail::studies {
 

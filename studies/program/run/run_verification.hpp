@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "optimizer/search/run.hpp"
-#include "studies/program/answers/run_output.hpp"
 #include "studies/program/engine/interrupt.hpp"
+#include "studies/program/run/run_output.hpp"
 
 namespace dovetail::studies {
 

@@ -1,4 +1,4 @@
-#include "studies/program/answers/finished_run.hpp"
+#include "studies/program/run/finished_run.hpp"
 
 #include <fstream>
 
