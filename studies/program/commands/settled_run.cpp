@@ -167,6 +167,11 @@ void refuse_changed(const std::filesystem::path& directory, const Study& study) 
   if (!std::filesystem::exists(kept)) return;
   std::vector<std::string> changed =
       changed_values(load_document(kept.string()), parse_document(study.text, study.file));
+  // What an accuracy chose stands in the study that was kept.
+  if (study.scene.solver.accuracy > 0)
+    std::erase_if(changed, [](const std::string& one) {
+      return (one.starts_with("mesh.") || one.starts_with("solver.")) && one.find(" missing (") != one.npos;
+    });
   if (changed.empty()) return;
   constexpr std::size_t kTold = 6;
   if (const std::size_t all = changed.size(); all > kTold) {

@@ -548,7 +548,8 @@ TEST_F(Run, ChoosesSettingsInTheMiddleWhereTheStartIsInfeasible) {
   // What is asked of one response is asked of the settings.
   replace_file(study(), replaced(text, "upper = 300e6\n", "upper = 300e6\naccuracy = 0.1\n"));
   EXPECT_THAT([&] { run(true, counted(calls)); },
-              testing::ThrowsMessage<InputError>(HasSubstr("was made for another study, accuracy")));
+              testing::ThrowsMessage<InputError>(HasSubstr(
+                  "of another study than the one at hand: constraint[0].accuracy = 0.1 (it was not given); ")));
 }
 
 // The wear history may say something else of the best design than the search, which does not ask it.
