@@ -11,21 +11,35 @@
 
 namespace dovetail::hdf5 {
 
+namespace {
+
+std::recursive_mutex& library() {
+  static std::recursive_mutex mutex;
+  return mutex;
+}
+
+}  // namespace
+
+File::File(std::string path) : alone_(library()), path_(std::move(path)) {}
+
 void File::fail(const std::string& object, const std::string& value, const std::string& allowed) const {
   throw InputError({.file = path_, .line = 0, .key = object, .value = value, .allowed = allowed});
 }
 
 File File::create(const std::string& path) {
+  File file(path);
   const Quiet quiet;
   // From HDF5 1.8 on the structure of a file carries checksums, so that damage is noticed when it is read.
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
-  const hid_t id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
-  if (id < 0) throw InputError({.file = path, .line = 0, .key = "/", .value = {}, .allowed = "cannot be written"});
-  return {id, path};
+  file.handle_ = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+  if (file.handle_ < 0)
+    throw InputError({.file = path, .line = 0, .key = "/", .value = {}, .allowed = "cannot be written"});
+  return file;
 }
 
 File File::open(const std::string& path) {
+  File file(path);
   const Quiet quiet;
   const auto refuse = [&](const std::string& why) {
     throw InputError({.file = path, .line = 0, .key = "/", .value = {}, .allowed = why});
@@ -38,14 +52,16 @@ File File::open(const std::string& path) {
   // Closing the file closes every object in it, also those that reading a damaged file may have left open.
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
-  const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access);
-  if (id < 0) refuse("cannot be opened as HDF5: the file is truncated, damaged or being written");
-  return {id, path};
+  file.handle_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access);
+  if (file.handle_ < 0) refuse("cannot be opened as HDF5: the file is truncated, damaged or being written");
+  return file;
 }
 
-File::File(File&& other) noexcept : handle_(std::exchange(other.handle_, -1)), path_(std::move(other.path_)) {}
+File::File(File&& other) noexcept
+    : alone_(std::move(other.alone_)), handle_(std::exchange(other.handle_, -1)), path_(std::move(other.path_)) {}
 
 File& File::operator=(File&& other) noexcept {
+  std::swap(alone_, other.alone_);
   std::swap(handle_, other.handle_);
   std::swap(path_, other.path_);
   return *this;

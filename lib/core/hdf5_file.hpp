@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <mutex>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,7 +25,7 @@ struct Array {
 struct Stored;
 
 /// An open file. Objects are named by absolute paths ("/contact/area"); groups on the way to a new
-/// data set are made. Not to be used from two threads at once (HDF5 keeps global state).
+/// data set are made. Where one thread has a file, others wait: HDF5 keeps global state.
 class File {
  public:
   /// New or overwritten file.
@@ -73,7 +74,7 @@ class File {
   [[nodiscard]] std::string string_attribute(const std::string& object, const std::string& name) const;
 
  private:
-  File(std::int64_t handle, std::string path) : handle_(handle), path_(std::move(path)) {}
+  explicit File(std::string path);
   [[nodiscard]] Stored data_set(const std::string& object) const;
   template <class T>
   [[nodiscard]] Array<T> read(const std::string& object) const;
@@ -83,6 +84,7 @@ class File {
   void write_numbers(const std::string& object, std::span<const T> values, std::span<const std::size_t> shape);
   [[noreturn]] void fail(const std::string& object, const std::string& value, const std::string& allowed) const;
 
+  std::unique_lock<std::recursive_mutex> alone_;
   std::int64_t handle_ = -1;
   std::string path_;
 };

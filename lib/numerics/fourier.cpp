@@ -1,6 +1,7 @@
 #include "numerics/fourier.hpp"
 
 #include <fftw3.h>
+#include <pthread.h>
 
 #include <cassert>
 #include <cmath>
@@ -15,9 +16,12 @@
 namespace dovetail::numerics {
 namespace {
 
-// FFTW's planner is the one part of it that is not thread-safe.
+// FFTW's planner is the one part of it that is not thread-safe. A process that is made while another thread plans must
+// not be born with the lock.
 std::mutex& planner() {
   static std::mutex mutex;
+  static const int kept = ::pthread_atfork([] { mutex.lock(); }, [] { mutex.unlock(); }, [] { mutex.unlock(); });
+  static_cast<void>(kept);
   return mutex;
 }
 

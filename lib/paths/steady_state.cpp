@@ -45,9 +45,11 @@ steady::State steady_state(const steady::Joint& joint, double omega, const Eigen
   }
   steady::Attempt found =
       try_ways(joint, std::make_shared<const steady::Problem>(joint, std::move(system)), guess, reuse, ways);
-  const steady::AtSolution jacobian = joint.options.linearise      ? steady::AtSolution::linearise
-                                      : joint.options.show_regular ? steady::AtSolution::show_regular
-                                                                   : steady::AtSolution::trust;
+  // What was not found from the guess is next to nothing that was shown to be regular.
+  const bool show = joint.options.show_regular || found.way != steady::Way::guess;
+  const steady::AtSolution jacobian = joint.options.linearise ? steady::AtSolution::linearise
+                                      : show                  ? steady::AtSolution::show_regular
+                                                              : steady::AtSolution::trust;
   steady::State state = steady::described(std::move(found.point), found.status, jacobian, found.tangent.get());
   state.status = within(joint.options.budget, state.status);
   static_cast<steady::Work&>(state) = found;

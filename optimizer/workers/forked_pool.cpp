@@ -16,6 +16,8 @@
 #include <cstring>
 #include <exception>
 #include <iostream>
+#include <mutex>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -84,6 +86,18 @@ std::optional<std::string> receive(int from) {
   std::_Exit(status);
 }
 
+/// The ends of pipes to workers that this process holds, of all pools. One that stayed open in another worker would
+/// keep its own alive.
+struct Held {
+  std::mutex mutex;
+  std::set<int> descriptors;
+};
+
+Held& held() {
+  static Held all;
+  return all;
+}
+
 std::string words(int status) {
   if (WIFSIGNALED(status)) return fmt::format("ended by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
   return fmt::format("ended with exit status {}", WEXITSTATUS(status));
@@ -105,6 +119,7 @@ void ForkedPool::prepare(const std::string& common) {
 
 void ForkedPool::start(Process& process) {
   std::array<int, 2> asks{}, answers{};
+  const std::scoped_lock one(held().mutex);
   if (::pipe2(asks.data(), O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
   if (::pipe2(answers.data(), O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
   std::cout.flush();
@@ -112,24 +127,27 @@ void ForkedPool::start(Process& process) {
   const pid_t id = ::fork();
   if (id < 0) throw std::system_error(errno, std::generic_category(), "fork");
   if (id == 0) {
-    // A pipe of another worker that stays open here would keep that one alive.
-    for (const Process& other : workers_)
-      for (const int descriptor : {other.to, other.from})
-        if (descriptor >= 0) ::close(descriptor);
+    for (const int descriptor : held().descriptors) ::close(descriptor);
     ::close(asks[1]);
     ::close(answers[0]);
     work(factory_, common_, asks[0], answers[1]);
   }
   ::close(asks[0]);
   ::close(answers[1]);
+  held().descriptors.insert({asks[1], answers[0]});
   process = {.id = id, .to = asks[1], .from = answers[0], .task = {}, .since = {}};
 }
 
 std::string ForkedPool::end(Process& process, bool kill) {
   if (process.id < 0) return {};
   if (kill) ::kill(process.id, SIGKILL);
-  ::close(process.to);
-  ::close(process.from);
+  {
+    const std::scoped_lock one(held().mutex);
+    for (const int descriptor : {process.to, process.from}) {
+      held().descriptors.erase(descriptor);
+      ::close(descriptor);
+    }
+  }
   int status = 0;
   while (::waitpid(process.id, &status, 0) < 0 && errno == EINTR) {
   }

@@ -15,7 +15,7 @@ highlight_language = "none"
 html_theme = "alabaster"
 html_theme_options = {
     "description": "Dovetail joints shaped against fretting wear",
-    "page_width": "1280px",
+    "page_width": "min(1280px, 100%)",
     "sidebar_width": "240px",
     "fixed_sidebar": True,
     "show_powered_by": False,

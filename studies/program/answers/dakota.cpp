@@ -131,6 +131,10 @@ DakotaQuestion read_dakota(const std::string& file) {
     if (section == Section::other) continue;
     const std::optional<double> value = number(line->value);
     if (!value || line->tag.empty()) wrong(text);
+    if (section == Section::variables && std::ranges::any_of(question.set, [&](const std::string& other) {
+          return other.starts_with(key_of(file, line->tag) + "=");
+        }))
+      refuse(line->tag, "is a variable twice", {}, file);
     if (section == Section::variables)
       question.set.push_back(key_of(file, line->tag) + "=" + shortest(*value));
     else

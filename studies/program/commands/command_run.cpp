@@ -144,6 +144,8 @@ Searched searched(const RunSite& site, RunClock& clock, bool resume, const std::
     return journal;
   };
   optimizer::Journal journal = opened("journal.jsonl"), finer_journal = opened("finer.jsonl");
+  forget_finished(site.directory);
+  clock.counts();
   replace_file(site.directory / "study.toml", site.study.text);
   SearchProgress progress(site.teller, site.study.problem, site.study.optimizer.max_evaluations,
                           site.directory.string(), site.pool != nullptr);
@@ -153,7 +155,6 @@ Searched searched(const RunSite& site, RunClock& clock, bool resume, const std::
                             .progress =
                                 [&](const optimizer::Progress& at) {
                                   progress(at);
-                                  clock.tick();
                                   if (site.told) site.told(at);
                                 },
                             .stop = &interrupt.flag(),
@@ -274,13 +275,15 @@ int computed(const RunOptions& options, const Study& asked, const fs::path& dire
 
   if (pool) pool->prepare(description_of(handed));  // who has nothing left to do gives his memory back
 
-  end.describes = !interrupt.requested();
-  const WrittenRun written = write_run(end, result, clock.total(), verifications, departures);
+  // From here on everything is computed and written: Ctrl-C comes too late to leave something out.
+  const bool interrupted = interrupt.requested();
+  end.describes = !interrupted;
+  const WrittenRun written = write_run(end, result, clock, verifications, departures);
   teller.end();
   const std::string answer =
       conclusion(study, result, written.record, directory) + verified_words(verifications) + held_words(written.record);
   streams.out << answer;
-  if (interrupt.requested()) {
+  if (interrupted) {
     streams.err << fmt::format(
         "dovetail: interrupted; {} evaluations are kept in {}; the same command with --resume "
         "goes on\n",
@@ -323,7 +326,6 @@ int run_study(const Study& asked, const RunOptions& options, const Streams& stre
     teller.remark() << "dovetail: " << directory.string() << ": this run is finished; nothing is computed again\n";
     streams.out << *before;
   } else {
-    forget_finished(directory);
     status = computed(options, asked, directory, streams, teller, make_engine, pools, told);
   }
   teller.event("end", {{"exit_status", status}});

@@ -1,5 +1,6 @@
 #include "studies/program/run/run_clock.hpp"
 
+#include <algorithm>
 #include <fstream>
 
 #include "core/replace_file.hpp"
@@ -9,8 +10,8 @@ namespace dovetail::studies {
 namespace {
 
 constexpr const char* kTaken = "time.json";
-/// s, between two times it is written: nobody misses them, and a file is written at once beside any evaluation.
-constexpr double kEvery = 5;
+/// Between two times it is written: nobody misses them.
+constexpr std::chrono::seconds kEvery(5);
 
 }  // namespace
 
@@ -18,7 +19,7 @@ double seconds_taken(const std::filesystem::path& directory) {
   std::ifstream stream(directory / kTaken);
   const Json json = Json::parse(stream, nullptr, false);  // damaged: the run counts anew
   if (!json.is_object() || !json.contains("seconds") || !json["seconds"].is_number()) return 0;
-  return json["seconds"].get<double>();
+  return std::max(json["seconds"].get<double>(), 0.0);
 }
 
 void keep_seconds_taken(const std::filesystem::path& directory, double seconds) {
@@ -26,27 +27,29 @@ void keep_seconds_taken(const std::filesystem::path& directory, double seconds) 
 }
 
 RunClock::RunClock(const std::filesystem::path& directory, bool resume)
-    : directory_(directory), before_(resume ? seconds_taken(directory) : 0) {}
+    : directory_(directory),
+      before_(resume ? seconds_taken(directory) : 0),
+      writer_([this](const std::stop_token& stop) {
+        std::unique_lock lock(mutex_);
+        while (!ends_.wait_for(lock, stop, kEvery, [&] { return stop.stop_requested(); })) keep();
+      }) {}
 
 RunClock::~RunClock() {
-  try {
-    keep();
-  } catch (const InputError&) {
-    // A directory that cannot be written any more has said so elsewhere.
-  }
+  writer_.request_stop();
+  writer_.join();
+  if (counts_) keep();
 }
 
 double RunClock::session() const {
   return std::chrono::duration<double>(Clock::now() - begin_).count();
 }
 
-void RunClock::tick() {
-  if (session() >= kept_ + kEvery) keep();
-}
-
 void RunClock::keep() {
-  kept_ = session();
-  keep_seconds_taken(directory_, total());
+  try {
+    keep_seconds_taken(directory_, total());
+  } catch (const InputError&) {
+    // A directory that cannot be written any more is told of elsewhere.
+  }
 }
 
 }  // namespace dovetail::studies

@@ -1,12 +1,15 @@
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
 #include <filesystem>
+#include <mutex>
+#include <thread>
 
 namespace dovetail::studies {
 
 /// The seconds that a run takes over all its sessions, kept in its directory: of one that is killed all but the last
-/// few.
+/// few. A thread of its own writes them.
 class RunClock {
  public:
   /// A session begins.
@@ -16,12 +19,12 @@ class RunClock {
   RunClock(const RunClock&) = delete;
   RunClock& operator=(const RunClock&) = delete;
 
+  /// The directory is this run's: from now on its time is kept to the end, however short it was.
+  void counts() { counts_ = true; }
   /// s, of this session
   [[nodiscard]] double session() const;
   /// s, of all of them
   [[nodiscard]] double total() const { return before_ + session(); }
-  /// Keeps the total where it was not for some seconds.
-  void tick();
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -29,7 +32,11 @@ class RunClock {
 
   std::filesystem::path directory_;
   Clock::time_point begin_ = Clock::now();
-  double before_ = 0, kept_ = 0;
+  double before_ = 0;
+  bool counts_ = false;
+  std::mutex mutex_;
+  std::condition_variable_any ends_;
+  std::jthread writer_;
 };
 
 /// s, of all sessions of the run in the directory; 0 where it is not known.

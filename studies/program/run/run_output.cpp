@@ -89,7 +89,7 @@ double expected_s(const RunSite& site, const OptimizationResult& result, Work wh
 
 namespace {
 
-WrittenRun record_of(const RunSite& site, OptimizationResult result, double seconds) {
+WrittenRun record_of(const RunSite& site, OptimizationResult result, const RunClock& clock) {
   const Study& study = site.study;
   const RunEngine& engine = site.engine;
   std::optional<report::DesignRecord> best, baseline;
@@ -135,7 +135,7 @@ WrittenRun record_of(const RunSite& site, OptimizationResult result, double seco
   record.name = study.name;
   record.title = study.title;
   record.wear_law = study.scene.contact.wear_law;
-  record.seconds = seconds;
+  record.seconds = clock.total();
   record.provenance.program_version = version();
   record.provenance.study_file = study.file;
   record.provenance.settings = site.chosen;
@@ -148,7 +148,7 @@ WrittenRun record_of(const RunSite& site, OptimizationResult result, double seco
 
 }  // namespace
 
-WrittenRun write_run(const RunSite& site, const OptimizationResult& result, double seconds,
+WrittenRun write_run(const RunSite& site, const OptimizationResult& result, const RunClock& clock,
                      const std::vector<report::VerificationRecord>& verifications,
                      const std::vector<report::DepartureRecord>& departures) {
   const Study& study = site.study;
@@ -160,7 +160,7 @@ WrittenRun write_run(const RunSite& site, const OptimizationResult& result, doub
   }
   if (site.describes && site.engine.describe)
     site.teller.begin("describing start and best design", expected_s(site, result, Work::describe, 2));
-  WrittenRun written = record_of(site, result, seconds);
+  WrittenRun written = record_of(site, result, clock);
   site.teller.begin("writing results and report");
   report::RunRecord& record = written.record;
   if (result.front) record.front = front_record(study.problem, result);

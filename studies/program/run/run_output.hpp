@@ -11,6 +11,7 @@
 #include "optimizer/workers/worker_pool.hpp"
 #include "studies/program/answers/teller.hpp"
 #include "studies/program/engine/run_engine.hpp"
+#include "studies/program/run/run_clock.hpp"
 
 namespace dovetail::studies {
 
@@ -43,7 +44,7 @@ struct WrittenRun {
 /// Writes what a run came to into its directory, finished or interrupted: best.toml and the exports the study asks for
 /// (when there is a feasible design), results.h5 and report.html, and of a front its points. Each file whole or not at
 /// all. The start and the best design are recorded as evaluations with bars and the wear history have them.
-WrittenRun write_run(const RunSite& site, const optimizer::OptimizationResult& result, double seconds,
+WrittenRun write_run(const RunSite& site, const optimizer::OptimizationResult& result, const RunClock& clock,
                      const std::vector<report::VerificationRecord>& verifications,
                      const std::vector<report::DepartureRecord>& departures);
 

@@ -6,7 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "geometry/profile/measures.hpp"
 #include "studies/report/words/html.hpp"
@@ -43,6 +47,33 @@ double largest_gap(const DesignRecord& design) {
   return largest;
 }
 
+/// The nodes of a flank that a section shows: of a joint in space the strip next to its middle.
+/// @return  their numbers, and how far a skewed slot lies aside there
+std::pair<std::vector<std::size_t>, double> shown_nodes(const ContactRecord& contact, std::int64_t flank) {
+  constexpr double kSame = 1e-9;
+  const bool in_space = contact.across_m.size() == contact.gap_m.size();
+  const auto across = [&](std::size_t i) { return in_space ? std::abs(contact.across_m[i]) : 0.0; };
+  double middle = std::numeric_limits<double>::infinity(), mean = 0, there = 0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < contact.gap_m.size(); ++i)
+    if (contact.flank[i] == flank) {
+      middle = std::min(middle, across(i));
+      mean += contact.x_m[i];
+      ++count;
+    }
+  std::vector<std::size_t> nodes;
+  double side = 0;  // one of the two that lie as near
+  for (std::size_t i = 0; i < contact.gap_m.size(); ++i) {
+    if (contact.flank[i] != flank || across(i) > middle + kSame) continue;
+    if (nodes.empty() && in_space) side = contact.across_m[i];
+    if (in_space && std::abs(contact.across_m[i] - side) > kSame) continue;
+    nodes.push_back(i);
+    there += contact.x_m[i];
+  }
+  if (nodes.empty() || !in_space) return {nodes, 0};
+  return {nodes, there / static_cast<double>(nodes.size()) - mean / static_cast<double>(count)};
+}
+
 /// The gap of each flank as a band from the nominal flank into the blade.
 std::string flank_bands(const DesignRecord& design, double factor) {
   const ContactRecord& contact = design.contact;
@@ -54,9 +85,9 @@ std::string flank_bands(const DesignRecord& design, double factor) {
     const Eigen::Vector2d along = edge->tangent(0);
     const Eigen::Vector2d inward(-along.y(), along.x());  // material lies on the left
     std::string surface, form;
-    for (std::size_t i = 0; i < contact.gap_m.size(); ++i) {
-      if (contact.flank[i] != static_cast<std::int64_t>(flank)) continue;
-      const Eigen::Vector2d at(contact.x_m[i], contact.y_m[i]);
+    const auto [nodes, aside] = shown_nodes(contact, static_cast<std::int64_t>(flank));
+    for (const std::size_t i : nodes) {
+      const Eigen::Vector2d at(contact.x_m[i] - aside, contact.y_m[i]);
       const Eigen::Vector2d moved = at + factor * contact.gap_m[i] * inward;
       surface += (surface.empty() ? "M" : "L") + point(at);
       form = "L" + point(moved) + form;

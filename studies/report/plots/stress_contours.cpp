@@ -151,7 +151,8 @@ std::string stress_figures(const Comparison& designs) {
     if (design && !design->profile.blade.empty()) box.extend(joint_window(*design));
   std::vector<Shown> all;
   for (const auto& [design, when] : {std::pair{designs.before, ", before"}, {designs.after, ", after"}})
-    if (std::optional<StressCut> cut = design ? worst_cut(*design, box) : std::nullopt)
+    if (std::optional<StressCut> cut =
+            design ? worst_cut(*design, box, all.empty() ? nullptr : &all.front().cut) : std::nullopt)
       all.push_back({design, std::string("Stress after spin-up") + (designs.before ? when : ""), *std::move(cut)});
   double most = 0;
   for (const Shown& shown : all) most = std::max(most, nearly_largest(shown.cut, box));

@@ -135,20 +135,32 @@ std::string StressCut::peak_place(const geometry::Profile& profile) const {
   return place;
 }
 
-std::optional<StressCut> worst_cut(const DesignRecord& design, const Eigen::AlignedBox2d& window) {
+std::optional<StressCut> worst_cut(const DesignRecord& design, const Eigen::AlignedBox2d& window,
+                                   const StressCut* beside) {
   const FieldRecord& fields = design.fields;
   if (fields.mesh.element_count() == 0 || design.profile.blade.empty() ||
       fields.von_mises_pa.size() != static_cast<std::size_t>(fields.mesh.node_count()))
     return {};
   const Cutter cutter(design, window);
   if (fields.mesh.dimensions() == 2) return cutter.cut({}, false);
-  std::optional<StressCut> worst;
+  constexpr double kNearly = 0.95;
+  std::vector<StressCut> cuts;
+  double most = 0;
   const std::vector<Level> levels = levels_of(fields);
   for (const Level& level : levels) {
     StressCut cut = cutter.cut(level, &level == &levels.back());
-    if (cut.peak && (!worst || cut.peak->value > worst->peak->value)) worst = std::move(cut);
+    if (!cut.peak) continue;
+    most = std::max(most, cut.peak->value);
+    cuts.push_back(std::move(cut));
   }
-  return worst;
+  const auto away = [&](const StressCut& cut) {
+    return beside && beside->height ? std::abs(*cut.height - *beside->height) : most - cut.peak->value;
+  };
+  StressCut* chosen = nullptr;
+  for (StressCut& cut : cuts)
+    if (cut.peak->value >= kNearly * most && (chosen == nullptr || away(cut) < away(*chosen))) chosen = &cut;
+  if (chosen == nullptr) return {};
+  return std::move(*chosen);
 }
 
 }  // namespace dovetail::report

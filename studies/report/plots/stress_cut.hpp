@@ -27,6 +27,9 @@ struct StressCut {
 };
 
 /// Nothing where no stress or no profile is kept.
-[[nodiscard]] std::optional<StressCut> worst_cut(const DesignRecord& design, const Eigen::AlignedBox2d& window);
+/// - `beside`: a cut of another design that this one is compared with. Of heights whose peaks are nearly as large that
+///   nearest to its height is taken: the two ends of a slot differ by little more than the mesh.
+[[nodiscard]] std::optional<StressCut> worst_cut(const DesignRecord& design, const Eigen::AlignedBox2d& window,
+                                                 const StressCut* beside = nullptr);
 
 }  // namespace dovetail::report

@@ -21,7 +21,8 @@ std::string against_errors(double from, double to, double error) {
   const double change = std::abs(to - from);
   if (!(change > 0) || !(error > 0)) return "";
   if (change <= error)
-    return "The change is within the error bars of the two values, so it may be no improvement at all.";
+    return std::string("The change is within the error bars of the two values") +
+           (to < from ? ", so it may be no improvement at all." : ": it may be none.");
   const double times = change / error;
   if (times < 3)
     return fmt::format("The change is {} times the error bars of the two values together.", significant(times, 2));

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <memory>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -127,6 +128,17 @@ TEST(ForkedPool, NoMoreWorkAtOnceThanMemoryHasRoomFor) {
   EXPECT_EQ(said, "");
   EXPECT_EQ(most_at_once(0, said), 1);
   EXPECT_THAT(said, HasSubstr("dovetail: memory has room for 1 of 4 processes: one takes up to"));
+}
+
+// A worker of the one must not hold the other's pipes: neither would ever end.
+TEST(ForkedPool, TwoAtOnceEndOneAfterTheOther) {
+  auto first = std::make_unique<ForkedPool>(2, odd(), 60), second = std::make_unique<ForkedPool>(2, odd(), 60);
+  first->prepare("a");
+  second->prepare("b");
+  EXPECT_EQ(run(*first, {"x", "y"}).size(), 2U);
+  EXPECT_EQ(run(*second, {"x", "y"}).size(), 2U);
+  first.reset();
+  second.reset();
 }
 
 TEST(ForkedPool, NoMoreIsHandedOutWhenToldSo) {
