@@ -66,7 +66,7 @@ std::string key_of(const std::string& file, const std::string& tag) {
 /// The response that "ASV_1:mass_kg" or "{ ASV_1:mass_kg = 1 }" asks for.
 std::string response_of(const std::string& file, const std::string& tag) {
   const std::size_t colon = tag.find(':');
-  const std::string name = colon == tag.npos ? tag : tag.substr(colon + 1);
+  std::string name = colon == tag.npos ? tag : tag.substr(colon + 1);
   const std::string plain(optimizer::split_case(name).response);
   if (optimizer::find_response(plain) == nullptr) {
     const std::string near = nearest(plain, optimizer::response_names());
