@@ -45,13 +45,7 @@ def search(algorithm="scan", scan=12, most=12, finer=0, verify=0, departures="fa
 
 
 WEIGHTED = (WEAR + "weight = 1\nscale = 1e-9\n" + '[[objective]]\nresponse = "resonance_drift"\naim = "zero"\nweight = 1\nscale = 0.01\n')
-CASES = """
-[[case]]
-name = "plain"
-[[case]]
-name = "hard"
-"loading.tip_force_n" = 3
-[[uncertain]]
+CASES = coarse_runs.CASES + """[[uncertain]]
 key = "contact.friction"
 lower = 0.4
 upper = 0.6
