@@ -69,7 +69,7 @@ void lay_contact(const Scene& scene, const std::vector<fem::FlankCells>& flanks,
       reduction::reduce(candidate.matrices.trace, candidate.cells.average,
                         contact_nodes(candidate.cells, 0, scene.contact), scene.loading.damping_ratio);
   if (candidate.reduction.status != Status::converged) {
-    candidate.status = failed_at("reduction", candidate.reduction.status) + " " + candidate.reduction.message;
+    candidate.status = failed_at("reduction", candidate.reduction.status) + ": " + candidate.reduction.message;
     return;
   }
   candidate.model = candidate.reduction.model;

@@ -123,7 +123,7 @@ void MatricesStages::reduce() {
       reduction::trace_model(full_model(fem::constrain(matrices_->stiffness, matrices_->system.constraints)),
                              {.modes = scene_.solver.modes}, factor);
   if (matrices_->trace.status != Status::converged)
-    matrices_->status = failed_at("reduction", matrices_->trace.status) + " " + matrices_->trace.message;
+    matrices_->status = failed_at("reduction", matrices_->trace.status) + ": " + matrices_->trace.message;
   else if (scene_.solver.prestress == Prestress::shared)
     matrices_->forced = forced(*matrices_->trace.structure);
 }

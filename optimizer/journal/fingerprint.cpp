@@ -19,6 +19,11 @@ std::string hexadecimal(std::uint64_t value) {
   return text;
 }
 
+bool may_change(std::string_view optimizer_key) {
+  return optimizer_key == "max_evaluations" || optimizer_key == "time_limit_s" || optimizer_key == "restarts" ||
+         optimizer_key == "departures" || optimizer_key.starts_with("verify");
+}
+
 std::string fingerprint(const Problem& problem, const OptimizerOptions& options, std::string_view physics) {
   std::string text;
   // Each piece carries its length, so that no two different lists read alike.
@@ -63,9 +68,7 @@ std::string fingerprint(const Problem& problem, const OptimizerOptions& options,
   }
   text += ";options";
   for (const Field<OptimizerOptions>& field : option_table<OptimizerOptions>()) {
-    if (field.key == "max_evaluations" || field.key == "time_limit_s" || field.key == "restarts" ||
-        field.key == "departures" || field.key.starts_with("verify"))
-      continue;
+    if (may_change(field.key)) continue;
     // Keys that came later count where they are not what they are by default: older runs can be resumed.
     if ((field.key == "population" || field.key == "front_points") &&
         value_in_file_unit(options, field) == value_in_file_unit(OptimizerOptions{}, field))

@@ -2,6 +2,8 @@
 
 #include <sstream>
 
+#include "studies/program/commands/told.hpp"
+
 namespace dovetail::python {
 
 namespace py = pybind11;
@@ -19,10 +21,15 @@ py::list remarks_of(const std::string& text) {
   return remarks;
 }
 
-Answer answer_of(const std::function<int(const studies::Streams&)>& command) {
+Answer answer_of(const std::string& name, const studies::TellChoice& tell,
+                 const std::function<int(studies::Teller&, const studies::Streams&)>& command) {
   std::ostringstream out, err;
   int status = studies::kDone;
-  compute([&] { status = command({.out = out, .err = err}); });
+  const studies::Streams streams{.out = out, .err = err};
+  compute([&] {
+    status =
+        studies::told({.name = name}, tell, streams, [&](studies::Teller& teller) { return command(teller, streams); });
+  });
   const std::string json = out.str();
   return {.values = json.empty() ? py::dict() : py::dict(parsed(json)),
           .remarks = remarks_of(err.str()),

@@ -20,8 +20,9 @@ struct Answer {
 /// JSON as Python has it: the same numbers to the last bit, null is None.
 [[nodiscard]] pybind11::object parsed(const std::string& json);
 
-/// Computes what a command does, which writes its JSON to `out`, and takes its answer.
-[[nodiscard]] Answer answer_of(const std::function<int(const studies::Streams&)>& command);
+/// Computes what a command of that name does, which writes its JSON to `out`, and takes its answer.
+[[nodiscard]] Answer answer_of(const std::string& name, const studies::TellChoice& tell,
+                               const std::function<int(studies::Teller&, const studies::Streams&)>& command);
 
 /// "dovetail: a sentence" -> "a sentence", line by line.
 [[nodiscard]] pybind11::list remarks_of(const std::string& text);

@@ -67,12 +67,13 @@ Answer response(const py::object& given, const py::object& frequencies, const py
   take_keywords(options, keywords, "response", {"--from", "--to", "--points"});
   if (options.arclength && options.from_hz == options.to_hz)
     studies::refuse("frequencies", "must begin and end an interval with arclength");
-  return answer_of([&, model = input.model ? *input.model : reduction::ReducedModel()](const Streams& streams) {
-    if (!input.model) return studies::answer_response(options, hz, streams);
-    studies::Teller teller(streams.err, options.tell);
-    return studies::answer_response(options, hz, studies::take_model(input.name, model, options.solver), teller,
-                                    streams);
-  });
+  return answer_of("response", options.tell,
+                   [&, model = input.model ? *input.model : reduction::ReducedModel()](studies::Teller& teller,
+                                                                                       const Streams& streams) {
+                     if (!input.model) return studies::answer_response(options, hz, teller, streams);
+                     return studies::answer_response(
+                         options, hz, studies::take_model(input.name, model, options.solver), teller, streams);
+                   });
 }
 
 Answer wear(const py::object& given, const py::kwargs& keywords) {
@@ -82,11 +83,13 @@ Answer wear(const py::object& given, const py::kwargs& keywords) {
   options.set = input.set;
   options.json = "-";
   take_keywords(options, keywords, "wear");
-  return answer_of([&, model = input.model ? *input.model : reduction::ReducedModel()](const Streams& streams) {
-    if (!input.model) return studies::run_wear(options, streams);
-    studies::Teller teller(streams.err, options.tell);
-    return studies::answer_wear(options, studies::take_model(input.name, model, options.solver), teller, streams);
-  });
+  return answer_of("wear", options.tell,
+                   [&, model = input.model ? *input.model : reduction::ReducedModel()](studies::Teller& teller,
+                                                                                       const Streams& streams) {
+                     if (!input.model) return studies::run_wear(options, teller, streams);
+                     return studies::answer_wear(options, studies::take_model(input.name, model, options.solver),
+                                                 teller, streams);
+                   });
 }
 
 /// Tells a function of Python of each candidate; false from it ends the run in order.
@@ -122,6 +125,7 @@ py::dict run(const StudyFile& file, const py::object& directory, const py::objec
                                                         : "not_converged";
   py::dict answer;
   answer["status"] = words;
+  answer["converged"] = status == studies::kDone;
   answer["best"] = std::filesystem::exists(best) ? py::object(py::str(best.string())) : py::none();
   answer["summary"] = out.str();
   answer["remarks"] = remarks_of(err.str());

@@ -94,7 +94,9 @@ What the study asks for that it had better not: list[str], as `dovetail check` s
             studies::EvaluateOptions options{
                 .study = self.path(), .set = self.assignments(), .solver = {}, .json = "-"};
             take_keywords(options, keywords, "evaluate");
-            return answer_of([&](const studies::Streams& streams) { return studies::run_evaluate(options, streams); });
+            return answer_of("evaluate", options.tell, [&](studies::Teller& teller, const studies::Streams& streams) {
+              return studies::run_evaluate(options, teller, streams);
+            });
           },
           documented<studies::EvaluateOptions>("evaluate", "self", R"(Computes one design: `dovetail evaluate`.
 

@@ -16,6 +16,7 @@ namespace dovetail::wear {
 namespace {
 
 using Eigen::Index;
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 bool same(const VectorXd& a, const VectorXd& b, double tolerance) {
@@ -206,12 +207,47 @@ class MissionSearch {
   Mission result_;
 };
 
+/// Loads that wear nothing, whatever they do to the flanks, are put in their places on those that the others leave.
+void add_without_wear(std::span<const MissionLoad> loads, const std::vector<std::size_t>& wearing,
+                      const Watcher& watcher, Mission& result) {
+  if (result.failed) result.failed = wearing[*result.failed];
+  if (result.verdict != Verdict::asymptote) return;
+  std::vector<steady::State> states;
+  auto next = wearing.begin();
+  for (std::size_t k = 0; k < loads.size(); ++k) {
+    if (next != wearing.end() && *next == k) {
+      states.push_back(std::move(result.states[static_cast<std::size_t>(next++ - wearing.begin())]));
+      continue;
+    }
+    WearingJoint joint(loads[k].joint, loads[k].omega, watcher);
+    const MatrixXd start = loads[k].unworn != nullptr ? loads[k].unworn->displacement : MatrixXd();
+    states.push_back(joint.worn(result.depth, start));
+    result.solves += joint.solves();
+    if (states.back().status == Status::converged) continue;
+    result.failed = k;
+    result.status = states.back().status;
+    result.verdict = Verdict::not_converged;
+    return;
+  }
+  result.states = std::move(states);
+}
+
 }  // namespace
 
 Mission mission(std::span<const MissionLoad> loads, const MissionOptions& options, const Watcher& watcher) {
   if (std::vector<Violation> wrong = violations(options.asymptote, "asymptote"); !wrong.empty())
     throw InputError(std::move(wrong));
-  return MissionSearch(loads, options, watcher).run();
+  std::vector<std::size_t> wearing;
+  std::vector<MissionLoad> those;
+  for (std::size_t k = 0; k < loads.size(); ++k)
+    if (loads[k].joint.model->contact().wear_coefficient.maxCoeff() > 0) {
+      wearing.push_back(k);
+      those.push_back(loads[k]);
+    }
+  if (those.empty() || those.size() == loads.size()) return MissionSearch(loads, options, watcher).run();
+  Mission result = MissionSearch(those, options, watcher).run();
+  add_without_wear(loads, wearing, watcher, result);
+  return result;
 }
 
 MissionHistory mission_history(std::span<const MissionLoad> loads, const MissionHistoryOptions& options,

@@ -43,7 +43,7 @@ struct Mission {
   double worn_volume = 0;             ///< m^3
   double largest_depth = 0;           ///< m
   std::vector<bool> released;         ///< [Nc] worn off in one of them at least
-  std::vector<ReleaseTrail> trails;   ///< of every load: the passes are those of all, the reserves its own
+  std::vector<ReleaseTrail> trails;   ///< of every load that wears: the passes are those of all, the reserves its own
   Bearing bearing;                    ///< of the load that has the least to bear on
   bool took_turns = false;            ///< the loads were let act in turn, and came to an end
   /// Another order of the loads, or a history of one of them, ends elsewhere: least and largest volume of those tried.
@@ -59,8 +59,9 @@ struct Mission {
 /// Then the loads are let act in turn, each until it has come to rest, where that is in doubt by its wear history, in
 /// the order given and in the reverse one: where these end elsewhere the order of the loads matters. Where the wear law
 /// lets nodes rest in slip, of which release knows nothing, the flanks are those that the loads leave in turn. A state
-/// that hardly anything bears is an answer only when the loads in turn come to it. Cost: about three times the
-/// asymptotes of all loads; without turns as much as those. Throws InputError for options out of range.
+/// that hardly anything bears is an answer only when the loads in turn come to it. Loads of wear coefficient zero ask
+/// for no depth. Cost: about three times the asymptotes of all loads; without turns as much as those. Throws InputError
+/// for options out of range.
 [[nodiscard]] Mission mission(std::span<const MissionLoad> loads, const MissionOptions& options = {},
                               const Watcher& watcher = {});
 

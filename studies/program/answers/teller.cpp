@@ -39,6 +39,7 @@ Teller::Teller(std::ostream& err, const TellChoice& choice, bool plain)
       terminal_(&err == &std::cerr && ::isatty(STDERR_FILENO) != 0),
       shows_(!choice.quiet && (plain || terminal_)),
       quiet_(choice.quiet) {
+  if (choice.log == "-") refuse("--json-log", "must be a file", choice.log);
   if (!choice.log.empty()) {
     if (std::ifstream before(choice.log); before && before.peek() != std::ifstream::traits_type::eof()) {
       std::string begin(kEventBegin.size(), ' ');

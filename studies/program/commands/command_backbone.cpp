@@ -89,10 +89,9 @@ std::string table(const BackboneOptions& options, const paths::Backbone& found) 
 
 }  // namespace
 
-int run_backbone(const BackboneOptions& options, const Streams& streams) {
+int run_backbone(const BackboneOptions& options, Teller& teller, const Streams& streams) {
   const std::vector<double> values = parameters(options);
   if (options.solver.automatic()) refuse("--harmonics, --samples", "must be whole numbers for a backbone", "auto");
-  Teller teller(streams.err, options.tell);
   LoadedModel loaded = told_model(options.input, options.set, options.solver, teller);
   if (!loaded.failure.empty()) return not_converged(options.input, "not converged: " + loaded.failure, streams);
   paths::BackboneOptions settings;

@@ -15,6 +15,7 @@
 #include "studies/program/engine/loaded_model.hpp"
 #include "studies/program/engine/run_folder.hpp"
 #include "studies/program/study_file/best_file.hpp"
+#include "studies/report/words/report_words.hpp"
 
 namespace dovetail::studies {
 namespace {
@@ -69,8 +70,7 @@ std::string cost_words(const Study& study, const optimizer::Scene& scene, std::v
 
 }  // namespace
 
-int run_check(const CheckOptions& options, const Streams& streams) {
-  Teller teller(streams.err, options.tell);
+int run_check(const CheckOptions& options, Teller& teller, const Streams& streams) {
   const Study study = load_rewritten_study(study_or_best(options.study, &teller.remark()), overrides(options.set));
   const optimizer::Problem& problem = study.problem;
   std::vector<std::string> doubts = warnings(study);
@@ -91,9 +91,7 @@ int run_check(const CheckOptions& options, const Streams& streams) {
   for (const std::string& doubt : doubts)
     told << options.study << (options.strict ? ": " : ": warning: ") << doubt << "\n";
   if (options.strict && !doubts.empty()) return kWrongInput;
-  const auto counted = [](std::size_t count, const char* what) {
-    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-  };
+  using report::counted;
   streams.out << fmt::format("{}: valid; {}, {}, {}{}\n", options.study, counted(problem.space.size(), "variable"),
                              counted(problem.objective.size(), "objective") + (problem.front ? " for a front" : ""),
                              counted(problem.constraints.size(), "constraint"),

@@ -25,6 +25,7 @@
 #include "studies/program/study_file/refusal.hpp"
 #include "studies/report/pages/report_html.hpp"
 #include "studies/report/record/results_file.hpp"
+#include "studies/report/words/report_words.hpp"
 
 namespace dovetail::studies {
 namespace {
@@ -113,8 +114,7 @@ void check_export(const ExportOptions& options, std::optional<ExportFormat> form
 
 }  // namespace
 
-int run_import(const ImportOptions& options, const Streams& streams) {
-  Teller teller(streams.err, options.tell);
+int run_import(const ImportOptions& options, Teller& teller, const Streams& streams) {
   teller.begin("reading the model, and reducing it where it is a structure");
   const std::optional<reduction::ReducedModel> model = read_any_model(options.input);
   if (!model)
@@ -143,10 +143,9 @@ int export_model(const ExportOptions& options, const Exported& exported, Teller&
 
 }  // namespace
 
-int run_export(const ExportOptions& options, const Streams& streams) {
+int run_export(const ExportOptions& options, Teller& teller, const Streams& streams) {
   const std::optional<ExportFormat> format = named<ExportFormat>(options.format);
   check_export(options, format);
-  Teller teller(streams.err, options.tell);
   const Exported exported(options, teller);
   const bool of_run = exported.of_run();
   if (!format) return export_model(options, exported, teller, streams);
@@ -187,8 +186,7 @@ int run_export(const ExportOptions& options, const Streams& streams) {
   return kDone;
 }
 
-int run_report(const ReportOptions& options, const Streams& streams) {
-  Teller teller(streams.err, options.tell);
+int run_report(const ReportOptions& options, Teller& teller, const Streams& streams) {
   teller.begin("reading the results, of which the report is made");
   const report::RunRecord record = results_of(options.directory);
   teller.begin("writing the report");
@@ -198,14 +196,38 @@ int run_report(const ReportOptions& options, const Streams& streams) {
   return kDone;
 }
 
-int run_merge(const MergeOptions& options, const Streams& streams) {
-  Teller teller(streams.err, options.tell);
+namespace {
+
+/// A directory that is gone again where what fills it throws.
+class NewDirectory {
+ public:
+  explicit NewDirectory(fs::path path) : path_(std::move(path)) {
+    std::error_code error;
+    created_ = fs::create_directories(path_, error);
+    if (error) refuse(path_.string(), "cannot be created: " + error.message());
+  }
+  ~NewDirectory() {
+    std::error_code ignored;
+    if (created_) fs::remove_all(path_, ignored);
+  }
+  NewDirectory(const NewDirectory&) = delete;
+  NewDirectory& operator=(const NewDirectory&) = delete;
+
+  void keep() { created_ = false; }
+
+ private:
+  fs::path path_;
+  bool created_ = false;
+};
+
+}  // namespace
+
+int run_merge(const MergeOptions& options, Teller& teller, const Streams& streams) {
   const fs::path merged(options.directory);
   std::error_code error;
   if (fs::exists(merged, error) && !fs::is_empty(merged, error))
     refuse(options.directory, "exists already; choose another directory for the merged run");
-  fs::create_directories(merged, error);
-  if (error) refuse(options.directory, "cannot be created: " + error.message());
+  NewDirectory made(merged);
   std::size_t evaluations = 0;
   const std::vector<std::string> names{"journal.jsonl", "finer.jsonl"};
   teller.begin("merging journals", 0, static_cast<int>(names.size()));
@@ -223,9 +245,10 @@ int run_merge(const MergeOptions& options, const Streams& streams) {
   double seconds = 0;
   for (const std::string& directory : options.directories) seconds += seconds_taken(directory);
   keep_seconds_taken(merged, seconds);
+  made.keep();
   teller.end();
-  streams.out << fmt::format("{}: {} different evaluations of {} runs\n", options.directory, evaluations,
-                             options.directories.size());
+  streams.out << fmt::format("{}: {} of {}\n", options.directory, report::counted(evaluations, "different evaluation"),
+                             report::counted(options.directories.size(), "run"));
   return kDone;
 }
 

@@ -2,19 +2,18 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <exception>
 #include <functional>
 #include <memory>
-#include <new>
 #include <ostream>
 #include <sstream>
-#include <system_error>
+#include <type_traits>
 
 #include "core/options.hpp"
 #include "studies/program/answers/version.hpp"
 #include "studies/program/commands/commands.hpp"
 #include "studies/program/commands/help.hpp"
 #include "studies/program/commands/shell_files.hpp"
+#include "studies/program/commands/told.hpp"
 
 namespace dovetail::studies {
 namespace {
@@ -62,10 +61,14 @@ void add_command(CLI::App& app, Chosen& chosen, const CommandHelp& help, Run run
   visit_options(*options, [&]<class S>(S& part, std::span<const Option<S>> table) {
     for (const Option<S>& row : table) add_option(*command, part, row);
   });
-  command->callback([options, run, &chosen] {
-    chosen = [options, run](const Streams& streams) {
+  command->callback([options, run, name = help.name, &chosen] {
+    chosen = [options, run, name](const Streams& streams) {
       complaints(*options).raise();
-      return run(*options, streams);
+      if constexpr (std::is_invocable_v<Run, const Options&, Teller&, const Streams&>)
+        return told({.name = name}, options->tell, streams,
+                    [&](Teller& teller) { return run(*options, teller, streams); });
+      else
+        return run(*options, streams);
     };
   });
 }
@@ -140,19 +143,10 @@ int run_program(int argc, const char* const* argv, const Streams& streams, const
   }
   try {
     return chosen(streams);
-  } catch (const InputError& error) {
-    streams.err << error.what() << "\n";
-    return kWrongInput;
-  } catch (const std::system_error& error) {
-    streams.err << "dovetail: " << one_line(error.what()) << "\n";
-    return kWrongInput;
-  } catch (const std::bad_alloc&) {
-    streams.err << "dovetail: there is not enough memory for this; fewer harmonics, samples, modes or elements need "
-                   "less\n";
-    return kWrongInput;
-  } catch (const std::exception& error) {
-    streams.err << "dovetail: the computation ended unexpectedly: " << one_line(error.what()) << "\n";
-    return kNotConverged;
+  } catch (...) {
+    const auto [status, words] = failure();
+    streams.err << words << "\n";
+    return status;
   }
 }
 

@@ -142,12 +142,12 @@ bool contact_changes(const ResponseCurve& curve) {
 
 }  // namespace
 
-int run_response(const ResponseOptions& options, const Streams& streams) {
-  return answer_response(options, frequencies(options), streams);
+int run_response(const ResponseOptions& options, Teller& teller, const Streams& streams) {
+  return answer_response(options, frequencies(options), teller, streams);
 }
 
-int answer_response(const ResponseOptions& options, const std::vector<double>& hz, const Streams& streams) {
-  Teller teller(streams.err, options.tell);
+int answer_response(const ResponseOptions& options, const std::vector<double>& hz, Teller& teller,
+                    const Streams& streams) {
   return answer_response(options, hz, told_model(options.input, options.set, options.solver, teller), teller, streams);
 }
 

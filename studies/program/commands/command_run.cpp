@@ -16,6 +16,7 @@
 #include "studies/program/answers/version.hpp"
 #include "studies/program/commands/commands.hpp"
 #include "studies/program/commands/settled_run.hpp"
+#include "studies/program/commands/told.hpp"
 #include "studies/program/engine/interrupt.hpp"
 #include "studies/program/engine/json_values.hpp"
 #include "studies/program/engine/loaded_model.hpp"
@@ -30,6 +31,7 @@
 #include "studies/program/run/search_progress.hpp"
 #include "studies/program/study_file/best_file.hpp"
 #include "studies/program/study_file/refusal.hpp"
+#include "studies/report/words/report_words.hpp"
 
 namespace dovetail::studies {
 namespace {
@@ -62,10 +64,15 @@ std::optional<optimizer::Part> part_of(const RunOptions& options, const Study& s
   return part;
 }
 
-/// The directory of the results, created; an existing one is only touched to resume it. Scripts that always say
+/// The directory of the results.
+fs::path directory_of(const RunOptions& options, const Study& study) {
+  return options.directory.empty() ? fs::path("results") / study.name : fs::path(options.directory);
+}
+
+/// The same, created; an existing one is only touched to resume it. Scripts that always say
 /// --resume begin where nothing is there, which whoever mistyped the directory hears.
 fs::path prepare_directory(const RunOptions& options, const Study& study, std::ostream& err) {
-  fs::path directory = options.directory.empty() ? fs::path("results") / study.name : fs::path(options.directory);
+  fs::path directory = directory_of(options, study);
   std::error_code error;
   if (fs::exists(directory, error)) {
     if (!fs::is_directory(directory, error)) refuse(directory.string(), "is not a directory");
@@ -197,8 +204,8 @@ std::string part_words(const Study& study, const optimizer::Part& part, std::siz
     return fmt::format("{}: {} in part {} of {} of the scan: {} of its {} evaluations are kept in {}\n", study.name,
                        interrupted ? "interrupted" : "the time is over", part.number, part.of, done, own,
                        directory.string());
-  return fmt::format("{}: part {} of {} of the scan, {} evaluations in {}\n", study.name, part.number, part.of, done,
-                     directory.string());
+  return fmt::format("{}: part {} of {} of the scan, {} in {}\n", study.name, part.number, part.of,
+                     report::counted(done, "evaluation"), directory.string());
 }
 
 }  // namespace
@@ -309,27 +316,25 @@ int run_study(const RunOptions& options, const Streams& streams, const RunEngine
 int run_study(const Study& asked, const RunOptions& options, const Streams& streams,
               const RunEngineFactory& make_engine, const PoolFactory& pools,
               const std::function<void(const optimizer::Progress&)>& told) {
-  Teller teller(streams.err, options.tell, true);
-  require_runnable(asked);
-  static_cast<void>(part_of(options, asked));
-  for (const std::string& warning : warnings(asked))
-    teller.remark() << options.study << ": warning: " << warning << "\n";
-  const fs::path directory = prepare_directory(options, asked, teller.remark());
-  teller.event("begin", {{"version", 1},
-                         {"program", version()},
-                         {"study", options.study},
-                         {"directory", directory.string()},
-                         {"max_evaluations", asked.optimizer.max_evaluations}});
-  int status = kDone;
-  if (const std::optional<std::string> before =
-          options.resume && options.part.empty() ? finished_before(directory, question_of(asked)) : std::nullopt) {
-    teller.remark() << "dovetail: " << directory.string() << ": this run is finished; nothing is computed again\n";
-    streams.out << *before;
-  } else {
-    status = computed(options, asked, directory, streams, teller, make_engine, pools, told);
-  }
-  teller.event("end", {{"exit_status", status}});
-  return status;
+  const ToldCommand command{.name = "run",
+                            .plain = true,
+                            .fields = {{"study", options.study},
+                                       {"directory", directory_of(options, asked).string()},
+                                       {"max_evaluations", asked.optimizer.max_evaluations}}};
+  return studies::told(command, options.tell, streams, [&](Teller& teller) {
+    require_runnable(asked);
+    static_cast<void>(part_of(options, asked));
+    for (const std::string& warning : warnings(asked))
+      teller.remark() << options.study << ": warning: " << warning << "\n";
+    const fs::path directory = prepare_directory(options, asked, teller.remark());
+    if (options.resume && options.part.empty())
+      if (const std::optional<std::string> before = finished_before(directory, question_of(asked))) {
+        teller.remark() << "dovetail: " << directory.string() << ": this run is finished; nothing is computed again\n";
+        streams.out << *before;
+        return static_cast<int>(kDone);
+      }
+    return computed(options, asked, directory, streams, teller, make_engine, pools, told);
+  });
 }
 
 }  // namespace dovetail::studies

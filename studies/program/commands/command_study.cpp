@@ -219,8 +219,7 @@ void refuse_automatic(const SolverChoice& solver) {
 
 }  // namespace
 
-int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
-  Teller teller(streams.err, options.tell);
+int run_evaluate(const EvaluateOptions& options, Teller& teller, const Streams& streams) {
   std::vector<std::string> set = options.set;
   std::optional<DakotaQuestion> dakota;
   if (!options.dakota.empty()) {
@@ -327,8 +326,7 @@ int run_evaluate(const EvaluateOptions& options, const Streams& streams) {
   return not_converged(options.study, fmt::format("{}: {}", what, evaluation.status), streams);
 }
 
-int run_reduce(const ReduceOptions& options, const Streams& streams) {
-  Teller teller(streams.err, options.tell);
+int run_reduce(const ReduceOptions& options, Teller& teller, const Streams& streams) {
   const LoadedModel loaded = told_model(options.study, options.set, {}, teller);
   teller.end();
   if (!loaded.failure.empty()) return not_converged(options.study, "not converged: " + loaded.failure, streams);

@@ -199,10 +199,9 @@ void present(const WearOptions& options, WearResult& result, const Streams& stre
 
 }  // namespace
 
-int run_wear(const WearOptions& given, const Streams& streams) {
+int run_wear(const WearOptions& given, Teller& teller, const Streams& streams) {
   std::optional<wear::Follow> follow;
   if (given.follow) follow = given.follow == Drive::resonance ? wear::Follow::resonance : wear::Follow::fixed;
-  Teller teller(streams.err, given.tell);
   return answer_wear(given, told_model(given.input, given.set, given.solver, teller, follow), teller, streams);
 }
 

@@ -45,7 +45,7 @@ struct CheckOptions {
   bool strict = false;           ///< warnings are errors
   TellChoice tell = {};
 };
-int run_check(const CheckOptions& options, const Streams& streams);
+int run_check(const CheckOptions& options, Teller& teller, const Streams& streams);
 
 struct NewOptions {
   std::string file;
@@ -67,7 +67,7 @@ struct EvaluateOptions {
   std::vector<std::string> dakota = {};  ///< its parameters file, and the results file it reads
   TellChoice tell = {};
 };
-int run_evaluate(const EvaluateOptions& options, const Streams& streams);
+int run_evaluate(const EvaluateOptions& options, Teller& teller, const Streams& streams);
 
 struct ReduceOptions {
   std::string study;
@@ -75,7 +75,7 @@ struct ReduceOptions {
   std::vector<std::string> set;  ///< KEY=VALUE, as given with --set
   TellChoice tell = {};
 };
-int run_reduce(const ReduceOptions& options, const Streams& streams);
+int run_reduce(const ReduceOptions& options, Teller& teller, const Streams& streams);
 
 struct ResponseOptions {
   std::string input;             ///< MODEL.h5 or STUDY.toml
@@ -88,9 +88,10 @@ struct ResponseOptions {
   std::string json;
   TellChoice tell = {};
 };
-int run_response(const ResponseOptions& options, const Streams& streams);
+int run_response(const ResponseOptions& options, Teller& teller, const Streams& streams);
 /// The same at these frequencies, of which the ends count in an arc-length run; and of a model that is loaded.
-int answer_response(const ResponseOptions& options, const std::vector<double>& hz, const Streams& streams);
+int answer_response(const ResponseOptions& options, const std::vector<double>& hz, Teller& teller,
+                    const Streams& streams);
 int answer_response(const ResponseOptions& options, const std::vector<double>& hz, LoadedModel loaded, Teller& teller,
                     const Streams& streams);
 
@@ -119,9 +120,9 @@ struct BackboneOptions {
   std::string json;
   TellChoice tell = {};
 };
-int run_backbone(const BackboneOptions& options, const Streams& streams);
+int run_backbone(const BackboneOptions& options, Teller& teller, const Streams& streams);
 
-int run_wear(const WearOptions& options, const Streams& streams);
+int run_wear(const WearOptions& options, Teller& teller, const Streams& streams);
 /// The same of a model that is loaded.
 int answer_wear(const WearOptions& options, LoadedModel loaded, Teller& teller, const Streams& streams);
 
@@ -191,7 +192,7 @@ struct ImportOptions {
   std::string model;  ///< MODEL.h5
   TellChoice tell = {};
 };
-int run_import(const ImportOptions& options, const Streams& streams);
+int run_import(const ImportOptions& options, Teller& teller, const Streams& streams);
 
 struct ExportOptions {
   std::string input;             ///< results directory, STUDY.toml, MODEL.h5 or MODEL.toml
@@ -203,21 +204,21 @@ struct ExportOptions {
   DeckOptions deck;              ///< of the format inp
   TellChoice tell = {};
 };
-int run_export(const ExportOptions& options, const Streams& streams);
+int run_export(const ExportOptions& options, Teller& teller, const Streams& streams);
 
 struct MergeOptions {
   std::vector<std::string> directories;
   std::string directory;  ///< of the merged run
   TellChoice tell = {};
 };
-int run_merge(const MergeOptions& options, const Streams& streams);
+int run_merge(const MergeOptions& options, Teller& teller, const Streams& streams);
 
 struct ReportOptions {
   std::string directory;
   std::string file;
   TellChoice tell = {};
 };
-int run_report(const ReportOptions& options, const Streams& streams);
+int run_report(const ReportOptions& options, Teller& teller, const Streams& streams);
 
 template <class S>
 [[nodiscard]] Option<S> input_option() {

@@ -12,6 +12,7 @@
 #include <ostream>
 
 #include "optimizer/evaluation_cost.hpp"
+#include "optimizer/journal/fingerprint.hpp"
 #include "optimizer/responses/response_table.hpp"
 #include "optimizer/scene/scene_kind.hpp"
 #include "studies/program/answers/accuracy_json.hpp"
@@ -172,6 +173,10 @@ void refuse_changed(const std::filesystem::path& directory, const Study& study) 
     std::erase_if(changed, [](const std::string& one) {
       return (one.starts_with("mesh.") || one.starts_with("solver.")) && one.find(" missing (") != one.npos;
     });
+  std::erase_if(changed, [](const std::string& one) {
+    constexpr std::string_view kTable = "optimizer.";
+    return one.starts_with(kTable) && optimizer::may_change(one.substr(kTable.size(), one.find(' ') - kTable.size()));
+  });
   if (changed.empty()) return;
   constexpr std::size_t kTold = 6;
   if (const std::size_t all = changed.size(); all > kTold) {

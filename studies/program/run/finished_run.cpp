@@ -10,12 +10,13 @@ namespace {
 
 constexpr const char* kFinished = "finished.json";
 
-/// Sizes of the files that a run makes its answer of, and of what it hands over: what has changed since then is looked
-/// at again.
+/// Sizes of the files that a run makes its answer of, and of what it hands over: where one has changed or is damaged
+/// the run says and writes it again.
 Json sizes_in(const std::filesystem::path& directory) {
   Json sizes = Json::object();
-  for (const char* name : {"settings.json", "best_settings.json", "journal.jsonl", "finer.jsonl", "front.jsonl",
-                           "verification.jsonl", "departures.jsonl"}) {
+  for (const char* name :
+       {"study.toml", "settings.json", "best_settings.json", "journal.jsonl", "finer.jsonl", "front.jsonl",
+        "verification.jsonl", "departures.jsonl", "results.h5", "report.html", "candidates.csv"}) {
     std::error_code none;
     const std::uintmax_t size = std::filesystem::file_size(directory / name, none);
     if (!none) sizes[name] = size;
@@ -29,6 +30,10 @@ Json sizes_in(const std::filesystem::path& directory) {
 
 }  // namespace
 
+std::string written_to(const std::string& directory) {
+  return "written to " + directory + "\n";
+}
+
 std::optional<std::string> finished_before(const std::filesystem::path& directory, const std::string& question) {
   for (const char* file : {"results.h5", "report.html"})
     if (!std::filesystem::exists(directory / file)) return {};
@@ -37,15 +42,22 @@ std::optional<std::string> finished_before(const std::filesystem::path& director
   try {
     const Json json = Json::parse(stream);
     if (json.at("question") != question || json.at("sizes") != sizes_in(directory)) return {};
-    return json.at("answer").get<std::string>();
+    auto answer = json.at("answer").get<std::string>();
+    // The directory may have moved since then.
+    const std::string before = written_to(json.at("directory").get<std::string>());
+    if (const std::size_t at = answer.find(before); at != answer.npos)
+      answer.replace(at, before.size(), written_to(directory.string()));
+    return answer;
   } catch (const Json::exception&) {
     return {};  // damaged: the run says it again
   }
 }
 
 void keep_finished(const std::filesystem::path& directory, const std::string& question, const std::string& answer) {
-  replace_file(directory / kFinished,
-               text({{"question", question}, {"sizes", sizes_in(directory)}, {"answer", answer}}));
+  replace_file(directory / kFinished, text({{"question", question},
+                                            {"directory", directory.string()},
+                                            {"sizes", sizes_in(directory)},
+                                            {"answer", answer}}));
 }
 
 void forget_finished(const std::filesystem::path& directory) {

@@ -8,6 +8,9 @@
 /// to do.
 namespace dovetail::studies {
 
+/// The line of an answer that says where everything is.
+[[nodiscard]] std::string written_to(const std::string& directory);
+
 /// The answer to the same question, where what the run made it of and the files it handed over are still there.
 [[nodiscard]] std::optional<std::string> finished_before(const std::filesystem::path& directory,
                                                          const std::string& question);

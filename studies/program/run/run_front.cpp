@@ -13,6 +13,7 @@
 #include "optimizer/journal/journal.hpp"
 #include "studies/program/run/candidate_table.hpp"
 #include "studies/program/study_file/best_file.hpp"
+#include "studies/report/words/report_words.hpp"
 
 namespace dovetail::studies {
 namespace {
@@ -186,8 +187,8 @@ std::string front_words(const report::RunRecord& record) {
   if (!record.front) return {};
   const FrontRecord& front = *record.front;
   const std::size_t points = front.evaluation.size();
-  std::string text = fmt::format("front of {} design{}, hypervolume {:.6g} against", points, points == 1 ? "" : "s",
-                                 front.hypervolume);
+  std::string text =
+      fmt::format("front of {}, hypervolume {:.6g} against", report::counted(points, "design"), front.hypervolume);
   for (std::size_t i = 0; i < front.columns(); ++i)
     text += fmt::format("{} {} = {:.4g}", i == 0 ? "" : ",", front.objectives[i], front.reference[i]);
   if (front.hypervolume == 0) text += ", which no point beats in all objectives: give a reference";

@@ -108,7 +108,6 @@ WrittenRun record_of(const RunSite& site, OptimizationResult result, const RunCl
                         std::optional<report::DesignRecord>& design) {
     DescribedDesign seen = future.get();
     optimizer::Candidate& candidate = result.evaluations[index];
-    const auto known = static_cast<std::ptrdiff_t>(seen.evaluation.messages.size());
     if (const auto raised = site.raised.find(index); raised != site.raised.end())
       optimizer::raise_bars(raised->second, seen.evaluation);
     take_over(study, std::move(seen.evaluation), candidate);
@@ -120,7 +119,7 @@ WrittenRun record_of(const RunSite& site, OptimizationResult result, const RunCl
     if (!site.settings.empty()) candidate.evaluation.messages.push_back(site.settings);
     design = std::move(seen.record);
     const std::vector<std::string>& messages = candidate.evaluation.messages;
-    design->notes.insert(design->notes.begin() + known, messages.begin() + known, messages.end());
+    design->notes.insert(design->notes.begin(), messages.begin(), messages.end());
   };
   std::future<DescribedDesign> of_best, of_start;
   const bool describes = engine.describe && site.describes;

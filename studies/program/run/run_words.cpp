@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "studies/program/run/finished_run.hpp"
 #include "studies/program/run/run_front.hpp"
 #include "studies/program/run/search_progress.hpp"
 #include "studies/report/words/report_words.hpp"
@@ -65,9 +66,9 @@ std::string conclusion(const Study& study, const OptimizationResult& result, con
   const int failed =
       count([](const optimizer::Candidate& c) { return !c.evaluation.converged() && !c.evaluation.infeasible(); });
   std::string text = fmt::format(
-      "{}: {} evaluations, {} of them stored before; {} feasible, {} break a limit or a rule, {} failed; {}\n",
-      study.name, all, counts.replayed, feasible, all - feasible - failed, failed,
-      result.message.empty() ? std::string(to_string(result.status)) : result.message);
+      "{}: {}, {} of them stored before; {} feasible, {} break a limit or a rule, {} failed; {}\n", study.name,
+      report::counted(result.evaluations.size(), "evaluation"), counts.replayed, feasible, all - feasible - failed,
+      failed, result.message.empty() ? std::string(to_string(result.status)) : result.message);
   if (counts.unused_records > 0)
     text += fmt::format("{} stored evaluations were not asked for again: this search took another way\n",
                         counts.unused_records);
@@ -83,7 +84,7 @@ std::string conclusion(const Study& study, const OptimizationResult& result, con
                         *result.best + 1, objective(record.evaluations.front()));
   for (const auto& [key, value] : variable_values(study, result.evaluations[*result.best]))
     text += fmt::format("  {} = {:.6g}\n", key, value);
-  return text + limits_kept(record) + fmt::format("written to {}\n", directory.string());
+  return text + limits_kept(record) + written_to(directory.string());
 }
 
 std::string verified_words(const std::vector<report::VerificationRecord>& verifications) {
@@ -115,8 +116,9 @@ std::string held_words(const report::RunRecord& record) {
 std::string shortcoming(const Study& study, const OptimizationResult& result, const WrittenRun& written) {
   const report::RunRecord& record = written.record;
   if (!result.best)
-    return fmt::format("{}: no feasible design was found in {} evaluations{}{}", study.file, result.evaluations.size(),
-                       listed_unkept(record), nearest_words(study, result));
+    return fmt::format("{}: no feasible design was found in {}{}{}", study.file,
+                       report::counted(result.evaluations.size(), "evaluation"), listed_unkept(record),
+                       nearest_words(study, result));
   const bool stands = !record.best_design || optimizer::converged(record.best_design->status);
   if (!stands || !record.evaluations[*result.best].feasible)
     return fmt::format("the best design, evaluation {}, looked at with bars and its wear history: {}", *result.best + 1,

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/errors.hpp"
+#include "optimizer/cases.hpp"
 #include "optimizer/problem/uncertainty.hpp"
 #include "studies/program/study_file/scene_keys.hpp"
 
@@ -173,6 +174,21 @@ bool read_distribution(SectionReader& section, const Parameter& parameter, bool 
   return true;
 }
 
+/// Samples that leave the range of their key, each key once.
+void refuse_samples(SectionReader& root, const optimizer::Scene& scene, const std::vector<LoadCase>& samples,
+                    Problems& problems) {
+  std::vector<std::string> refused;
+  for (const LoadCase& sample : samples)
+    for (const Violation& wrong : optimizer::violations(optimizer::in_case(scene, sample)))
+      for (const auto& [node, path] : entries(root, "uncertain", problems)) {
+        const Node& key = *node->find("key");
+        if (!overlap(key.text, wrong.key) || std::ranges::find(refused, key.text) != refused.end()) continue;
+        refused.push_back(key.text);
+        problems.add(key, path + ".key",
+                     "becomes " + wrong.value + " in " + sample.name + " of its samples: " + wrong.allowed);
+      }
+}
+
 }  // namespace
 
 std::vector<LoadCase> read_samples(SectionReader& root, const optimizer::Scene& scene,
@@ -212,7 +228,9 @@ std::vector<LoadCase> read_samples(SectionReader& root, const optimizer::Scene& 
     problems.add(*robust.node()->find("points"), "robust.points", "must be <= 20 of a Gauss rule");
   if (!problems.empty()) return cases;
   try {
-    return optimizer::sampled(cases, uncertain, options);
+    std::vector<LoadCase> samples = optimizer::sampled(cases, uncertain, options);
+    refuse_samples(root, scene, samples, problems);
+    return samples;
   } catch (const InputError& error) {
     problems.missing(robust.node(), "robust.rule", error.violations().front().allowed);
   }

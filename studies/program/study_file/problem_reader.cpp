@@ -155,6 +155,11 @@ std::vector<ResponseConstraint> read_constraints(SectionReader& root, const std:
       problems.add(*upper, section.path("upper"), "must be >= 0: a magnitude is limited");
     if (limit.response.empty()) continue;
     const auto fresh = std::pair(-kInfinity, kInfinity);
+    for (const ResponseConstraint& before : limits) {
+      if (before.response != limit.response || before.absolute != limit.absolute || before.over != limit.over) continue;
+      if (before.lower && lower) problems.add(*lower, section.path("lower"), "is limited from below already");
+      if (before.upper && upper) problems.add(*upper, section.path("upper"), "is limited from above already");
+    }
     auto& [floor, ceiling] = band.try_emplace({limit.response, limit.absolute, limit.over}, fresh).first->second;
     floor = std::max(floor, limit.lower.value_or(-kInfinity));
     ceiling = std::min(ceiling, limit.upper.value_or(kInfinity));
@@ -184,10 +189,14 @@ void refuse_missions(SectionReader& root, const optimizer::Scene& scene, const o
                      followed ? "is of flanks that wear at held frequencies: needs loading.follow = \"fixed\""
                               : "is of cases that act on the same flanks: none of them may change the geometry");
       const Node* over = node->find("over");
-      if (over && over->text != "worst" && (!sampled || over->text == "sum"))
+      if (!over || over->text == "worst" || (sampled && over->text != "sum")) continue;
+      const bool of_each = name->text == optimizer::kMissionDrift.name;
+      if (!of_each)
         problems.add(*over, path + ".over",
                      "must be \"worst\" or not be given: what all cases wear off together is one "
                      "number of them all");
+      else if (named<optimizer::Over>(over->text))
+        problems.add(*over, path + ".over", "must be \"worst\", the name of a case, or not be given");
     }
 }
 
@@ -201,8 +210,10 @@ optimizer::Problem read_problem(SectionReader& root, const optimizer::Scene& sce
   problem.cases = read_cases(root, scene, variables, problems);
   const std::vector<optimizer::LoadCase> named = problem.cases;
   problem.cases = read_samples(root, scene, variables, problem.cases, problem.quantile, problems);
-  problem.objective = read_objective(root, named, !problem.cases.empty(), accurate, problem.front, problems);
-  problem.constraints = read_constraints(root, named, !problem.cases.empty(), accurate, problems);
+  // Where something is wrong there are no samples yet.
+  const bool several = !problem.cases.empty() || (!problems.empty() && root.node() && root.node()->find("uncertain"));
+  problem.objective = read_objective(root, named, several, accurate, problem.front, problems);
+  problem.constraints = read_constraints(root, named, several, accurate, problems);
   refuse_missions(root, scene, problem, problems);
   const bool varies = root.node() && root.node()->find("variable");
   if (problem.objective.empty() && (varies || (root.node() && root.node()->find("objective"))))

@@ -53,7 +53,9 @@ void add_doubts_of_cases(const Study& study, std::vector<std::string>& result) {
   for (const optimizer::LoadCase& load : study.problem.cases)
     for (const auto& [key, value, times] : load.changes) {
       const double base = times == 0 ? 0 : times * optimizer::parameter(study.scene, key);
-      const std::string words = doubt(key, base + value);
+      std::string words = doubt(key, base + value);
+      if (times != 0 && times != 1 && base == 0 && value == 0)
+        words = key + " = 0: a share of nothing is nothing: give plus_minus.";
       const std::string place = load.sample_of == optimizer::kSampleOfStudy ? "[[uncertain]]"
                                 : load.sample_of.empty()                    ? "[[case]] " + load.name
                                                                             : "[[case]] " + load.sample_of;
@@ -78,17 +80,17 @@ void add_doubts(const Study& study, std::vector<std::string>& result) {
       if (of.response.ends_with("_pa") && limit && !kDoubt.limit.contains(*limit))
         result.push_back("the limit " + shortest(*limit) + " Pa of " + of.response +
                          " is far from what metals bear: limits are given in Pa.");
-  std::vector<std::string> varied;
-  for (const optimizer::DesignVariable& variable : study.problem.space.variables()) {
-    varied.push_back(variable.key);
-    varied.insert(varied.end(), variable.also.begin(), variable.also.end());
-  }
-  for (const LinkedKey& linked : study.linked) varied.push_back(linked.key);
-  for (const std::string& key : varied)
+  const auto doubt_varied = [&](const char* what, const std::string& key) {
     if (key.starts_with("contact.") || key.starts_with("material.") || key.starts_with("loading."))
-      result.push_back("the variable " + key +
+      result.push_back(what + key +
                        " is no dimension that a designer may choose: what is not known for certain belongs into "
                        "[[uncertain]], what changes in service into [[case]].");
+  };
+  for (const optimizer::DesignVariable& variable : study.problem.space.variables()) {
+    doubt_varied("the variable ", variable.key);
+    for (const std::string& key : variable.also) doubt_varied("the variable ", key);
+  }
+  for (const LinkedKey& linked : study.linked) doubt_varied("the linked key ", linked.key);
 }
 
 }  // namespace

@@ -72,8 +72,8 @@ Plot engine_order_plot(const DesignRecord& design) {
   }
   if (plot.series.empty()) return plot;
   Series orders{.name = "engine orders", .role = Role::bad, .stroke = Stroke::none, .mark = Mark::cross};
-  for (long order = std::lround(std::ceil(range.lower / turns)); static_cast<double>(order) * turns <= range.upper;
-       ++order) {
+  for (long order = std::max(1L, std::lround(std::ceil(range.lower / turns)));
+       static_cast<double>(order) * turns <= range.upper; ++order) {
     const long folded = order % blades;
     orders.add(static_cast<double>(std::min(folded, blades - folded)), static_cast<double>(order) * turns);
     orders.labels.push_back(fmt::format("EO {}", order));

@@ -224,7 +224,6 @@ DesignRecord make_design_record(const Scene& scene, const CandidateResult& resul
   record.parameters = result.evaluation.parameters;
   record.responses = result.evaluation.responses;
   record.error_estimates = result.evaluation.error_estimates;
-  record.notes = result.evaluation.messages;
   try {
     record.profile = geometry::build_profile(scene.geometry);
     record.finished_blade = geometry::finished_blade(scene.geometry);

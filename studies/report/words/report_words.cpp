@@ -99,6 +99,10 @@ std::string wear_words(const RunRecord& record) {
   return law ? std::string(law->title) : "wear by the law " + record.wear_law;
 }
 
+std::string counted(std::size_t count, const std::string& what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
 std::string over_words(const optimizer::Problem& problem, std::string_view over) {
   if (problem.cases.empty()) return "";
   const std::optional<optimizer::Over> rule = named<optimizer::Over>(over);
@@ -233,9 +237,8 @@ std::string ending(const RunRecord& record) {
           ? "The search converged."
           : fmt::format("The search {}: {}{}", status == Status::iteration_limit ? "ended" : "stopped early", why,
                         why.ends_with(".") ? "" : ".");
-  return fmt::format(
-      "{} It looked at {} candidate{}: {} feasible, {} breaking a limit or a geometric rule, {} not computed.", how,
-      all, all == 1 ? "" : "s", feasible, all - feasible - failed, failed);
+  return fmt::format("{} It looked at {}: {} feasible, {} breaking a limit or a geometric rule, {} not computed.", how,
+                     counted(static_cast<std::size_t>(all), "candidate"), feasible, all - feasible - failed, failed);
 }
 
 std::string at_bound(const optimizer::DesignVariable& variable, double value) {

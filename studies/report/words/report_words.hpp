@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ namespace dovetail::report {
 [[nodiscard]] double response(const EvaluationRecord& evaluation, const std::string& name);
 [[nodiscard]] double error_bar(const EvaluationRecord& evaluation, const std::string& name);
 [[nodiscard]] Unit response_unit(const std::string& name, double largest);
+
+/// "1 evaluation", "2 evaluations".
+[[nodiscard]] std::string counted(std::size_t count, const std::string& what);
 
 /// " in its worst case", " in case idle"; nothing where a study has no cases.
 [[nodiscard]] std::string over_words(const optimizer::Problem& problem, std::string_view over);

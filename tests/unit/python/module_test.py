@@ -251,8 +251,8 @@ class PythonModule(unittest.TestCase):
             log.unlink(missing_ok=True)
             call()
             events = [json.loads(line) for line in log.read_text().splitlines()]
-            self.assertTrue(events)
-            self.assertTrue(all(event["event"] == "stage" and event["what"] for event in events), events)
+            self.assertEqual((events[0]["event"], events[-1]["event"], events[-1]["exit_status"]), ("begin", "end", 0))
+            self.assertTrue(all(event["event"] == "stage" and event["what"] for event in events[1:-1]), events)
 
     def test_what_ends_one_computation_is_nothing_to_other_threads(self):
         text = QUICKSTART.read_text().replace("scan_evaluations = 24", "scan_evaluations = 3")

@@ -16,6 +16,7 @@
 #include "optimizer/journal/journal.hpp"
 #include "studies/program/commands/commands.hpp"
 #include "studies/program/commands/kept_rounds.hpp"
+#include "studies/program/commands/told.hpp"
 #include "studies/program/engine/engine.hpp"
 #include "studies/program/engine/interrupt.hpp"
 #include "studies/program/run/run_clock.hpp"
@@ -51,6 +52,11 @@ class Run : public testing::Test {
     out_.str("");
     err_.str("");
     return run_study(options, {.out = out_, .err = err_}, factory);
+  }
+
+  int merged(const MergeOptions& options) {
+    const Streams streams{.out = out_, .err = err_};
+    return told({}, {}, streams, [&](Teller& teller) { return run_merge(options, teller, streams); });
   }
 
   fs::path directory_;
@@ -296,7 +302,7 @@ TEST_F(Run, ComputesItsScanInParts) {
     merge.directories.push_back((directory_ / ("part" + number)).string());
   }
   EXPECT_EQ(seen.size(), 8U);
-  ASSERT_EQ(run_merge(merge, {.out = out_, .err = err_}), kDone);
+  ASSERT_EQ(merged(merge), kDone);
   calls = 0;
   ASSERT_EQ(run_study({.study = study(), .directory = merge.directory, .resume = true, .jobs = 1},
                       {.out = out_, .err = err_}, counted(calls)),
@@ -545,8 +551,9 @@ TEST_F(Run, ChoosesSettingsInTheMiddleWhereTheStartIsInfeasible) {
   const report::RunRecord record = report::read_results(results() / "results.h5");
   EXPECT_THAT(record.provenance.settings.at("solver.accuracy"),
               HasSubstr("0.5, at the middle of the variables' ranges reached as far as settings buy it"));
-  // What is asked of one response is asked of the settings.
-  replace_file(study(), replaced(text, "upper = 300e6\n", "upper = 300e6\naccuracy = 0.1\n"));
+  // What is asked of one response is asked of the settings; with more evaluations a run would go on.
+  replace_file(study(), replaced(replaced(text, "upper = 300e6\n", "upper = 300e6\naccuracy = 0.1\n"),
+                                 "max_evaluations = 3\n", "max_evaluations = 4\n"));
   EXPECT_THAT([&] { run(true, counted(calls)); },
               testing::ThrowsMessage<InputError>(HasSubstr(
                   "of another study than the one at hand: constraint[0].accuracy = 0.1 (it was not given); ")));
@@ -562,9 +569,10 @@ TEST_F(Run, RecordsTheBestDesignAsTheCloserLookHasIt) {
       DescribedDesign seen{.evaluation = bowl(x), .record = {}};
       for (auto& [name, value] : seen.evaluation.responses) value *= name == "asymptotic_wear_volume_m3" ? 3 : 1;
       seen.evaluation.error_estimates = {{"asymptotic_wear_volume_m3", 1e-11}, {"contact_pressure_mean_pa", 1e6}};
-      seen.evaluation.messages = {"The worn state was in doubt."};
+      // Of all cases; the record is of the first one.
+      seen.evaluation.messages = {"Case a: The worn state was in doubt.", "Case b: The worn state was in doubt."};
       seen.record.status = "converged";
-      seen.record.notes = seen.evaluation.messages;
+      seen.record.notes = {"No curve was computed."};
       return seen;
     };
     return engine;
@@ -577,8 +585,10 @@ TEST_F(Run, RecordsTheBestDesignAsTheCloserLookHasIt) {
   EXPECT_EQ(best.error_estimates.at("asymptotic_wear_volume_m3"), 1e-11);
   EXPECT_DOUBLE_EQ(record.evaluations.front().responses.at("asymptotic_wear_volume_m3"),
                    3 * bowl(record.evaluations.front().x).responses.at("asymptotic_wear_volume_m3"));
-  ASSERT_EQ(record.best_design->notes.size(), 2U);
-  EXPECT_THAT(record.best_design->notes[1], HasSubstr("The search, which takes the direct worn state"));
+  EXPECT_THAT(
+      record.best_design->notes,
+      testing::ElementsAre("Case a: The worn state was in doubt.", "Case b: The worn state was in doubt.",
+                           HasSubstr("The search, which takes the direct worn state"), "No curve was computed."));
   EXPECT_THAT(out_.str(), HasSubstr(" +- 1e-11 (evaluation"));
   // The search went by its own values: the journal has them.
   for (const auto& line : optimizer::read_journal(results() / "journal.jsonl").records)
@@ -738,7 +748,7 @@ TEST_F(Run, CountsTheTimeOfAllItsSessions) {
   const MergeOptions merge{.directories = {results().string(), results().string()},
                            .directory = (directory_ / "merged").string()};
   const double each = seconds_taken(results());
-  ASSERT_EQ(run_merge(merge, {.out = out_, .err = err_}), kDone);
+  ASSERT_EQ(merged(merge), kDone);
   EXPECT_EQ(seconds_taken(directory_ / "merged"), 2 * each);
   replace_file(results() / "time.json", "{\"seconds\"");  // damaged
   EXPECT_EQ(seconds_taken(results()), 0);
@@ -812,6 +822,21 @@ TEST_F(Run, OfAFinishedRunNothingIsDoneAgain) {
   EXPECT_EQ(calls, before);
   EXPECT_EQ(described, 2);
   EXPECT_EQ(fs::last_write_time(results() / "results.h5"), written);
+  // In another place it says so.
+  const fs::path moved = directory_ / "moved";
+  fs::copy(results(), moved, fs::copy_options::recursive);
+  out_.str("");
+  ASSERT_EQ(run_study({.study = study(), .directory = moved.string(), .resume = true, .jobs = 1},
+                      {.out = out_, .err = err_}, describing),
+            kDone);
+  EXPECT_EQ(described, 2);
+  EXPECT_EQ(out_.str(), replaced(said, results().string(), moved.string()));
+  // What is damaged is made again.
+  const auto whole = fs::file_size(results() / "results.h5");
+  fs::resize_file(results() / "results.h5", whole / 2);
+  ASSERT_EQ(run(true, describing), kDone) << err_.str();
+  EXPECT_EQ(fs::file_size(results() / "results.h5"), whole);
+  EXPECT_EQ(calls, before);
   // What is not there any more is made again, and a larger budget is spent.
   fs::remove(results() / "report.html");
   ASSERT_EQ(run(true, describing), kDone) << err_.str();

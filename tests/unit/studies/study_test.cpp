@@ -341,7 +341,7 @@ TEST(Study, WithoutVariablesADesignIsStillJudged) {
   EXPECT_EQ(study.problem.constraints.size(), 2U);
   EXPECT_THAT(complaints(text + "\n[[constraint]]\nresponse = \"mass_kg\"\nupper = 1\n\n"
                                 "[[constraint]]\nresponse = \"mass_kg\"\nupper = 2\n"),
-              HasSubstr("must limit a response only once on each side"));
+              HasSubstr("constraint[3].upper = 2: is limited from above already"));
 }
 
 TEST(Study, AVariableOfBothFlanksConflictsWithOneFixed) {
@@ -483,6 +483,18 @@ TEST(StudyCases, WrongOnesAreRefused) {
               HasSubstr("deviation, quantile, a"));
 }
 
+TEST(StudyCases, SamplesOutsideOfTheRangeOfTheirKeyAreRefused) {
+  const std::string uncertain = "[[uncertain]]\nkey = \"contact.friction\"\n";
+  EXPECT_EQ(complaint(uncertain + "plus_minus = 0.1\n"), "");
+  EXPECT_THAT(
+      complaint(uncertain + "plus_minus = 0.9\n"),
+      HasSubstr("uncertain[0].key = \"contact.friction\": becomes -0.4 in sample/2 of its samples: must be >= 0"));
+  // One wrong line is one sentence.
+  const std::string mean = "[[constraint]]\nresponse = \"mass_kg\"\nupper = 9\nover = \"mean\"\n";
+  EXPECT_EQ(complaint(uncertain + "plus_minus = 0.1\n" + mean), "");
+  EXPECT_THAT(complaint(uncertain + "plus_minus = -1\n" + mean), testing::Not(HasSubstr("there is no [[case]]")));
+}
+
 TEST(StudyCases, ActTogetherOnFlanksOfOneShapeAtHeldFrequencies) {
   const std::string limit = "[[constraint]]\nresponse = \"mission_wear_volume_m3\"\nupper = 1e-9\n";
   const std::string cases = "[[case]]\nname = \"a\"\n[[case]]\nname = \"b\"\n";
@@ -492,6 +504,10 @@ TEST(StudyCases, ActTogetherOnFlanksOfOneShapeAtHeldFrequencies) {
               HasSubstr("none of them may change the geometry"));
   EXPECT_THAT(complaint(cases + "\"loading.tip_force_n\" = 1\n" + limit + "over = \"sum\"\n"),
               HasSubstr("one number of them all"));
+  const std::string drift =
+      cases + "\"loading.tip_force_n\" = 1\n[[constraint]]\nresponse = \"mission_drift\"\nupper = 0.01\nover = ";
+  EXPECT_EQ(complaint(drift + "\"b\"\n"), "");
+  EXPECT_THAT(complaint(drift + "\"mean\"\n"), HasSubstr("the name of a case"));
 }
 
 /// The sample with another objective.

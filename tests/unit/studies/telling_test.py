@@ -62,7 +62,9 @@ with tempfile.TemporaryDirectory() as name:
         done = answer(*command, "--json-log", str(log))
         assert done.stderr == "" and done.stdout, (command, done.stderr)
         events = [json.loads(line) for line in log.read_text().splitlines()[before:]]
-        assert events and all(event["event"] == "stage" and event["what"] for event in events), (command, events)
+        assert (events[0]["event"], events[0]["command"]) == ("begin", command[0]), events
+        assert (events[-1]["event"], events[-1]["exit_status"]) == ("end", 0), events
+        assert len(events) > 2 and all(event["event"] == "stage" and event["what"] for event in events[1:-1]), events
         assert all(a["seconds"] <= b["seconds"] for a, b in zip(events, events[1:])), events
 
     # A log goes on; what is none is left alone.
@@ -70,7 +72,13 @@ with tempfile.TemporaryDirectory() as name:
     done = answer("check", "study.toml", "--json-log", "study.toml", status=2)
     assert done.stderr == "--json-log = study.toml: exists, and is no log that could be gone on with\n", done.stderr
     assert pathlib.Path("study.toml").read_text() == text
+    assert answer("check", "study.toml", "--json-log", "-", status=2).stderr == "--json-log = -: must be a file\n"
     assert "cannot be written" in answer("check", "study.toml", "--json-log", "missing/l.jsonl", status=2).stderr
+
+    # What is refused has an end, too.
+    answer("merge", "out", "none", "-o", "not-merged", "--json-log", "refused.jsonl", status=2)
+    assert [json.loads(line)["exit_status"] for line in pathlib.Path("refused.jsonl").read_text().splitlines()[-1:]] == [2]
+    assert not pathlib.Path("not-merged").exists()
 
     # Warnings and remarks are nothing for who asked for quiet; errors are.
     doubtful = ["check", "study.toml", "--set", "geometry.sectors=90"]

@@ -10,7 +10,7 @@
 
 #include "core/replace_file.hpp"
 #include "quickstart_designs.hpp"
-#include "studies/program/commands/commands.hpp"
+#include "studies/program/commands/told.hpp"
 
 namespace dovetail::studies {
 namespace {
@@ -40,7 +40,9 @@ TEST(HardDesigns, AnAccuracyAskedForHidesNoDoubt) {
   options.study = study.string();
   options.set = {"solver.accuracy=0.5", "geometry.flank_mismatch_um=5", "geometry.flank_crown_um=0"};
   options.json = "-";
-  EXPECT_EQ(run_evaluate(options, {.out = out, .err = err}), 0) << err.str();
+  const Streams streams{.out = out, .err = err};
+  EXPECT_EQ(told({}, {}, streams, [&](Teller& teller) { return run_evaluate(options, teller, streams); }), 0)
+      << err.str();
   std::filesystem::remove(study);
   const nlohmann::json answer = nlohmann::json::parse(out.str());
   EXPECT_EQ(answer.at("accuracy").at("rounds").size(), 1U);

@@ -8,6 +8,7 @@
 
 #include "scenes.hpp"
 #include "wear/measures.hpp"
+#include "wear/wearing_joint.hpp"
 
 namespace dovetail::wear {
 namespace {
@@ -101,6 +102,29 @@ TEST(Mission, EndsWhereAnAlternatingHistoryDoes) {
   EXPECT_GE(agree, 12);
   EXPECT_LE(open, 1);
   RecordProperty("order_matters", depend);
+}
+
+TEST(Mission, LoadsWithoutWearAskForNoDepth) {
+  const scenes::Block block = scenes::random_block(1);
+  scenes::Block still = block;
+  still.tangential_load *= 1.2;
+  still.wear_coefficient = 0;
+  const Asymptote alone = asymptote(load_of(scenes::block(block), 1).joint, 1, {.arbitration = Arbitration::never});
+  for (const bool first : {true, false}) {
+    const std::vector<MissionLoad> loads = first ? blocks({still, block}) : blocks({block, still});
+    const Mission both = mission(loads);
+    ASSERT_EQ(both.verdict, Verdict::asymptote);
+    EXPECT_NEAR(both.worn_volume / alone.worn_volume, 1, 1e-9);
+    ASSERT_EQ(both.states.size(), 2U);
+    const Watcher unwatched;
+    // Each state is that of its load on the worn flanks.
+    for (std::size_t k = 0; k < 2; ++k) {
+      WearingJoint joint(loads[k].joint, loads[k].omega, unwatched);
+      const steady::State state = joint.worn(both.depth, {});
+      ASSERT_EQ(state.status, Status::converged);
+      EXPECT_NEAR((state.displacement - both.states[k].displacement).norm() / state.displacement.norm(), 0, 1e-6);
+    }
+  }
 }
 
 TEST(Mission, OfOneLoadIsItsAsymptote) {
