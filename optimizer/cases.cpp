@@ -126,10 +126,15 @@ Evaluation together(std::span<const LoadCase> cases, const Scene& scene, std::sp
   Evaluation result = answers.front();
   if (!cases.empty()) {
     result.parameters = parameters(scene);
+    // Of a look at another mesh those are its own; they are the same in all cases.
+    for (const auto& [key, value] : answers.front().parameters)
+      if (key.starts_with("mesh.") || key.starts_with("solver.")) result.parameters[key] = value;
     result.status = status_of(Outcome::converged);
     result.messages.clear();
     result.constraints.clear();
     for (std::size_t i = 0; i < std::min(loads, answers.size()); ++i) {
+      // Of a shape that is impossible its reason is told alone.
+      if (answers[i].infeasible()) result.messages.clear();
       add_case(cases[i].name, answers[i], result);
       if (answers[i].infeasible()) break;
     }

@@ -31,6 +31,8 @@ void Bars::add(const char* source, const std::vector<Companion>& companions, con
     }
     if (known) {
       add(source, response, bar);
+    } else if (companions.empty()) {
+      open_.insert(name);
     } else if (!companions.back().evaluation->converged()) {  // else it was not asked
       open_.insert(name);
       missing_ = companions.back().evaluation->status;

@@ -58,7 +58,9 @@ Scene resized(Scene scene, double ratio, double beside) {
 OtherMeshes::OtherMeshes(const Scene& reference, bool finer) {
   constexpr CompanionParams kParams;
   const int below = reference.kind->finer_below;  // 0: none is ever asked
-  const bool ask_finer = reference.mesh.flank_elements < below || (finer && below > 0);
+  const bool coarsest =
+      resized(reference, kParams.coarser.front()).mesh.flank_elements == reference.mesh.flank_elements;
+  const bool ask_finer = coarsest || reference.mesh.flank_elements < below || (finer && below > 0);
   for (const double ratio : ask_finer ? kParams.finer : kParams.coarser)
     meshes_.push_back({.ratio = ratio, .builder = ModelBuilder(resized(reference, ratio))});
   if (!reference.kind->lengths.empty()) return;

@@ -230,6 +230,11 @@ Barred term_value(const Problem& problem, const ObjectiveTerm& term, const Value
   return {.value = value / scale, .bar = bar / scale};
 }
 
+Barred as_response(const ObjectiveTerm& term, Barred value) {
+  const double by = (term.scale > 0 ? term.scale : 1) / term.weight;
+  return {.value = by * value.value, .bar = std::abs(by) * value.bar};
+}
+
 JudgementBars judgement_bars(const Problem& problem, const Values& responses, const Values& error_estimates) {
   JudgementBars bars;
   for (const ObjectiveTerm& term : problem.objective)

@@ -105,6 +105,9 @@ inline constexpr const char* kSlipMargin = "slip_margin";
                                 const std::map<std::string, double>& responses,
                                 const std::map<std::string, double>& error_estimates);
 
+/// The value of a term in the unit of its response, and as it is where more is better.
+[[nodiscard]] Barred as_response(const ObjectiveTerm& term, Barred value);
+
 /// Error bars of responses as the objective and the constraints have them, order of constraint_names; NaN where there
 /// is none.
 struct JudgementBars {

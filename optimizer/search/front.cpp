@@ -14,14 +14,15 @@ namespace {
 
 using Terms = std::vector<std::vector<double>>;
 
-/// Whether `a` is nowhere worse and somewhere better than `b`, or the same and seen before.
+/// Whether `a` is nowhere worse and somewhere better than `b`; or the same, and farther from slip or seen before.
 bool beats(const Candidate& a, const Candidate& b, bool before) {
-  bool better = false;
+  bool nearer = false;
   for (std::size_t i = 0; i < a.judgement.terms.size(); ++i) {
     if (a.judgement.terms[i] > b.judgement.terms[i]) return false;
-    better = better || a.judgement.terms[i] < b.judgement.terms[i];
+    nearer = nearer || a.judgement.terms[i] < b.judgement.terms[i];
   }
-  return better || before;
+  if (nearer) return true;
+  return better(a.judgement, b.judgement) || (before && !better(b.judgement, a.judgement));
 }
 
 std::vector<double> worst_of(std::size_t count, const Terms& all) {

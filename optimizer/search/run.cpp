@@ -212,7 +212,11 @@ OptimizationResult result_of(EvaluationSession& session, Status status, const st
   session.statistics().unused_records = session.unused_records();
   result.statistics = session.statistics();
   result.evaluations.assign(session.candidates().begin(), session.candidates().end());
-  if (!result.best) result.message += "; no candidate meets every constraint";
+  if (!result.best) {
+    const bool some = std::ranges::any_of(
+        result.evaluations, [](const Candidate& c) { return c.evaluation.converged() || c.evaluation.infeasible(); });
+    result.message += some ? "; no candidate meets every constraint" : "; no candidate could be computed";
+  }
   if (!result.front) result.message += tie_words(session);
   return result;
 }

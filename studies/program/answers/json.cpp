@@ -3,8 +3,10 @@
 #include <string_view>
 
 #include "optimizer/journal/evaluation_json.hpp"
+#include "optimizer/journal/record_json.hpp"
 #include "optimizer/mission/mission_result.hpp"
 #include "optimizer/problem/load_case.hpp"
+#include "optimizer/problem/problem.hpp"
 #include "studies/program/answers/version.hpp"
 #include "studies/program/engine/json_values.hpp"
 
@@ -50,9 +52,24 @@ void take_mission_out(Json& json) {
   if (!mission.empty()) json["mission"] = std::move(mission);
 }
 
+/// What the terms of the objective come to over all cases.
+Json objective_json(const optimizer::Problem& problem, const optimizer::Evaluation& evaluation) {
+  Json terms = Json::array();
+  for (const optimizer::ObjectiveTerm& term : problem.objective) {
+    const auto [value, bar] =
+        as_response(term, term_value(problem, term, evaluation.responses, evaluation.error_estimates));
+    Json& json = terms.emplace_back(Json{{"response", term.response}});
+    if (!problem.cases.empty()) json["over"] = term.over;
+    json["value"] = value;
+    json["error_estimate"] = optimizer::json_value<Json>(bar);
+  }
+  return terms;
+}
+
 }  // namespace
 
-std::string evaluation_json(const optimizer::Evaluation& evaluation, const nlohmann::ordered_json* accuracy) {
+std::string evaluation_json(const optimizer::Evaluation& evaluation, const nlohmann::ordered_json* accuracy,
+                            const optimizer::Problem* problem) {
   Json json{{"version", kAnswerVersion}};
   json.update(json_of(evaluation));
   if (evaluation.derivatives.empty()) json.erase("derivatives");
@@ -60,6 +77,8 @@ std::string evaluation_json(const optimizer::Evaluation& evaluation, const nlohm
   take_mission_out(json);
   if (json.contains("cases"))
     for (Json& in_case : json["cases"]) take_mission_out(in_case);
+  if (problem && evaluation.converged() && !problem->objective.empty())
+    json["objective"] = objective_json(*problem, evaluation);
   if (accuracy) json["accuracy"] = *accuracy;
   return text(json);
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "optimizer/problem/evaluation.hpp"
+#include "optimizer/problem/problem.hpp"
 #include "steady/options.hpp"
 #include "studies/program/engine/wear_quality.hpp"
 #include "wear/asymptote/spread.hpp"
@@ -17,10 +18,13 @@ namespace dovetail::studies {
 /// of an evaluation, a response that is not finite; of a wear computation, the number of cycles of an asymptote.
 
 /// {"status", "feasible", "parameters", "responses", "constraints", "error_estimates", "error_sources", "unbounded",
-/// "undecided_constraints", "model", "timings_s", "messages"[, "derivatives"][, "accuracy"]}; the last one, see
-/// accuracy_json, where settings were chosen.
+/// "undecided_constraints", "model", "timings_s", "messages"[, "derivatives"][, "cases"][, "mission"]
+/// [, "objective":[{"response"[, "over"], "value", "error_estimate"}]][, "accuracy"]}: what the terms of the problem's
+/// objective come to over all cases, in the unit of the response; the last one, see accuracy_json, where settings were
+/// chosen.
 [[nodiscard]] std::string evaluation_json(const optimizer::Evaluation& evaluation,
-                                          const nlohmann::ordered_json* accuracy = nullptr);
+                                          const nlohmann::ordered_json* accuracy = nullptr,
+                                          const optimizer::Problem* problem = nullptr);
 
 /// How a wear computation was asked for, and what was computed besides.
 struct WearQuestion {

@@ -204,6 +204,11 @@ std::string evaluation_schema() {
     schema["properties"][std::string(field.name)] = type_schema<T>();
     if (std::string_view(field.name) != "derivatives") required.push_back(std::string(field.name));
   });
+  schema["properties"]["objective"] = tables({{"response", kText},
+                                              {"over", kText},
+                                              {"value", type_schema<double>()},
+                                              {"error_estimate", type_schema<double>()}},
+                                             Json::array({"response", "value", "error_estimate"}));
   schema["required"] = required;
   return text(schema);
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <ostream>
+#include <set>
+#include <string_view>
 #include <thread>
 
 #include "optimizer/candidate/candidate_model.hpp"
@@ -24,15 +26,19 @@ namespace {
 constexpr double kManyUnknowns = 250e3;
 
 /// How the rules of geometry are kept by the design at which a run starts, or the study's own.
-std::string fit_words(const optimizer::Scene& scene, const char* design, std::vector<std::string>& doubts) {
-  const geometry::Feasibility fit = optimizer::feasibility_of(scene);
+std::string fit_words(const Study& study, const optimizer::Scene& scene, const char* design,
+                      std::vector<std::string>& doubts) {
+  const std::vector<geometry::Rule> rules = rules_in_cases(scene, study.problem.cases);
   const geometry::Rule* closest = nullptr;
-  for (const geometry::Rule& rule : fit.rules) {
-    if (rule.margin < 0) doubts.push_back(fmt::format("{} does not fit: {}", design, rule.sentence));
+  std::set<std::string_view> broken;
+  for (const geometry::Rule& rule : rules) {
+    // Of the cases in which it is broken the first is named.
+    if (rule.margin < 0 && broken.insert(optimizer::split_case(rule.name).response).second)
+      doubts.push_back(fmt::format("{} does not fit: {}", design, rule.sentence));
     // Margins of 0 say nothing but kept.
     if (rule.margin > 0 && (closest == nullptr || rule.margin < closest->margin)) closest = &rule;
   }
-  if (!fit.feasible) return fmt::format("{} does not fit\n", design);
+  if (!broken.empty()) return fmt::format("{} does not fit\n", design);
   return closest == nullptr ? fmt::format("{} fits\n", design)
                             : fmt::format("{} fits; closest to a rule: {}\n", design, closest->sentence);
 }
@@ -75,10 +81,11 @@ int run_check(const CheckOptions& options, Teller& teller, const Streams& stream
   const optimizer::Problem& problem = study.problem;
   std::vector<std::string> doubts = warnings(study);
   const bool searches = problem.space.size() > 0;
-  const optimizer::Scene scene = optimizer::in_first_case(searches ? start_scene(study) : study.scene, problem.cases);
+  const optimizer::Scene design = searches ? start_scene(study) : study.scene;
   teller.begin("trying whether the design fits together, before it is meshed");
-  std::string foreseen = fit_words(scene, searches ? "the start design" : "the design", doubts);
+  std::string foreseen = fit_words(study, design, searches ? "the start design" : "the design", doubts);
   // What does not fit together has no mesh.
+  const optimizer::Scene scene = optimizer::in_first_case(design, problem.cases);
   if (optimizer::feasibility_of(scene).feasible) try {
       teller.begin("meshing the design, which comes last");
       foreseen += cost_words(study, scene, doubts);

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <ostream>
+#include <set>
 #include <sstream>
 #include <thread>
 
@@ -110,8 +111,10 @@ void refuse_hopeless(const Study& study, const RunEngine& engine) {
       });
     }
   Complaints hopeless;
+  std::set<std::string_view> told;  // a rule in one of the cases is enough
   for (const auto& [name, rule] : broken)
-    hopeless.add(study.file, "no variable changes what the start breaks: " + rule.sentence);
+    if (told.insert(optimizer::split_case(name).response).second)
+      hopeless.add(study.file, "no variable changes what the start breaks: " + rule.sentence);
   hopeless.raise();
 }
 
@@ -310,7 +313,14 @@ int computed(const RunOptions& options, const Study& asked, const fs::path& dire
 
 int run_study(const RunOptions& options, const Streams& streams, const RunEngineFactory& make_engine,
               const PoolFactory& pools) {
-  return run_study(load_rewritten_study(options.study, overrides(options.set)), options, streams, make_engine, pools);
+  Study asked;
+  try {
+    asked = load_rewritten_study(options.study, overrides(options.set));
+  } catch (const InputError&) {
+    const ToldCommand refused{.name = "run", .fields = {{"study", options.study}}};
+    return told(refused, options.tell, streams, [](Teller&) -> int { throw; });
+  }
+  return run_study(asked, options, streams, make_engine, pools);
 }
 
 int run_study(const Study& asked, const RunOptions& options, const Streams& streams,

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -123,7 +124,7 @@ const char* sureness(const optimizer::Evaluation& evaluation, const std::string&
   return none ? "  its response has no error bar" : "  within its error bar";
 }
 
-/// The responses that objective and limits name, case by case.
+/// The responses that objective and limits name, case by case, and what the objective is over all.
 std::string case_table(const optimizer::Problem& problem, const optimizer::Evaluation& evaluation) {
   std::string text;
   for (const optimizer::LoadCase& load : problem.cases) {
@@ -139,10 +140,19 @@ std::string case_table(const optimizer::Problem& problem, const optimizer::Evalu
       text += response->unit.empty() ? "\n" : fmt::format(" {}\n", response->unit);
     }
   }
+  if (problem.cases.empty() || problem.objective.empty() || !evaluation.converged()) return text;
+  text += "\nobjective\n";
+  for (const optimizer::ObjectiveTerm& term : problem.objective) {
+    const auto [value, bar] =
+        as_response(term, term_value(problem, term, evaluation.responses, evaluation.error_estimates));
+    text += fmt::format("  {:<30} {:>14.7g}{} {}\n", term.response + ", " + term.over, value,
+                        std::isfinite(bar) ? fmt::format(" +- {:.2g}", bar) : "",
+                        optimizer::find_response(term.response)->unit);
+  }
   return text;
 }
 
-std::string evaluation_table(const optimizer::Evaluation& evaluation) {
+std::string evaluation_table(const optimizer::Problem& problem, const optimizer::Evaluation& evaluation) {
   std::string text = fmt::format("status    {}\nfeasible  {}", evaluation.status, evaluation.feasible ? "yes" : "no");
   const auto& undecided = evaluation.undecided_constraints;
   const bool all =
@@ -151,7 +161,9 @@ std::string evaluation_table(const optimizer::Evaluation& evaluation) {
   for (const auto& [name, value] : evaluation.constraints)
     if (value > 0 && !name.starts_with(optimizer::kRulePrefix))
       text += fmt::format("breaks    {} by {:.3g} % of its limit\n", name, 100 * value);
-  if (!evaluation.responses.empty()) text += "\nresponses\n";
+  if (!evaluation.responses.empty())
+    text +=
+        problem.cases.empty() ? "\nresponses\n" : fmt::format("\nresponses in case {}\n", problem.cases.front().name);
   for (const std::string& name : optimizer::response_names()) {
     const auto value = evaluation.responses.find(name);
     if (value == evaluation.responses.end()) continue;
@@ -312,9 +324,10 @@ int run_evaluate(const EvaluateOptions& options, Teller& teller, const Streams& 
                              {"source", whole->source},
                              {"relative_bar", whole->relative},
                              {"asked", whole->asked}};
-  deliver_json(options.json, evaluation_json(evaluation, choice ? &accuracy : nullptr), streams);
+  deliver_json(options.json, evaluation_json(evaluation, choice ? &accuracy : nullptr, &study.problem), streams);
   if (dakota) replace_file(options.dakota.back(), dakota_results(*dakota, evaluation));
-  if (options.json != "-") streams.out << evaluation_table(evaluation) << case_table(study.problem, evaluation);
+  if (options.json != "-")
+    streams.out << evaluation_table(study.problem, evaluation) << case_table(study.problem, evaluation);
   if (evaluation.infeasible()) throw infeasible(options.study, evaluation.messages);
   for (const std::string& message : evaluation.messages) teller.remark() << "dovetail: " << message << "\n";
   if (evaluation.converged())

@@ -146,7 +146,7 @@ RunEngine study_engine(const Study& study) {
     asked.bars = asked.history = piece.what == Piece::What::barred;
     return evaluator->evaluate(scene, asked).evaluation;
   };
-  engine.rules = [design_at](std::span<const double> x) { return optimizer::feasibility_of(design_at(x)).rules; };
+  engine.rules = [design_at, cases](std::span<const double> x) { return rules_in_cases(design_at(x), cases); };
   const auto whole = [piece = engine.piece, cases, missions, design_at](Piece::What what, std::span<const double> x,
                                                                         int number) {
     Piece one{.what = what, .x = {x.begin(), x.end()}, .load = 0, .number = number};
@@ -207,6 +207,18 @@ report::DesignRecord describe_fields(const Study& study, bool history) {
   if (!history) options.history_steps = 0;
   const Scene scene = optimizer::in_first_case(study.scene, study.problem.cases);
   return report::make_design_record(scene, scene_evaluator(study)->evaluate(scene, {.bars = false}), options);
+}
+
+std::vector<geometry::Rule> rules_in_cases(const Scene& design, const std::vector<optimizer::LoadCase>& cases) {
+  if (cases.empty()) return optimizer::feasibility_of(design).rules;
+  std::vector<geometry::Rule> all;
+  for (const optimizer::LoadCase& load : cases)
+    for (geometry::Rule& rule : optimizer::feasibility_of(optimizer::in_case(design, load)).rules) {
+      rule.name = optimizer::of_case(rule.name, load.name);
+      rule.sentence = "in case " + load.name + " " + rule.sentence;
+      all.push_back(std::move(rule));
+    }
+  return all;
 }
 
 std::vector<std::string> broken_rules(const Scene& scene) {

@@ -38,6 +38,10 @@ namespace dovetail::studies {
 /// - `history`: with its wear history, of which up to 16 states are kept
 [[nodiscard]] report::DesignRecord describe_fields(const Study& study, bool history = false);
 
+/// The geometric rules of a design: with cases those of every one, under names of of_case.
+[[nodiscard]] std::vector<geometry::Rule> rules_in_cases(const optimizer::Scene& design,
+                                                         const std::vector<optimizer::LoadCase>& cases);
+
 /// The sentences of the geometric rules that a design breaks.
 [[nodiscard]] std::vector<std::string> broken_rules(const optimizer::Scene& scene);
 

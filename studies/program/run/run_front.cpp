@@ -24,11 +24,6 @@ using report::FrontRecord;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// A term's value in the unit of its response, and as it is where more is better.
-double as_response(const optimizer::ObjectiveTerm& term, double value) {
-  return value * (term.scale > 0 ? term.scale : 1) / term.weight;
-}
-
 /// What the column of an objective holds: its response, or how far that is from where it is wanted.
 std::string column_name(const optimizer::ObjectiveTerm& term) {
   std::string name = term.response;
@@ -115,8 +110,8 @@ FrontRecord front_record(const optimizer::Problem& problem, const optimizer::Opt
   for (std::size_t i = 0; i < problem.objective.size(); ++i) {
     const optimizer::ObjectiveTerm& term = problem.objective[i];
     record.objectives.push_back(column_name(term));
-    record.ideal.push_back(as_response(term, front.ideal[i]));
-    record.reference.push_back(as_response(term, front.reference[i]));
+    record.ideal.push_back(as_response(term, {.value = front.ideal[i]}).value);
+    record.reference.push_back(as_response(term, {.value = front.reference[i]}).value);
   }
   record.hypervolume = front.hypervolume;
   for (const optimizer::ObjectiveTerm& term : problem.objective)
@@ -129,8 +124,9 @@ FrontRecord front_record(const optimizer::Problem& problem, const optimizer::Opt
         judgement_bars(problem, point.evaluation.responses, point.evaluation.error_estimates);
     for (std::size_t i = 0; i < problem.objective.size(); ++i) {
       const optimizer::ObjectiveTerm& term = problem.objective[i];
-      record.values.push_back(as_response(term, point.judgement.terms[i]));
-      record.bars.push_back(bars.terms[i] * (term.scale > 0 ? term.scale : 1) / std::abs(term.weight));
+      const auto [value, bar] = as_response(term, {.value = point.judgement.terms[i], .bar = bars.terms[i]});
+      record.values.push_back(value);
+      record.bars.push_back(bar);
     }
   }
   return record;

@@ -74,6 +74,7 @@ std::string conclusion(const Study& study, const OptimizationResult& result, con
                         counts.unused_records);
   if (!result.best) return text;
   const auto objective = [&](const report::EvaluationRecord& of) {
+    if (!std::isfinite(of.objective)) return "not computed (" + of.status + ")";
     return with_bar(of.objective, judgement_bars(record.problem, of.responses, of.error_estimates).objective);
   };
   if (record.front)
@@ -115,6 +116,9 @@ std::string held_words(const report::RunRecord& record) {
 
 std::string shortcoming(const Study& study, const OptimizationResult& result, const WrittenRun& written) {
   const report::RunRecord& record = written.record;
+  if (const std::string why = report::why_none(record); !result.best && !why.empty())
+    return fmt::format("{}: none of {} could be computed: {}", study.file,
+                       report::counted(result.evaluations.size(), "evaluation"), why);
   if (!result.best)
     return fmt::format("{}: no feasible design was found in {}{}{}", study.file,
                        report::counted(result.evaluations.size(), "evaluation"), listed_unkept(record),

@@ -1,5 +1,7 @@
 #include "studies/program/study_file/case_reader.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <string_view>
@@ -174,6 +176,15 @@ bool read_distribution(SectionReader& section, const Parameter& parameter, bool 
   return true;
 }
 
+/// The name of the first case that sets a number whose range is the same for all; empty: none does.
+std::string case_with(const std::vector<LoadCase>& cases, const Uncertain& number) {
+  if (number.of != Uncertain::Of::itself) return {};
+  for (const LoadCase& load : cases)
+    if (std::ranges::any_of(load.changes, [&](const auto& change) { return overlap(change.key, number.key); }))
+      return load.name;
+  return {};
+}
+
 /// Samples that leave the range of their key, each key once.
 void refuse_samples(SectionReader& root, const optimizer::Scene& scene, const std::vector<LoadCase>& samples,
                     Problems& problems) {
@@ -185,7 +196,8 @@ void refuse_samples(SectionReader& root, const optimizer::Scene& scene, const st
         if (!overlap(key.text, wrong.key) || std::ranges::find(refused, key.text) != refused.end()) continue;
         refused.push_back(key.text);
         problems.add(key, path + ".key",
-                     "becomes " + wrong.value + " in " + sample.name + " of its samples: " + wrong.allowed);
+                     "becomes " + fmt::format("{:.6g}", std::stod(wrong.value)) + " in " + sample.name +
+                         " of its samples: " + wrong.allowed);
       }
 }
 
@@ -216,6 +228,10 @@ std::vector<LoadCase> read_samples(SectionReader& root, const optimizer::Scene& 
       problems.add(*at, section.path("key"), "is a whole number: give it a case for each value");
     else if (std::ranges::any_of(uncertain, [&](const Uncertain& other) { return overlap(other.key, *key); }))
       problems.add(*at, section.path("key"), "is uncertain already");
+    else if (const std::string own = known ? case_with(cases, number) : ""; !own.empty())
+      problems.add(*at, section.path("key"),
+                   "has a number of its own in case " + own +
+                       ", which a range would take the place of: give plus_minus or relative, about that of each case");
     else if (known)
       uncertain.push_back(std::move(number));
   }

@@ -196,7 +196,7 @@ void add_indifferent(const RunRecord& record, const EvaluationRecord& best, std:
     if (std::isfinite(e.objective)) objectives.push_back(e.objective);
   if (objectives.size() > 1 && std::ranges::adjacent_find(objectives, std::ranges::not_equal_to()) == objectives.end())
     all.push_back(
-        "Ask for something else: the objective is the same for all candidates, so it chooses none of them. Another "
+        "Ask for something else: the objective is the same for all candidates, so it tells none of them apart. Another "
         "response, a larger load or other limits would.");
   else if (start && start != &best && !record.front && record.problem.objective.size() == 1) {
     const optimizer::ObjectiveTerm& term = record.problem.objective.front();
@@ -218,7 +218,11 @@ std::vector<std::string> what_next(const RunRecord& record) {
   if (!best) {
     if (const std::vector<std::string> never = never_kept(record); !never.empty())
       all.push_back("Loosen " + listed(never) + ", or let other variables help to keep it.");
-    if (record.least_broken)
+    if (const std::string why = why_none(record); !why.empty())
+      all.push_back(
+          "Find out why nothing can be computed: " + why +
+          ". What to try is said of every status on the page of statuses; dovetail evaluate looks at one design.");
+    else if (record.least_broken)
       all.push_back(
           fmt::format("Start from candidate {}, which is nearest to keeping every limit.", *record.least_broken + 1));
   } else {
@@ -238,7 +242,7 @@ std::vector<std::string> what_next(const RunRecord& record) {
           "Tighten what the study asks for or compute more accurately ([optimizer] verify_accuracy, [solver] "
           "accuracy): " +
           listed(open) + " cannot be decided.");
-    if (!of_best(record, record.departures).empty() && how_far(record).size() > 1)
+    if (record.problem.cases.empty() && !of_best(record, record.departures).empty() && how_far(record).size() > 1)
       all.push_back(
           "Make it hold for more than one load: [[uncertain]] and [[case]] let friction, force and speed count in the "
           "search.");

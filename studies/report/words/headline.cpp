@@ -97,7 +97,7 @@ std::string front_headline(const RunRecord& record) {
     return listed(all);
   };
   const auto point = [&](std::size_t at) { return [&front, at](std::size_t i) { return front.value(at, i); }; };
-  if (points == 1) return "One design beats all others in every objective, with " + design(true, point(0)) + ".";
+  if (points == 1) return "One design is beaten by no other in any objective, with " + design(true, point(0)) + ".";
   std::string text = fmt::format("{} designs that no other beats, from {} to {}.", points, design(true, point(0)),
                                  design(false, point(points - 1)));
   const EvaluationRecord* base = baseline_of(record);
@@ -134,6 +134,8 @@ std::string headline(const RunRecord& record) {
   const EvaluationRecord* best = best_of(record);
   if (record.evaluations.empty()) return "No candidate was evaluated.";
   if (!best) {
+    if (const std::string why = why_none(record); !why.empty())
+      return "No design was found: none of the candidates could be computed (" + why + ").";
     std::string text = "No feasible design was found: none of the candidates keeps every limit.";
     if (const std::vector<std::string> never = never_kept(record); !never.empty())
       text += " No candidate keeps " + listed(never) + ".";

@@ -124,9 +124,7 @@ std::string over_words(const optimizer::Problem& problem, std::string_view over)
 
 optimizer::Barred shown_term(const optimizer::Problem& problem, const optimizer::ObjectiveTerm& term,
                              const EvaluationRecord& evaluation) {
-  const auto [value, bar] = term_value(problem, term, evaluation.responses, evaluation.error_estimates);
-  const double by = (term.scale > 0 ? term.scale : 1) / term.weight;
-  return {.value = by * value, .bar = std::abs(by) * bar};
+  return as_response(term, term_value(problem, term, evaluation.responses, evaluation.error_estimates));
 }
 
 std::string best_word(const RunRecord& record) {
@@ -158,6 +156,19 @@ ObjectiveScale objective_scale(const RunRecord& record) {
     if (std::isfinite(e.objective)) largest = std::max(largest, std::abs(e.objective * si));
   const Unit unit = response_unit(term.response, largest);
   return {.factor = si / unit.si, .unit = unit.symbol, .label = term_words(record.problem, term)};
+}
+
+std::string why_none(const RunRecord& record) {
+  std::map<std::string, std::size_t> ends;
+  for (const EvaluationRecord& evaluation : record.evaluations) {
+    if (const auto how = optimizer::outcome_of(evaluation.status);
+        how == optimizer::Outcome::converged || how == optimizer::Outcome::infeasible)
+      return {};
+    ++ends[evaluation.status];
+  }
+  if (ends.empty()) return {};
+  const auto& [status, count] = *std::ranges::max_element(ends, {}, [](const auto& end) { return end.second; });
+  return fmt::format("{} in {} of {}", status, count, record.evaluations.size());
 }
 
 std::vector<std::string> never_kept(const RunRecord& record) {

@@ -61,6 +61,9 @@ struct ObjectiveScale {
 };
 [[nodiscard]] ObjectiveScale objective_scale(const RunRecord& record);
 
+/// Where nothing could be computed how most candidates ended: "asymptote: no_asymptote in 6 of 6"; else nothing.
+[[nodiscard]] std::string why_none(const RunRecord& record);
+
 /// The limits and rules that no candidate keeps, each with how near the nearest one comes.
 [[nodiscard]] std::vector<std::string> never_kept(const RunRecord& record);
 

@@ -50,6 +50,12 @@ TEST(Front, IsWhatNoOtherBeats) {
   EXPECT_DOUBLE_EQ(front.hypervolume, 11);
 }
 
+TEST(Front, TakesOfEqualsTheOneFarthestFromSlip) {
+  std::vector<Candidate> all{candidate({0, 0}), candidate({0, 0}), candidate({0, 0})};
+  all[1].judgement.slip_margin = all[2].judgement.slip_margin = 0.8;
+  EXPECT_THAT(front_of(plain_problem(), all).points, ElementsAre(1));
+}
+
 TEST(Front, CountsAgainstTheWorstFeasibleOfStartAndScanUnlessTold) {
   std::vector<Candidate> all{candidate({3, 9}, false, kStartPhase), candidate({3, 7}, true, kScanPhase),
                              candidate({6, 2}, true, kScanPhase), candidate({90, 1})};

@@ -203,6 +203,10 @@ volume = whole["responses"]["mission_wear_volume_m3"]
 assert all(mission[c]["mission_wear_volume_m3"] == volume for c in "ab"), mission
 assert volume >= 0.99 * max(responses[c]["asymptotic_wear_volume_m3"] for c in "ab"), (volume, responses)
 assert whole["responses"]["mission_drift"] == mission["a"]["mission_drift"] != mission["b"]["mission_drift"], mission
+objective, = whole["objective"]
+worst = max(responses[c]["asymptotic_wear_volume_m3"] for c in "ab")
+assert objective["over"] == "worst" and abs(objective["value"] - worst) <= 1e-12 * worst, (objective, worst)
+assert objective["error_estimate"] is None, objective
 assert whole["mission"]["loads"] == 2 and not any(k.startswith("mission") for k in whole["model"]), whole["mission"]
 PYTHON
 fi

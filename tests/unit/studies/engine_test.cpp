@@ -123,6 +123,16 @@ TEST(Cases, EachIsEvaluatedWithItsOwnKeys) {
   EXPECT_EQ(e.model.at("jacobians_spent"), 6);
   EXPECT_EQ(e.constraints.at("rule:wall"), -1);
   EXPECT_EQ(e.parameters, parameters(scene));
+  // A look at a finer mesh has that of its answers.
+  const auto finer = [](Scene there, std::size_t load) {
+    there.mesh.flank_elements *= 2;
+    Evaluation answer = by_force(there, load);
+    answer.parameters = parameters(there);
+    return answer;
+  };
+  const std::map<std::string, double> there = evaluated_in_cases(cases, scene, finer).parameters;
+  EXPECT_EQ(there.at("mesh.flank_elements"), 2 * scene.mesh.flank_elements);
+  EXPECT_EQ(there.at("contact.friction"), scene.contact.friction);
   EXPECT_EQ(evaluated_in_cases({}, scene, by_force).responses, by_force(scene, 0).responses);
 }
 

@@ -763,6 +763,23 @@ TEST_F(Run, EndsWhateverBecomesOfItsExports) {
     EXPECT_TRUE(fs::exists(results() / file)) << file;
 }
 
+TEST_F(Run, SaysWhyNothingCouldBeComputed) {
+  const RunEngineFactory failing = [](const Study&) {
+    return RunEngine{.evaluate =
+                         [](std::span<const double>) {
+                           optimizer::Evaluation evaluation;
+                           evaluation.status = "asymptote: no_asymptote";
+                           return evaluation;
+                         },
+                     .describe = {}};
+  };
+  EXPECT_EQ(run(false, failing), kNotConverged);
+  EXPECT_THAT(out_.str(), HasSubstr("no candidate could be computed"));
+  EXPECT_THAT(err_.str(),
+              testing::ContainsRegex("none of [0-9]+ evaluations could be computed: asymptote: no_asymptote in"));
+  EXPECT_THAT(text_of(results() / "report.html"), HasSubstr("Find out why nothing can be computed"));
+}
+
 TEST_F(Run, WithoutAFeasibleDesignNothingIsCalledBest) {
   const RunEngineFactory poor = [](const Study&) {
     return RunEngine{.evaluate =

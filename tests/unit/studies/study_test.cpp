@@ -489,6 +489,10 @@ TEST(StudyCases, SamplesOutsideOfTheRangeOfTheirKeyAreRefused) {
   EXPECT_THAT(
       complaint(uncertain + "plus_minus = 0.9\n"),
       HasSubstr("uncertain[0].key = \"contact.friction\": becomes -0.4 in sample/2 of its samples: must be >= 0"));
+  // A range would take the place of what a case says.
+  const std::string own = "[[case]]\nname = \"a\"\n\"contact.friction\" = 0.3\n";
+  EXPECT_THAT(complaint(own + uncertain + "lower = 0.4\nupper = 0.6\n"), HasSubstr("number of its own in case a"));
+  EXPECT_EQ(complaint(own + uncertain + "plus_minus = 0.1\n"), "");
   // One wrong line is one sentence.
   const std::string mean = "[[constraint]]\nresponse = \"mass_kg\"\nupper = 9\nover = \"mean\"\n";
   EXPECT_EQ(complaint(uncertain + "plus_minus = 0.1\n" + mean), "");

@@ -76,6 +76,8 @@ with tempfile.TemporaryDirectory() as name:
     assert "cannot be written" in answer("check", "study.toml", "--json-log", "missing/l.jsonl", status=2).stderr
 
     # What is refused has an end, too.
+    answer("run", "study.toml", "-o", "refused", "--set", "contact.friction=-1", "--json-log", "run.jsonl", status=2)
+    assert [json.loads(line)["event"] for line in pathlib.Path("run.jsonl").read_text().splitlines()] == ["begin", "end"]
     answer("merge", "out", "none", "-o", "not-merged", "--json-log", "refused.jsonl", status=2)
     assert [json.loads(line)["exit_status"] for line in pathlib.Path("refused.jsonl").read_text().splitlines()[-1:]] == [2]
     assert not pathlib.Path("not-merged").exists()

@@ -164,6 +164,9 @@ TEST(OtherMeshes, AreFinerInThePlaneAlone) {
     return std::pair{others.meshes()[0].ratio, others.meshes()[1].ratio};
   };
   for (const bool finer : {false, true}) EXPECT_EQ(sizes(space, finer), std::pair(1.5, 2.0));
+  // But where none is coarser.
+  space.mesh.flank_elements = 2;
+  EXPECT_EQ(sizes(space, false), std::pair(1 / 1.5, 1.5));
   plane.mesh.flank_elements = kSection.finer_below - 1;
   EXPECT_EQ(sizes(plane, false), std::pair(1 / 1.5, 1.5));
   plane.mesh.flank_elements = kSection.finer_below;
