@@ -74,7 +74,7 @@ void add_command(CLI::App& app, Chosen& chosen, const CommandHelp& help, Run run
 }
 
 void add_commands(CLI::App& app, Chosen& chosen, const PoolFactory& pools) {
-  add_command<RunOptions>(app, chosen, help::run(), [pools](RunOptions options, const Streams& streams) {
+  add_command<RunOptions>(app, chosen, help::run(), [pools](const RunOptions& options, const Streams& streams) {
     return run_study(options, streams, study_engine, pools);
   });
   add_command<EvaluateOptions>(app, chosen, help::evaluate(), run_evaluate);

@@ -231,9 +231,9 @@ int answer_wear(const WearOptions& given, LoadedModel loaded, Teller& teller, co
   const OrderlyInterrupt interrupt;
   wear::Watcher watcher{.stop = [&] { return interrupt.requested(); }};
   watcher.progress = [&](int step, double volume, double rate) {
-    const std::string words =
+    std::string words =
         fmt::format("step {}, worn volume {:.4g} m^3, largest rate {:.3g} m per cycle", step, volume, rate);
-    teller.status([words](double) { return words; }, "the step of the history at hand");
+    teller.status([said = std::move(words)](double) { return std::string(said); }, "the step of the history at hand");
   };
   teller.begin("the worn state");
   WearResult result = computed(options, loaded, at, watcher, teller);

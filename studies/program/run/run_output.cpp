@@ -84,7 +84,8 @@ double expected_s(const RunSite& site, const OptimizationResult& result, Work wh
                        : what == Work::verify ? work.verify
                                               : work.describe;
   const std::size_t at_once = site.pool != nullptr ? site.pool->size() : 1;
-  return seconds / timed * times * static_cast<double>((count + at_once - 1) / at_once);
+  const std::size_t turns = (count + at_once - 1) / at_once;
+  return seconds / timed * times * static_cast<double>(turns);
 }
 
 namespace {
