@@ -81,7 +81,7 @@ std::string objective_value(const RunRecord& record, const EvaluationRecord& bes
 std::string objective_of(const RunRecord& record, std::size_t i, double value, bool named) {
   const optimizer::ObjectiveTerm& term = record.problem.objective[i];
   const Unit unit = response_unit(term.response, std::max(std::abs(value), std::abs(record.front->reference[i])));
-  const std::string text = significant(value / unit.si, 3) + (unit.symbol.empty() ? "" : "\u00a0" + unit.symbol);
+  std::string text = significant(value / unit.si, 3) + (unit.symbol.empty() ? "" : "\u00a0" + unit.symbol);
   if (!named) return text;
   const std::string name = term_words(record.problem, term);
   return (std::string_view("aeiou").find(name.front()) == std::string_view::npos ? "a " : "an ") + name + " of " + text;
