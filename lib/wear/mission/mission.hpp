@@ -44,7 +44,7 @@ struct Mission {
   double largest_depth = 0;           ///< m
   std::vector<bool> released;         ///< [Nc] worn off in one of them at least
   std::vector<ReleaseTrail> trails;   ///< of every load that wears: the passes are those of all, the reserves its own
-  Bearing bearing;                    ///< of the load that has the least to bear on
+  Bearing bearing;                    ///< of the load that wears and has the least to bear on
   bool took_turns = false;            ///< the loads were let act in turn, and came to an end
   /// Another order of the loads, or a history of one of them, ends elsewhere: least and largest volume of those tried.
   bool order_matters = false;

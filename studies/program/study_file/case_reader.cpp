@@ -1,7 +1,5 @@
 #include "studies/program/study_file/case_reader.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <string_view>
@@ -196,8 +194,7 @@ void refuse_samples(SectionReader& root, const optimizer::Scene& scene, const st
         if (!overlap(key.text, wrong.key) || std::ranges::find(refused, key.text) != refused.end()) continue;
         refused.push_back(key.text);
         problems.add(key, path + ".key",
-                     "becomes " + fmt::format("{:.6g}", std::stod(wrong.value)) + " in " + sample.name +
-                         " of its samples: " + wrong.allowed);
+                     "becomes " + wrong.value + " in " + sample.name + " of its samples: " + wrong.allowed);
       }
 }
 
