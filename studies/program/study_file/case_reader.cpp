@@ -78,6 +78,15 @@ void let_the_disk_follow(const Node* root, LoadCase& load) {
   }
 }
 
+/// What numbers of a case contradict that those of the file do not.
+void refuse_contradictions(const std::vector<Given>& given, const std::string& path, const optimizer::Scene& scene,
+                           const LoadCase& load, Problems& problems) {
+  for (const Violation& found : optimizer::contradictions(optimizer::in_case(scene, load))) {
+    const auto changed = std::ranges::find(given, found.key, &Given::key);
+    if (changed != given.end()) problems.add(*changed->value, path + "." + found.key, found.allowed);
+  }
+}
+
 /// A name is part of names of responses, and of options that list cases.
 bool is_case_name(const std::string& name) {
   const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_' || c == '.'; };
@@ -105,6 +114,7 @@ std::vector<LoadCase> read_cases(SectionReader& root, const optimizer::Scene& sc
     std::vector<Given> given;
     collect(*node, "", given);
     for (const Given& change : given) read_change(change, section.path(change.key), scene, variables, problems, load);
+    if (problems.empty()) refuse_contradictions(given, path, scene, load, problems);
     let_the_disk_follow(root.node(), load);
     cases.push_back(std::move(load));
   }

@@ -473,6 +473,9 @@ TEST(StudyCases, WrongOnesAreRefused) {
   EXPECT_THAT(complaint(named + "\"loading.tip_force_n\" = -1\n"), HasSubstr("must be"));
   EXPECT_THAT(complaint(named + "\"loading.tip_force_n\" = \"much\"\n"), HasSubstr("must be a number"));
   EXPECT_THAT(complaint(named + "\"scene.mode\" = 1.5\n"), HasSubstr("must be a whole number"));
+  EXPECT_THAT(complaint(named + "\"scene.nodal_diameter\" = 2\n"),
+              HasSubstr("case[0].scene.nodal_diameter = 2: must be 0"));
+  EXPECT_THAT(complaint(named + "scene.mode = 99\n"), HasSubstr("case[0].scene.mode = 99: must be <= solver.modes"));
   EXPECT_THAT(complaint(named + "\"mesh.flank_elements\" = 9\n"), HasSubstr("is the same for all cases"));
   EXPECT_THAT(complaint(named + "\"geometry.left.flank_mismatch_um\" = 9\n"), HasSubstr("is a design variable"));
   EXPECT_THAT(complaint(named + "\"loading.tip_force_n\" = 1\nloading.tip_force_n = 2\n"),
