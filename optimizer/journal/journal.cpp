@@ -63,6 +63,11 @@ std::string fingerprint_of_header(const std::filesystem::path& file, const std::
   return header.value("fingerprint", "");
 }
 
+/// What is asked again.
+bool is_lost(const JournalRecord& record) {
+  return lost_with_its_process(record.evaluation.status);
+}
+
 /// What is there, unless it is of no use.
 JournalContents known_or_empty(const std::filesystem::path& file, const std::string& fingerprint) {
   try {
@@ -151,6 +156,7 @@ Journal Journal::open(const std::filesystem::path& file, const std::string& fing
   journal.note_ = std::move(contents.note);
   journal.records_ = std::move(contents.records);
   journal.size_ = journal.records_.size();
+  std::erase_if(journal.records_, is_lost);
   if (contents.valid_bytes == 0) {
     journal.write_line(header_text(fingerprint));
     // The name of a new file is on disk only once its folder is.
@@ -192,7 +198,7 @@ std::size_t merge_journals(std::span<const std::filesystem::path> from, const st
   std::set<std::vector<double>> known;
   for (const JournalContents& each : contents)
     for (const JournalRecord& record : each.records)
-      if (known.insert(record.x).second) journal.append(record.x, record.evaluation);
+      if (!is_lost(record) && known.insert(record.x).second) journal.append(record.x, record.evaluation);
   return journal.size();
 }
 

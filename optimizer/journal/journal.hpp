@@ -50,7 +50,7 @@ class Journal {
   Journal& operator=(const Journal&) = delete;
   ~Journal();
 
-  /// Records found when it was opened.
+  /// Records found when it was opened, but for those that were lost with a process: they are asked again.
   [[nodiscard]] const std::vector<JournalRecord>& records() const { return records_; }
   [[nodiscard]] const std::string& note() const { return note_; }
   [[nodiscard]] std::size_t size() const { return size_; }
@@ -71,7 +71,8 @@ class Journal {
   std::size_t size_ = 0;
 };
 
-/// Writes a journal with the records of several of one study, each point once, the first to have it first. InputError
+/// Writes a journal with the records of several of one study, each point once, the first to have it first, and none
+/// that was lost with its process. InputError
 /// when they are of different studies, or as for read_journal.
 /// @return how many records it has
 std::size_t merge_journals(std::span<const std::filesystem::path> from, const std::filesystem::path& to);

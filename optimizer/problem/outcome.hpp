@@ -50,4 +50,13 @@ constexpr EnumNames<Outcome, 5> enum_names(Outcome) {
   return failed_at(stage, to_string(why));
 }
 
+/// The stage of what is no failure of a design: the process that computed it ended, or gave no answer in time.
+inline constexpr std::string_view kWorkerStage = "worker";
+
+/// Whether a status, perhaps that of a case, is such a one: the same computed again may have an answer.
+[[nodiscard]] inline bool lost_with_its_process(std::string_view status) {
+  const std::string stage = std::string(kWorkerStage) + ": ";
+  return status.starts_with(stage) || status.find(": " + stage) != status.npos;
+}
+
 }  // namespace dovetail::optimizer

@@ -105,6 +105,17 @@ std::string describe(Status status, const std::string& message) {
   return message;
 }
 
+/// Why designs that keep the limits of the search's mesh were refused; empty where none was.
+std::string refused_words(const FinerLimits& finer) {
+  const auto unknown = std::ranges::count_if(
+      finer.checks(), [](const FinerCheck& check) { return !check.held && !check.evaluation.converged(); });
+  const auto refused = std::ranges::count_if(finer.checks(), [](const FinerCheck& check) { return !check.held; });
+  if (refused == 0) return {};
+  if (unknown == 0) return "limits kept on the search's mesh break on finer ones";
+  return unknown == refused ? "of limits kept on the search's mesh finer ones have no answer"
+                            : "limits kept on the search's mesh break on finer ones, or have no answer there";
+}
+
 Front front_in(const EvaluationSession& session) {
   const std::vector<Candidate> all(session.candidates().begin(), session.candidates().end());
   return front_of(session.problem(), all);
@@ -154,8 +165,7 @@ SearchOutcome corrected_search(EvaluationSession& session, FinerLimits& finer) {
   const bool met = std::ranges::any_of(session.candidates(),
                                        [](const Candidate& candidate) { return candidate.evaluation.feasible; });
   if (finer.active() && !session.best() && met)
-    outcome.message =
-        describe(outcome.status, outcome.message) + "; limits kept on the search's mesh break on finer ones";
+    outcome.message = describe(outcome.status, outcome.message) + "; " + refused_words(finer);
   return outcome;
 }
 
@@ -187,11 +197,11 @@ SearchOutcome front_search(EvaluationSession& session, FinerLimits& finer) {
   bool held = !finer.active();
   for (int look = 0; !held && session.best() && look < CorrectionParams{}.looks; ++look)
     held = finer.holds(front_in(session).compromise);
-  if (!held && session.best())
-    outcome.message =
-        describe(outcome.status, outcome.message) +
-        "; points that looked like a compromise break limits on finer meshes, and the one there is now was "
-        "not looked at";
+  if (const std::string words = refused_words(finer); !held && !words.empty())
+    outcome.message = describe(outcome.status, outcome.message) + "; " +
+                      (session.best() ? "of points that looked like a compromise " + words +
+                                            ", and the one there is now was not looked at"
+                                      : words);
   return outcome;
 }
 

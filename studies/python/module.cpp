@@ -24,7 +24,7 @@ namespace dovetail::python {
 namespace {
 
 namespace py = pybind11;
-using studies::LoadedModel, studies::Streams;
+using studies::Streams;
 
 /// What is computed with: a study, a model in memory, or the file of either.
 struct Input {

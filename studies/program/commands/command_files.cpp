@@ -49,6 +49,10 @@ Document candidate_document(const std::string& directory, int number) {
                         fmt::format("{}, candidate {}", directory, number));
 }
 
+bool has_worn_flanks(const report::DesignRecord& design) {
+  return !design.contact.depth_m.empty() && optimizer::converged(design.status);
+}
+
 /// What is to be exported: a study, or a design of a run.
 class Exported {
  public:
@@ -71,15 +75,20 @@ class Exported {
     return read_study(document);
   }
 
-  /// With fields and contact; what a run keeps of its best design is not computed again.
-  [[nodiscard]] report::DesignRecord design(bool history) const {
+  /// With fields and contact; what a run keeps of its best design is not computed again where it has what is wanted: a
+  /// run that asks for no wear keeps none.
+  [[nodiscard]] report::DesignRecord design(bool history, bool worn) const {
+    const Study study = this->study();
+    if (const std::vector<optimizer::LoadCase>& cases = study.problem.cases; cases.size() > 1)
+      teller_.remark() << "dovetail: " << options_.input << ": of case " << cases.front().name
+                       << ", the first, alone; what all cases wear off together is not drawn\n";
     if (of_run_ && !options_.candidate && options_.set.empty()) {
       teller_.begin("reading the results");
       const report::RunRecord record = results_of(options_.input);
-      if (record.best_design && record.best_design->fields.mesh.element_count() > 0) return *record.best_design;
-      refuse(options_.input, "holds no fields of a best design");
+      if (record.best_design && record.best_design->fields.mesh.element_count() > 0 &&
+          (!history || record.best_design->history) && (!worn || has_worn_flanks(*record.best_design)))
+        return *record.best_design;
     }
-    const Study study = this->study();
     teller_.begin(history ? "computing the design and its wear history" : "computing the design",
                   teller_.shows() && !history ? expected_cost(study).seconds : 0);
     report::DesignRecord design = describe_fields(study, history);
@@ -157,12 +166,12 @@ int run_export(const ExportOptions& options, Teller& teller, const Streams& stre
     replace_file(options.file, candidate_table(results_of(options.input)));
   } else if (has_fields(*format)) {
     const bool series = format == ExportFormat::pvd;
-    const report::DesignRecord design = exported.design(series);
+    const report::DesignRecord design = exported.design(series, false);
     teller.begin("writing " + options.file);
     (series ? export_history : export_fields)(design, options.file);
   } else if (options.worn) {
-    const report::DesignRecord design = exported.design(false);
-    if (design.contact.depth_m.empty() || design.status != "converged")
+    const report::DesignRecord design = exported.design(false, true);
+    if (!has_worn_flanks(design))
       refuse(options.input, "has no worn flanks: its wear has not come to an end (" + design.status + ")");
     // The record is of the first case.
     const Study study = exported.study();

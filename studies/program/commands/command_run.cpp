@@ -143,9 +143,11 @@ struct Searched {
 /// The search, with its journals in the directory.
 Searched searched(const RunSite& site, RunClock& clock, bool resume, const std::optional<optimizer::Part>& part,
                   const std::string& fingerprint, const OrderlyInterrupt& interrupt) {
-  if (const fs::path before = site.directory / "journal.jsonl"; resume && fs::exists(before))
-    if (const std::string of = optimizer::read_journal(before).fingerprint; !of.empty() && of != fingerprint)
-      refuse_changed(site.directory, site.study);
+  if (const fs::path before = site.directory / "journal.jsonl"; resume && fs::exists(before)) {
+    const optimizer::JournalContents kept = optimizer::read_journal(before);
+    if (!kept.fingerprint.empty() && kept.fingerprint != fingerprint) refuse_changed(site.directory, site.study);
+    refuse_fewer(site.directory, site.study, kept.records.size());
+  }
   const auto opened = [&](const char* name) {
     const fs::path file = site.directory / name;
     optimizer::Journal journal =
@@ -305,7 +307,12 @@ int computed(const RunOptions& options, const Study& asked, const fs::path& dire
     return kNotConverged;
   }
   if (result.status != Status::converged && result.status != Status::iteration_limit) return kNotConverged;
-  if (!late) keep_finished(directory, question_of(asked), answer);
+  // What was lost with a process is asked again.
+  const auto lost = [](const auto& one) { return optimizer::lost_with_its_process(one.status); };
+  const auto lost_look = [&](const auto& one) { return lost(one.evaluation); };
+  if (!late && std::ranges::none_of(result.evaluations, lost_look) && std::ranges::none_of(result.finer, lost_look) &&
+      std::ranges::none_of(verifications, lost) && std::ranges::none_of(departures, lost))
+    keep_finished(directory, question_of(asked), answer);
   return kDone;
 }
 

@@ -192,6 +192,24 @@ void refuse_changed(const std::filesystem::path& directory, const Study& study) 
                              fmt::join(changed, ", "), kept.string())});
 }
 
+void refuse_fewer(const std::filesystem::path& directory, const Study& study, std::size_t kept) {
+  const std::filesystem::path before = directory / "study.toml";
+  const int asked = study.optimizer.max_evaluations;
+  if (kept <= static_cast<std::size_t>(asked) || !std::filesystem::exists(before)) return;
+  const Document document = load_document(before.string());
+  const Node* then = document.root.at("optimizer.max_evaluations");
+  const int had = then != nullptr && then->is_number() ? static_cast<int>(then->real)
+                                                       : optimizer::OptimizerOptions{}.max_evaluations;
+  if (had <= asked) return;
+  throw InputError(Violation{
+      .file = directory.string(),
+      .key = "optimizer.max_evaluations",
+      .value = std::to_string(asked),
+      .allowed = fmt::format("must be >= {}, the evaluations that are kept there: with fewer the answer would "
+                             "become worse; of a run that shall end now give that number",
+                             kept)});
+}
+
 SettledStudy settled_run(const Study& asked, const std::filesystem::path& directory, bool resume,
                          const RunEngineFactory& make_engine, Teller& teller) {
   const bool chooses = asked.scene.solver.accuracy > 0;

@@ -25,6 +25,10 @@ struct SettledStudy {
 /// changed; returns where nothing is seen to have.
 void refuse_changed(const std::filesystem::path& directory, const Study& study);
 
+/// Throws an InputError where a run of `kept` evaluations is to go on with fewer than it has, and than it was begun
+/// with: what it hands over would be of some of them alone.
+void refuse_fewer(const std::filesystem::path& directory, const Study& study, std::size_t kept);
+
 /// The study with everything that a run chooses before its search, as if it stood in its file: settings for the
 /// accuracy it asks for, and the noise of its responses, both of the start. Kept in settings.json of the directory, and
 /// with `resume` taken from there when the same was asked for.

@@ -70,7 +70,7 @@ optimizer::Scene scene_of(const Study& study, const std::vector<double>& x, std:
 /// What a worker lost: the command that computes it again.
 Evaluation lost(const Study& study, const Piece& piece, const std::string& ended) {
   Evaluation evaluation;
-  evaluation.status = optimizer::failed_at("worker", ended);
+  evaluation.status = optimizer::failed_at(optimizer::kWorkerStage, ended);
   std::string command = "dovetail evaluate " + study.file + " --no-bars --no-history";
   const auto set = [&](const std::string& key, double value) { command += " --set " + key + "=" + shortest(value); };
   for (const auto& [key, value] : study.problem.space.settings(piece.x)) set(key, value);
@@ -200,7 +200,7 @@ void verify_at_once(std::span<const Verified> wanted, optimizer::WorkerPool& poo
     if (finished.answer)
       optimizer::read_json(Json::parse(*finished.answer), record);
     else
-      record.status = optimizer::failed_at("worker", finished.ended);
+      record.status = optimizer::failed_at(optimizer::kWorkerStage, finished.ended);
     return told(finished.task, std::move(record));
   });
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cctype>
 #include <future>
 #include <optional>
@@ -49,7 +50,7 @@ std::string sentence(std::string words) {
 void take_over(const Study& study, optimizer::Evaluation seen, optimizer::Candidate& candidate) {
   const double tolerance = study.optimizer.constraint_tolerance, before = candidate.judgement.objective;
   annotate(study.problem, tolerance, seen);
-  const optimizer::Judgement now = judge(study.problem, seen, tolerance);
+  optimizer::Judgement now = judge(study.problem, seen, tolerance);
   if (!now.computed) {
     candidate.evaluation.error_estimates = seen.error_estimates;
     candidate.evaluation.messages = seen.messages;
@@ -62,6 +63,11 @@ void take_over(const Study& study, optimizer::Evaluation seen, optimizer::Candid
         fmt::format("The search, which takes the direct worn state and its own settings, had an objective of {:.4g}, "
                     "now {:.4g}.",
                     before, now.objective));
+  // What the search refused by its limits on finer meshes stays refused.
+  if (!candidate.judgement.feasible) {
+    now.feasible = false;
+    now.violation = std::max(now.violation, candidate.judgement.violation);
+  }
   candidate.evaluation = std::move(seen);
   candidate.judgement = now;
 }

@@ -56,7 +56,7 @@ std::vector<Kept> kept_before(const fs::path& file, const std::string& fingerpri
       // A bar that is not known is infinite.
       for (double* bar : {&kept.record.search_bar_m3, &kept.record.history_bar_m3})
         if (std::isnan(*bar)) *bar = kInfinity;
-      all.push_back(std::move(kept));
+      if (!optimizer::lost_with_its_process(kept.record.status)) all.push_back(std::move(kept));
     } catch (const std::exception&) {
       // Cut short when the program was ended: it is computed again.
     }

@@ -65,10 +65,13 @@ std::string conclusion(const Study& study, const OptimizationResult& result, con
   const int feasible = count([](const optimizer::Candidate& c) { return c.judgement.feasible; });
   const int failed =
       count([](const optimizer::Candidate& c) { return !c.evaluation.converged() && !c.evaluation.infeasible(); });
+  const auto unknown = std::ranges::count_if(
+      result.finer, [](const optimizer::FinerCheck& check) { return !check.held && !check.evaluation.converged(); });
   std::string text = fmt::format(
-      "{}: {}, {} of them stored before; {} feasible, {} break a limit or a rule, {} failed; {}\n", study.name,
+      "{}: {}, {} of them stored before; {} feasible, {} break a limit or a rule{}, {} failed; {}\n", study.name,
       report::counted(result.evaluations.size(), "evaluation"), counts.replayed, feasible, all - feasible - failed,
-      failed, result.message.empty() ? std::string(to_string(result.status)) : result.message);
+      unknown == 0 ? "" : fmt::format(" or have no answer on a finer mesh ({} looks)", unknown), failed,
+      result.message.empty() ? std::string(to_string(result.status)) : result.message);
   if (counts.unused_records > 0)
     text += fmt::format("{} stored evaluations were not asked for again: this search took another way\n",
                         counts.unused_records);
@@ -92,9 +95,10 @@ std::string verified_words(const std::vector<report::VerificationRecord>& verifi
   std::string text;
   for (const report::VerificationRecord& v : verifications) {
     const auto known = [](bool is, double volume) { return is ? fmt::format("{:.6g} m^3", volume) : "not known"; };
-    text += fmt::format("evaluation {}{} by its wear history: {}, directly {:.6g} m^3, on {} edges {} ({})\n",
+    text += fmt::format("evaluation {}{} by its wear history: {}, directly {:.6g} m^3, on {} {} ({})\n",
                         v.evaluation + 1, v.load_case.empty() ? "" : " in case " + v.load_case,
-                        known(v.history_known(), v.history_volume_m3), v.search_volume_m3, v.flank_elements,
+                        known(v.history_known(), v.history_volume_m3), v.search_volume_m3,
+                        v.flank_elements > 0 ? fmt::format("{} edges", v.flank_elements) : "a finer mesh",
                         known(v.finer_known(), v.direct_volume_m3), v.agreement());
   }
   return text;

@@ -79,8 +79,9 @@ Plot engine_order_plot(const DesignRecord& design) {
     orders.labels.push_back(fmt::format("EO {}", order));
   }
   plot.series.push_back(std::move(orders));
+  const auto most = blades / 2;
   plot.series.push_back({.name = "resonance of the joint",
-                         .x = {0, static_cast<double>(blades / 2)},
+                         .x = {0, static_cast<double>(most)},
                          .y = {mode, mode},
                          .role = Role::muted,
                          .stroke = Stroke::dashed});

@@ -171,6 +171,39 @@ std::string why_none(const RunRecord& record) {
   return fmt::format("{} in {} of {}", status, count, record.evaluations.size());
 }
 
+namespace {
+
+/// Of a run whose candidates keep every limit on the mesh of the search: what they do not keep on finer ones.
+std::vector<std::string> never_kept_on_finer_meshes(const RunRecord& record) {
+  const auto mesh = [](const FinerRecord& check) {
+    return check.flank_elements > 0 ? fmt::format("with {} edges along each flank", check.flank_elements)
+                                    : std::string("on a finer mesh");
+  };
+  const auto largest = [](const FinerRecord& check) {
+    return check.constraints.empty() ? kInfinity : std::ranges::max(check.constraints);
+  };
+  const FinerRecord *nearest = nullptr, *unknown = nullptr;
+  for (const FinerRecord& check : record.finer) {
+    if (!optimizer::converged(check.status))
+      unknown = &check;
+    else if (largest(check) > 0 && (nearest == nullptr || largest(check) < largest(*nearest)))
+      nearest = &check;
+  }
+  std::vector<std::string> found;
+  const std::vector<std::string> names = constraint_names(record.problem);
+  for (std::size_t j = 0; nearest != nullptr && j < std::min(names.size(), nearest->constraints.size()); ++j)
+    if (nearest->constraints[j] > 0)
+      found.push_back(fmt::format("{} {} (candidate {} comes nearest and misses it by {}\u00a0%)",
+                                  limit_words(names[j], record.problem), mesh(*nearest), nearest->evaluation + 1,
+                                  significant(100 * nearest->constraints[j], 2)));
+  if (found.empty() && unknown != nullptr)
+    found.push_back(fmt::format("its limits {}, where candidate {} has no answer ({})", mesh(*unknown),
+                                unknown->evaluation + 1, unknown->status));
+  return found;
+}
+
+}  // namespace
+
 std::vector<std::string> never_kept(const RunRecord& record) {
   // The least a limit or a rule is broken by, and where.
   struct Least {
@@ -197,7 +230,7 @@ std::vector<std::string> never_kept(const RunRecord& record) {
   };
   for (std::size_t j = 0; j < names.size(); ++j) tell(limit_words(names[j], record.problem), limits[j]);
   for (const auto& [name, least] : rules) tell("the geometric rule \u201c" + words(name) + "\u201d", least);
-  return found;
+  return found.empty() && !record.best ? never_kept_on_finer_meshes(record) : found;
 }
 
 std::vector<std::string> holding(const RunRecord& record) {
