@@ -179,6 +179,7 @@ std::string tie_words(const EvaluationSession& session) {
   if (tied < 2) return {};
   std::string text = "; " + std::to_string(tied) + " designs have the same objective: the best of them ";
   if (best.slip_margin < 0) return text + "is the one with the smallest amplitude";
+  if (best.slip_margin < 5e-4) return text + "is the one farthest from slip, with next to none of its friction left";
   return text + "is the one farthest from slip, with " + shortest(std::round(1000 * best.slip_margin) / 10) +
          " % of its friction left";
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <optional>
 #include <sstream>
 
@@ -144,7 +145,21 @@ DakotaQuestion read_dakota(const std::string& file) {
   return question;
 }
 
-std::string dakota_results(const DakotaQuestion& question, const optimizer::Evaluation& evaluation) {
+namespace {
+
+/// A response, of one case as `NAME@CASE`, or what the cases come to together, as `NAME@mean`; NaN where there is none.
+double value_of(const std::string& name, const optimizer::Evaluation& evaluation, const optimizer::Problem& problem) {
+  if (const auto found = evaluation.responses.find(name); found != evaluation.responses.end()) return found->second;
+  const auto [response, over] = optimizer::split_case(name);
+  if (problem.cases.empty() || !named<optimizer::Over>(over)) return std::numeric_limits<double>::quiet_NaN();
+  const optimizer::ObjectiveTerm term{.response = std::string(response), .over = std::string(over)};
+  return term_value(problem, term, evaluation.responses, {}).value;
+}
+
+}  // namespace
+
+std::string dakota_results(const DakotaQuestion& question, const optimizer::Evaluation& evaluation,
+                           const optimizer::Problem& problem) {
   if (question.asks_for_derivatives())
     return "fail: derivatives are asked for, and there are none: numerical_gradients and no_hessians in the responses "
            "of "
@@ -155,10 +170,9 @@ std::string dakota_results(const DakotaQuestion& question, const optimizer::Eval
   std::string text;
   for (const DakotaQuestion::Function& one : question.functions) {
     if (one.asked == 0) continue;
-    const auto found = evaluation.responses.find(one.response);
-    if (found == evaluation.responses.end() || !std::isfinite(found->second))
-      return fmt::format("fail: {} has no value\n", one.response);
-    text += fmt::format("{:.17g} {}\n", found->second, one.response);
+    const double value = value_of(one.response, evaluation, problem);
+    if (!std::isfinite(value)) return fmt::format("fail: {} has no value\n", one.response);
+    text += fmt::format("{:.17g} {}\n", value, one.response);
   }
   return text;
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "optimizer/problem/evaluation.hpp"
+#include "optimizer/problem/problem.hpp"
 
 /// Dakota's files: the parameters at which it asks, and the results that it reads.
 namespace dovetail::studies {
@@ -27,6 +28,7 @@ struct DakotaQuestion {
 
 /// The results: a value for each function that was asked for; "fail" and why where derivatives were, or the evaluation
 /// has no answer.
-[[nodiscard]] std::string dakota_results(const DakotaQuestion& question, const optimizer::Evaluation& evaluation);
+[[nodiscard]] std::string dakota_results(const DakotaQuestion& question, const optimizer::Evaluation& evaluation,
+                                         const optimizer::Problem& problem);
 
 }  // namespace dovetail::studies

@@ -1,5 +1,7 @@
 #include "studies/program/answers/geometry_export.hpp"
 
+#include <fmt/format.h>
+
 #include <cassert>
 
 #include "geometry/exports/dxf.hpp"
@@ -24,6 +26,10 @@ geometry::MeshedSector meshed(const optimizer::Scene& scene) {
 }
 
 void export_deck(const optimizer::Scene& scene, const DeckOptions& options, const std::filesystem::path& file) {
+  for (const int diameter : options.nodal_diameters)
+    if (const int most = scene.geometry.sectors / 2; diameter < 0 || diameter > most)
+      refuse("--nodal-diameter", fmt::format("must be 0 to {} of {} sectors", most, scene.geometry.sectors),
+             std::to_string(diameter));
   geometry::InpOptions deck{.joint = options.contact ? geometry::FlankJoint::contact : geometry::FlankJoint::glued,
                             .friction = scene.contact.friction,
                             .speed = scene.loading.speed,

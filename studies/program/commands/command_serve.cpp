@@ -47,8 +47,8 @@ int run_serve(const ServeOptions& options, const Streams& streams) {
   const int port = options.port > 0 ? (server.bind_to_port(options.host.c_str(), options.port) ? options.port : -1)
                                     : server.bind_to_any_port(options.host.c_str());
   if (port < 0)
-    refuse("--port", "cannot be served at " + options.host + ": it is in use, or not allowed",
-           std::to_string(options.port));
+    refuse("--host and --port", "cannot be served at: the port is in use or not allowed, or the host no address here",
+           fmt::format("{}:{}", options.host, options.port));
   streams.out << fmt::format("{}: served at http://{}:{} until Ctrl-C; {} variables in, {} responses out\n", model.name,
                              options.host, port, model.inputs.size(), model.outputs.size())
               << std::flush;

@@ -245,7 +245,7 @@ int run_evaluate(const EvaluateOptions& options, Teller& teller, const Streams& 
     set.insert(set.end(), dakota->set.begin(), dakota->set.end());
     // Dakota takes it as a design that failed, and nothing needs to be computed.
     if (dakota->asks_for_derivatives()) {
-      replace_file(options.dakota.back(), dakota_results(*dakota, {}));
+      replace_file(options.dakota.back(), dakota_results(*dakota, {}, {}));
       return not_converged(options.dakota.front(), "derivatives are asked for, and there are none", streams);
     }
   }
@@ -325,7 +325,7 @@ int run_evaluate(const EvaluateOptions& options, Teller& teller, const Streams& 
                              {"relative_bar", whole->relative},
                              {"asked", whole->asked}};
   deliver_json(options.json, evaluation_json(evaluation, choice ? &accuracy : nullptr, &study.problem), streams);
-  if (dakota) replace_file(options.dakota.back(), dakota_results(*dakota, evaluation));
+  if (dakota) replace_file(options.dakota.back(), dakota_results(*dakota, evaluation, study.problem));
   if (options.json != "-")
     streams.out << evaluation_table(study.problem, evaluation) << case_table(study.problem, evaluation);
   if (evaluation.infeasible()) throw infeasible(options.study, evaluation.messages);

@@ -32,8 +32,8 @@ std::string limits_kept(const report::RunRecord& record) {
     std::string finer;
     for (const report::FinerRecord& check : record.finer)
       if (check.evaluation == static_cast<std::int64_t>(*record.best))
-        finer += fmt::format(", {:.3g} % on {} edges", -100 * check.constraints[j], check.flank_elements);
-    const double room = -100 * best.constraints[j], bar = 100 * bars.constraints[j];
+        finer += fmt::format(", {:.3g} % on {} edges", 0.0 - 100 * check.constraints[j], check.flank_elements);
+    const double room = 0.0 - 100 * best.constraints[j], bar = 100 * bars.constraints[j];
     text += fmt::format("  {} {} by {} of its limit{}{}\n", names[j], room < 0 ? "broken" : "kept",
                         with_bar(std::abs(room), bar, " %"), finer, std::abs(room) < bar ? ": undecided" : "");
   }

@@ -173,13 +173,13 @@ std::vector<ResponseConstraint> read_constraints(SectionReader& root, const std:
 }
 
 /// What all cases wear off together is asked of one pair of flanks, each case at its own resonance before wear.
+/// - `sampled`: something is uncertain
 void refuse_missions(SectionReader& root, const optimizer::Scene& scene, const optimizer::Problem& problem,
-                     Problems& problems) {
+                     bool sampled, Problems& problems) {
   const std::vector<std::string> names = optimizer::responses_of(problem);
   const bool followed = scene.loading.follow != wear::Follow::fixed;
   if (!optimizer::of_a_mission(names)) return;
   const bool refused = followed || optimizer::missions_of(problem.cases, true).empty();
-  const bool sampled = std::ranges::any_of(problem.cases, [](const auto& load) { return !load.sample_of.empty(); });
   for (const char* table : {"objective", "constraint"})
     for (const auto& [node, path] : entries(root, table, problems)) {
       const Node* name = node->find("response");
@@ -211,10 +211,12 @@ optimizer::Problem read_problem(SectionReader& root, const optimizer::Scene& sce
   const std::vector<optimizer::LoadCase> named = problem.cases;
   problem.cases = read_samples(root, scene, variables, problem.cases, problem.quantile, problems);
   // Where something is wrong there are no samples yet.
-  const bool several = !problem.cases.empty() || (!problems.empty() && root.node() && root.node()->find("uncertain"));
+  const bool sampled = (!problems.empty() && root.node() && root.node()->find("uncertain")) ||
+                       std::ranges::any_of(problem.cases, [](const auto& load) { return !load.sample_of.empty(); });
+  const bool several = sampled || !problem.cases.empty();
   problem.objective = read_objective(root, named, several, accurate, problem.front, problems);
   problem.constraints = read_constraints(root, named, several, accurate, problems);
-  refuse_missions(root, scene, problem, problems);
+  refuse_missions(root, scene, problem, sampled, problems);
   const bool varies = root.node() && root.node()->find("variable");
   if (problem.objective.empty() && (varies || (root.node() && root.node()->find("objective"))))
     problems.missing(nullptr, "objective",

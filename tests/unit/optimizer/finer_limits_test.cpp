@@ -71,6 +71,14 @@ TEST(FinerLimitsOf, NoDesignIsHandedOverThatBreaksThemThere) {
   EXPECT_NE(result.message.find("finer"), std::string::npos) << result.message;
 }
 
+TEST(FinerLimitsOf, ADesignWithoutAnswerThereIsNotSaidToBreakThem) {
+  const RunHooks hooks{.finer = [](std::span<const double>, int) { return failed(); }};
+  const OptimizationResult result = run_optimization(low_bowl(), bowl, options(), hooks);
+  EXPECT_FALSE(result.best);
+  EXPECT_NE(result.message.find("finer ones have no answer"), std::string::npos) << result.message;
+  EXPECT_EQ(result.message.find("break"), std::string::npos) << result.message;
+}
+
 TEST(FinerLimitsOf, ARunThatNeverMetItsLimitsDoesNotBlameFinerMeshes) {
   Problem problem = low_bowl();
   problem.constraints.front().upper = -100;

@@ -90,6 +90,24 @@ TEST_F(JournalFile, ToleratesATornLastLineAtEveryByte) {
   }
 }
 
+// What a process took with it says nothing of the design: whoever resumes asks again.
+TEST_F(JournalFile, ForgetsWhatWasLostWithAProcess) {
+  {
+    Journal journal = Journal::create(file, "study-1");
+    Evaluation lost, of_case, answered;
+    lost.status = "worker: ended by signal 9";
+    of_case.status = "case a: worker: gave no answer in 1 s";
+    answered.status = "preload: iteration_limit";
+    for (const auto& [x, evaluation] : {std::pair{0.0, lost}, {1.0, of_case}, {2.0, answered}})
+      journal.append(std::vector{x}, evaluation);
+  }
+  Journal journal = Journal::resume(file, "study-1");
+  ASSERT_EQ(journal.records().size(), 1U);
+  EXPECT_EQ(journal.records()[0].x[0], 2);
+  journal.append(std::vector{0.0}, rich());
+  EXPECT_EQ(read_journal(file).records.size(), 4U);
+}
+
 TEST_F(JournalFile, ContinuesAfterATornLine) {
   write_three();
   const std::string whole = contents();

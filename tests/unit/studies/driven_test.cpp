@@ -60,8 +60,29 @@ TEST(Dakota, AsksInTwoFormats) {
     EXPECT_FALSE(question.asks_for_derivatives());
     optimizer::Evaluation evaluation;
     evaluation.responses = {{"mass_kg", 0.1}, {"resonance_hz", 480}};
-    EXPECT_EQ(dakota_results(question, evaluation), "0.10000000000000001 mass_kg\n");  // what is not asked is not given
+    EXPECT_EQ(dakota_results(question, evaluation, {}),
+              "0.10000000000000001 mass_kg\n");  // what is not asked is not given
   }
+}
+
+TEST(Dakota, AsksForWhatCasesComeTo) {
+  optimizer::Problem problem;
+  problem.cases.resize(2);
+  problem.cases[0].name = "cruise";
+  problem.cases[0].weight = 3;
+  problem.cases[1].name = "climb";
+  optimizer::Evaluation evaluation;
+  evaluation.responses = {{"mass_kg", 1}, {"mass_kg@cruise", 1}, {"mass_kg@climb", 5}};
+  const auto answer = [&](const std::string& name) {
+    const DakotaQuestion question{.file = "p.in", .set = {}, .functions = {{.response = name, .asked = 1}}};
+    return dakota_results(question, evaluation, problem);
+  };
+  EXPECT_EQ(answer("mass_kg"), "1 mass_kg\n");
+  EXPECT_EQ(answer("mass_kg@climb"), "5 mass_kg@climb\n");
+  EXPECT_EQ(answer("mass_kg@worst"), "5 mass_kg@worst\n");
+  EXPECT_EQ(answer("mass_kg@mean"), "2 mass_kg@mean\n");
+  EXPECT_EQ(answer("mass_kg@sum"), "8 mass_kg@sum\n");
+  EXPECT_EQ(answer("mass_kg@idle"), "fail: mass_kg@idle has no value\n");
 }
 
 std::string replaced_once(std::string text, const std::string& from, const std::string& to) {
@@ -73,12 +94,12 @@ TEST(Dakota, HearsOfDesignsAndDerivativesThatFail) {
   optimizer::Evaluation evaluation;
   evaluation.status = "infeasible";
   evaluation.messages = {"the neck is too thin"};
-  EXPECT_EQ(dakota_results(question, evaluation), "fail: infeasible: the neck is too thin\n");
+  EXPECT_EQ(dakota_results(question, evaluation, {}), "fail: infeasible: the neck is too thin\n");
   evaluation = {};
-  EXPECT_EQ(dakota_results(question, evaluation), "fail: mass_kg has no value\n");
+  EXPECT_EQ(dakota_results(question, evaluation, {}), "fail: mass_kg has no value\n");
   const DakotaQuestion gradient = asked(replaced_once(kStandard, "1 ASV_1", "3 ASV_1"));
   EXPECT_TRUE(gradient.asks_for_derivatives());
-  EXPECT_THAT(dakota_results(gradient, evaluation), testing::StartsWith("fail: derivatives are asked for"));
+  EXPECT_THAT(dakota_results(gradient, evaluation, {}), testing::StartsWith("fail: derivatives are asked for"));
 }
 
 TEST(Dakota, FilesThatMeanSomethingElseAreRefused) {

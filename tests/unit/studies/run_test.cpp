@@ -356,6 +356,31 @@ TEST_F(Run, SurvivesProcessesThatDie) {
     EXPECT_THAT(record.evaluation.messages.back(), HasSubstr("--set geometry.flank_mismatch_um="));
   }
   EXPECT_GT(failed, 0);
+  // Such a run is not finished: what was lost is asked again, and has an answer where nothing kills its process.
+  EXPECT_FALSE(fs::exists(results() / "finished.json"));
+  int calls = 0;
+  ASSERT_EQ(run(true, counted(calls)), kDone) << err_.str();
+  EXPECT_GE(calls, failed);
+  EXPECT_THAT(out_.str(), HasSubstr(" 0 failed"));
+  EXPECT_TRUE(fs::exists(results() / "finished.json"));
+}
+
+// An answer of fewer evaluations than there are would take the place of a better one.
+TEST_F(Run, IsNotResumedWithFewerEvaluationsThanItHas) {
+  int calls = 0;
+  ASSERT_EQ(run(false, counted(calls)), kDone) << err_.str();
+  const std::string best = text_of(results() / "best.toml"), whole = text_of(study());
+  replace_file(study(), replaced(whole, "max_evaluations = 40", "max_evaluations = 3"));
+  try {
+    run(true, counted(calls));
+    FAIL() << "goes on with fewer";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("optimizer.max_evaluations = 3: must be >= "));
+  }
+  EXPECT_EQ(text_of(results() / "best.toml"), best);
+  EXPECT_TRUE(fs::exists(results() / "finished.json"));
+  replace_file(study(), whole);
+  EXPECT_EQ(run(true, counted(calls)), kDone);
 }
 
 /// What a run finds out at its start is kept beside its results.
@@ -593,6 +618,31 @@ TEST_F(Run, RecordsTheBestDesignAsTheCloserLookHasIt) {
   // The search went by its own values: the journal has them.
   for (const auto& line : optimizer::read_journal(results() / "journal.jsonl").records)
     EXPECT_EQ(line.evaluation.responses, bowl(line.x).responses);
+}
+
+// Limits on finer meshes refuse the start in all that is told of it, though the closer look finds it within those of
+// the search's mesh.
+TEST_F(Run, CountsTheStartAsTheSearchDoes) {
+  const RunEngineFactory refused = [](const Study& study) {
+    RunEngine engine{.evaluate = bowl, .describe = {}};
+    engine.finer = [](std::span<const double> x, int) {
+      optimizer::Evaluation there = bowl(x);
+      there.responses["contact_pressure_mean_pa"] *= 3.3;
+      return there;
+    };
+    engine.describe = [keys = study.problem.space.keys()](const optimizer::Scene& scene) {
+      std::vector<double> x;
+      for (const std::string& key : keys) x.push_back(optimizer::parameter(scene, key));
+      return DescribedDesign{.evaluation = bowl(x), .record = {}};
+    };
+    return engine;
+  };
+  EXPECT_EQ(run(false, refused), kNotConverged);
+  EXPECT_THAT(out_.str(), HasSubstr("; 0 feasible, 40 break"));
+  EXPECT_THAT(err_.str(),
+              testing::ContainsRegex("none keeps the upper limit .* \\(candidate 1 comes nearest and misses"));
+  const report::RunRecord record = report::read_results(results() / "results.h5");
+  for (const report::EvaluationRecord& evaluation : record.evaluations) EXPECT_FALSE(evaluation.feasible);
 }
 
 // An answer that the closer look does not confirm is told, and the exit status says so.
