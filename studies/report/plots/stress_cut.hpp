@@ -15,8 +15,8 @@ namespace dovetail::report {
 /// says how fine the mesh is.
 struct StressCut {
   struct Corner {
-    Eigen::Vector2d at;  ///< m, of a skewed slot where it would be in the middle section
-    double value;        ///< Pa
+    Eigen::Vector2d at{0, 0};  ///< m, of a skewed slot where it would be in the middle section
+    double value = 0;          ///< Pa
   };
   std::vector<std::array<Corner, 3>> triangles;  ///< those in the window; in space a quarter of a face of an element
   std::optional<double> height;                  ///< m, along the axis from the slot's middle; in the plane none

@@ -20,7 +20,7 @@ from coarse_runs import JOURNALS, records
 
 program = str(pathlib.Path(sys.argv[1]).resolve())
 first = int(sys.argv[2]) if len(sys.argv) > 2 else 1
-count = int(sys.argv[3]) if len(sys.argv) > 3 else 12
+count = int(sys.argv[3]) if len(sys.argv) > 3 else 8
 keep = pathlib.Path(sys.argv[4]) if len(sys.argv) > 4 else None
 
 # What may stand in a message only where something went wrong inside.
@@ -200,7 +200,7 @@ def over(rule, cases, values):
 def as_term(aim, response, value):
     if aim == "max":
         return -value
-    if isinstance(aim, float):
+    if isinstance(aim, (int, float)):
         return abs(value - aim)
     return abs(value) if aim == "zero" or (aim is None and response.endswith("drift")) else value
 
@@ -265,7 +265,7 @@ def check_best(study, lines, best, answer):
             # a peak of pressure is then of other nodes, as near as its bar says, where it has one.
             moved = response == "contact_pressure_max_pa" and "resonance_hz" not in mine[-1]
             bar = part.get("error_estimates", {}).get(response, float("inf")) if moved else 0
-            assert abs(float(text) - value) <= max(bar, 1e-7 * abs(value)), (column, text, value, bar)
+            assert abs(float(text) - value) <= max(bar, 1e-6 * abs(value)), (column, text, value, bar)
             compared += 1
     assert compared >= 3, (compared, mine[-1])
 
@@ -329,7 +329,11 @@ def try_study(number, scenes, folder):
         for name, records in once.items():
             assert again[name] == records, ("killed and resumed", name)
     study.ask("evaluate", "study.toml", "--no-bars", "--unworn", allowed=(0, 3))
-    return "done" if ran.returncode == 0 else "ended with exit status 3"
+    if ran.returncode == 0:
+        return "done"
+    why = ran.stderr.strip().splitlines()[-1]
+    kinds = ("no feasible design", "could be computed", "verification", "looked at with bars")
+    return "exit status 3: " + next((kind for kind in kinds if kind in why), why)
 
 
 with tempfile.TemporaryDirectory() as root:
