@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <ostream>
 
 #include "core/replace_file.hpp"
@@ -78,17 +79,18 @@ class Exported {
   /// With fields and contact; what a run keeps of its best design is not computed again where it has what is wanted: a
   /// run that asks for no wear keeps none.
   [[nodiscard]] report::DesignRecord design(bool history, bool worn) const {
+    std::optional<report::RunRecord> of_best;
+    if (of_run_ && !options_.candidate && options_.set.empty()) {
+      teller_.begin("reading the results");
+      of_best = results_of(options_.input);
+    }
     const Study study = this->study();
     if (const std::vector<optimizer::LoadCase>& cases = study.problem.cases; cases.size() > 1)
       teller_.remark() << "dovetail: " << options_.input << ": of case " << cases.front().name
                        << ", the first, alone; what all cases wear off together is not drawn\n";
-    if (of_run_ && !options_.candidate && options_.set.empty()) {
-      teller_.begin("reading the results");
-      const report::RunRecord record = results_of(options_.input);
-      if (record.best_design && record.best_design->fields.mesh.element_count() > 0 &&
-          (!history || record.best_design->history) && (!worn || has_worn_flanks(*record.best_design)))
-        return *record.best_design;
-    }
+    if (of_best && of_best->best_design && of_best->best_design->fields.mesh.element_count() > 0 &&
+        (!history || of_best->best_design->history) && (!worn || has_worn_flanks(*of_best->best_design)))
+      return *of_best->best_design;
     teller_.begin(history ? "computing the design and its wear history" : "computing the design",
                   teller_.shows() && !history ? expected_cost(study).seconds : 0);
     report::DesignRecord design = describe_fields(study, history);

@@ -230,6 +230,19 @@ class Exports(unittest.TestCase):
         for file in ("best.step", "best.iges", "best.stl"):
             self.assertGreater(os.path.getsize(self.path("o/" + file)), 10000)
 
+    def test_a_run_that_asked_for_no_wear_wears_where_it_is_exported(self):
+        text = re.sub(r'"asymptotic_wear_volume_m3"', '"peak_amplitude_m"', self.text("s.toml"))
+        text = re.sub(r"(?m)^max_evaluations = .*$", "max_evaluations = 1", text)
+        with open(self.path("amplitude.toml"), "w") as stream:
+            stream.write(text + '[[case]]\nname = "a"\n[[case]]\nname = "b"\n"loading.tip_force_n" = 3\n')
+        done = self.run_program("run", "amplitude.toml", "-o", "amplitude")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for file, option in (("worn.step", ["--worn"]), ("wear.pvd", [])):
+            done = self.run_program("export", "amplitude", "--format", file[-4:].strip("."), "-o", file, *option)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("of case a, the first, alone", done.stderr)
+        self.assertTrue(bspline_points(step_text(self.path("worn.step"))))
+
     def test_wrong_input_is_one_sentence(self):
         for said, *arguments in (
                 ("must be 1 to 3: the run has no more", "o", "--format", "step", "--candidate", 4),

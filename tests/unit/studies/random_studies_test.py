@@ -31,7 +31,8 @@ VARIABLES = {"geometry.flank_mismatch_um": (-5, 25), "geometry.flank_crown_um": 
              "geometry.relief_length_mm": (0, 0.8), "geometry.relief_depth_um": (0, 8), "geometry.left.flank_mismatch_um": (-5, 25),
              "geometry.flank_edge_radius_mm": (0, 2), "geometry.aerofoil_span_mm": (95, 105), "contact.friction": (0.3, 0.7)}
 CASE_KEYS = {"scene.speed_rpm": (7000, 13000), "loading.tip_force_n": (0.2, 6), "contact.friction": (0.1, 0.9),
-             "loading.damping_ratio": (5e-4, 5e-3), "contact.wear_coefficient_per_pa": (0, 3e-13),              "scene.mode": (1, 2), "geometry.flank_mismatch_um": (-5, 20), "geometry.platform_thickness_mm": (2.5, 4)}
+             "loading.damping_ratio": (5e-4, 5e-3), "contact.wear_coefficient_per_pa": (0, 3e-13), "scene.mode": (1, 2),
+             "geometry.flank_mismatch_um": (-5, 20), "geometry.platform_thickness_mm": (2.5, 4)}
 WHOLE = ("scene.mode",)
 # Responses with a number near the quickstart's, for limits and references.
 RESPONSES = {"asymptotic_wear_volume_m3": 4e-10, "asymptotic_wear_depth_max_m": 3e-6, "initial_wear_rate_m3_per_cycle": 1e-16,
