@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <httplib.h>
 
 #include <mutex>
 #include <ostream>
@@ -11,6 +10,8 @@
 #include "studies/program/engine/loaded_model.hpp"
 #include "studies/program/engine/run_folder.hpp"
 #include "studies/program/study_file/refusal.hpp"
+// Last: macros of <resolv.h>, which comes with it, are names in Eigen.
+#include <httplib.h>
 
 namespace dovetail::studies {
 namespace {
