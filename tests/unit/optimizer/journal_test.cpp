@@ -41,7 +41,7 @@ class JournalFile : public ScratchFile {
  protected:
   void write_three() {
     Journal journal = Journal::create(file, "study-1");
-    for (double i = 0; i < 3; ++i) journal.append(std::vector{i, 0.1 * i}, rich());
+    for (const double i : {0.0, 1.0, 2.0}) journal.append(std::vector{i, 0.1 * i}, rich());
   }
 };
 
@@ -194,7 +194,7 @@ TEST_F(JournalFile, MergesThoseOfOneStudy) {
   const std::filesystem::path other = file.string() + ".other", merged = file.string() + ".merged";
   {
     Journal journal = Journal::create(other, "study-1");
-    for (double i = 2; i < 5; ++i) journal.append(std::vector{i, 0.1 * i}, Evaluation{});
+    for (const double i : {2.0, 3.0, 4.0}) journal.append(std::vector{i, 0.1 * i}, Evaluation{});
   }
   EXPECT_EQ(merge_journals(std::vector{file, other}, merged), 5U);
   const JournalContents contents = read_journal(merged);
