@@ -72,8 +72,7 @@ class Journal {
 };
 
 /// Writes a journal with the records of several of one study, each point once, the first to have it first, and none
-/// that was lost with its process. InputError
-/// when they are of different studies, or as for read_journal.
+/// that was lost with its process. InputError when they are of different studies, or as for read_journal.
 /// @return how many records it has
 std::size_t merge_journals(std::span<const std::filesystem::path> from, const std::filesystem::path& to);
 

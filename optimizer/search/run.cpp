@@ -105,12 +105,11 @@ std::string describe(Status status, const std::string& message) {
   return message;
 }
 
-/// Why designs that keep the limits of the search's mesh were refused; empty where none was.
+/// Why designs that keep the limits of the search's mesh were refused, by a look or by what looks change in limits.
 std::string refused_words(const FinerLimits& finer) {
   const auto unknown = std::ranges::count_if(
       finer.checks(), [](const FinerCheck& check) { return !check.held && !check.evaluation.converged(); });
   const auto refused = std::ranges::count_if(finer.checks(), [](const FinerCheck& check) { return !check.held; });
-  if (refused == 0) return {};
   if (unknown == 0) return "limits kept on the search's mesh break on finer ones";
   return unknown == refused ? "of limits kept on the search's mesh finer ones have no answer"
                             : "limits kept on the search's mesh break on finer ones, or have no answer there";
@@ -198,7 +197,8 @@ SearchOutcome front_search(EvaluationSession& session, FinerLimits& finer) {
   bool held = !finer.active();
   for (int look = 0; !held && session.best() && look < CorrectionParams{}.looks; ++look)
     held = finer.holds(front_in(session).compromise);
-  if (const std::string words = refused_words(finer); !held && !words.empty())
+  const bool refused = std::ranges::any_of(finer.checks(), [](const FinerCheck& check) { return !check.held; });
+  if (const std::string words = refused_words(finer); !held && refused)
     outcome.message = describe(outcome.status, outcome.message) + "; " +
                       (session.best() ? "of points that looked like a compromise " + words +
                                             ", and the one there is now was not looked at"
