@@ -43,6 +43,7 @@ std::string Range::phrase() const {
 }
 
 std::string shortest(double value) {
+  if (std::isnan(value)) return "nan";  // of either sign
   char buffer[32];
   const auto [end, error] = std::to_chars(std::begin(buffer), std::end(buffer), value);
   return error == std::errc{} ? std::string(std::begin(buffer), end) : std::to_string(value);

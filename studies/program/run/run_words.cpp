@@ -10,6 +10,7 @@
 #include "studies/program/run/run_front.hpp"
 #include "studies/program/run/search_progress.hpp"
 #include "studies/report/words/report_words.hpp"
+#include "studies/report/words/unmet_words.hpp"
 
 namespace dovetail::studies {
 
@@ -70,8 +71,10 @@ std::string conclusion(const Study& study, const OptimizationResult& result, con
   std::string text = fmt::format(
       "{}: {}, {} of them stored before; {} feasible, {} break a limit or a rule{}, {} failed; {}\n", study.name,
       report::counted(result.evaluations.size(), "evaluation"), counts.replayed, feasible, all - feasible - failed,
-      unknown == 0 ? "" : fmt::format(" or have no answer on a finer mesh ({} looks)", unknown), failed,
-      result.message.empty() ? std::string(to_string(result.status)) : result.message);
+      unknown == 0 ? ""
+                   : fmt::format(" or have no answer on a finer mesh ({})",
+                                 report::counted(static_cast<std::size_t>(unknown), "look")),
+      failed, result.message.empty() ? std::string(to_string(result.status)) : result.message);
   if (counts.unused_records > 0)
     text += fmt::format("{} stored evaluations were not asked for again: this search took another way\n",
                         counts.unused_records);

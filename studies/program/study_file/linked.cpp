@@ -3,7 +3,6 @@
 #include <muParser.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "studies/program/study_file/scene_keys.hpp"
@@ -73,8 +72,7 @@ std::map<std::string, double> with_linked(std::map<std::string, double> settings
   for (const auto& [key, value] : linked) {
     double& number = settings[key] = std::numeric_limits<double>::quiet_NaN();
     try {
-      const double found = formula_value(value, variables) + 0.0;  // no -0.0: one design has one bit pattern
-      if (!std::isnan(found)) number = found;
+      number = formula_value(value, variables) + 0.0;  // no -0.0: one design has one bit pattern
     } catch (const mu::Parser::exception_type&) {
       // A value that does not exist is none of the key's range, and the design is refused.
     }

@@ -10,6 +10,7 @@
 #include "studies/report/record/influence.hpp"
 #include "studies/report/words/report_words.hpp"
 #include "studies/report/words/units.hpp"
+#include "studies/report/words/unmet_words.hpp"
 
 namespace dovetail::report {
 

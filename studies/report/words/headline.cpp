@@ -9,6 +9,7 @@
 
 #include "studies/report/words/report_words.hpp"
 #include "studies/report/words/units.hpp"
+#include "studies/report/words/unmet_words.hpp"
 
 namespace dovetail::report {
 

@@ -61,12 +61,6 @@ struct ObjectiveScale {
 };
 [[nodiscard]] ObjectiveScale objective_scale(const RunRecord& record);
 
-/// Where nothing could be computed how most candidates ended: "asymptote: no_asymptote in 6 of 6"; else nothing.
-[[nodiscard]] std::string why_none(const RunRecord& record);
-
-/// The limits and rules that no candidate keeps, each with how near the nearest one comes.
-[[nodiscard]] std::vector<std::string> never_kept(const RunRecord& record);
-
 /// What holds the best design: active limits, geometric rules and bounds by name. A limit or rule counts as active
 /// within 0.5 % of its scale, a bound within 0.5 % of the variable's range.
 [[nodiscard]] std::vector<std::string> holding(const RunRecord& record);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
@@ -115,6 +116,8 @@ TEST(Options, NearestFindsTheMisspeltKey) {
 
 TEST(Options, ShortestTextReadsBackExactly) {
   for (const double value : {0.1, 1.0 / 3.0, 1e-300, -2.5e17}) EXPECT_EQ(std::stod(shortest(value)), value);
+  const double nan = std::nan("");
+  for (const double none : {nan, std::copysign(nan, -1)}) EXPECT_EQ(shortest(none), "nan");
 }
 
 }  // namespace

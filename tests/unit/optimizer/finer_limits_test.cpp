@@ -89,6 +89,30 @@ TEST(FinerLimitsOf, ARunThatNeverMetItsLimitsDoesNotBlameFinerMeshes) {
   EXPECT_FALSE(result.message.starts_with(";")) << result.message;
 }
 
+// The start keeps on a finer mesh what it breaks on the search's; what that look adds to the other limit refuses all
+// who keep both.
+TEST(FinerLimitsOf, ARunRefusedByCorrectionsAloneSaysSo) {
+  const auto tilted = [](std::span<const double> x) {
+    Evaluation e = bowl(x);
+    e.responses["tilt"] = 8 - x[1];
+    return e;
+  };
+  Problem problem = bowl_problem();
+  problem.constraints.push_back({.response = "tilt", .lower = {}, .upper = 3});
+  const RunHooks hooks{.finer = [&](std::span<const double> x, int) {
+    Evaluation e = tilted(x);
+    e.responses["height"] -= 3;
+    e.responses["tilt"] += 2;
+    return e;
+  }};
+  const OptimizationResult result = run_optimization(problem, tilted, options(), hooks);
+  EXPECT_FALSE(result.best);
+  ASSERT_EQ(result.finer.size(), 1U);
+  EXPECT_TRUE(result.finer.front().held);
+  EXPECT_NE(result.message.find("limits kept on the search's mesh break on finer ones"), std::string::npos)
+      << result.message;
+}
+
 // What is kept for a look at finer meshes is no use without a design to look at.
 TEST(FinerLimitsOf, ARunThatNeverMeetsItsLimitsSpendsItsWholeBudget) {
   Problem problem = low_bowl();

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <regex>
 #include <stdexcept>
@@ -15,6 +16,7 @@
 #include "studies/report/words/html.hpp"
 #include "studies/report/words/report_words.hpp"
 #include "studies/report/words/table.hpp"
+#include "studies/report/words/unmet_words.hpp"
 #include "tests/unit/studies/report_markup.hpp"
 #include "tests/unit/studies/report_sample.hpp"
 
@@ -202,6 +204,30 @@ TEST(Report, SaysThatNoFeasibleDesignWasFound) {
   EXPECT_THAT(page, HasSubstr("No feasible design was found"));
   EXPECT_THAT(page, HasSubstr("The nearest is candidate 2."));
   EXPECT_FALSE(has_nan(without_scripts(page)));
+}
+
+TEST(Answers, NameWhatIsKeptOnTheMeshOfTheSearchAlone) {
+  RunRecord record = sample_record();
+  record.best.reset();
+  for (EvaluationRecord& e : record.evaluations)
+    if (e.status == "converged") {
+      e.constraints = {-0.02};
+      e.feasible = true;
+    }
+  record.finer = {{.evaluation = 1, .flank_elements = 32, .status = "converged", .constraints = {0.03}}};
+  EXPECT_THAT(never_kept(record),
+              testing::ElementsAre("the upper limit of the peak amplitude (8\u00a0mm) with 32 edges "
+                                   "along each flank (candidate 2 comes nearest and misses it by "
+                                   "3\u00a0%)"));
+  // A look that held refuses the others by what it adds.
+  record.evaluations[1].constraints = {-0.10};
+  record.evaluations[1].feasible = false;
+  record.finer.front().constraints = {-0.04};
+  EXPECT_THAT(never_kept(record), testing::ElementsAre(HasSubstr("with what a finer mesh adds to it (candidate 1 comes "
+                                                                 "nearest and misses it by 4\u00a0%)")));
+  record.finer.front().status = "steady_state: iteration_limit";
+  record.finer.front().constraints = {std::nan("")};
+  EXPECT_THAT(never_kept(record), testing::ElementsAre(HasSubstr("where candidate 2 has no answer")));
 }
 
 TEST(Report, SurvivesWhateverIsMissing) {
