@@ -160,10 +160,9 @@ FullMatrices Assembler::stiffness_and_mass(const Mesh& mesh, std::span<const Mat
   FullMatrices full{mesh.dimensions(), pattern_.cast<double>(), {}};
   Eigen::SparseMatrix<double> on_pattern = full.stiffness;  // the mass
   with_element(mesh.kind, [&]<class Element>(Element) {
-    std::vector<Elasticity<Element>> elasticities;
+    std::vector<Lame> elasticities;
     for (const Region& region : mesh.regions)
-      elasticities.push_back(
-          elasticity<Element>(materials[static_cast<std::size_t>(region.body)], region.plane_stress));
+      elasticities.push_back(lame<Element>(materials[static_cast<std::size_t>(region.body)], region.plane_stress));
     ElementMatrix<Element> stiffness;
     ScalarMatrix<Element> mass;
     for (int e = 0; e < elements_; ++e) {

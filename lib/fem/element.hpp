@@ -94,7 +94,16 @@ template <class Element, class Components>
   return sigma;
 }
 
-/// sigma = D eps, Pa. `plane_stress` counts in the plane only.
+/// sigma = lambda tr(eps) I + 2 mu eps, Pa.
+struct Lame {
+  double lambda = 0, mu = 0;
+};
+
+/// `plane_stress` counts in the plane only.
+template <class Element>
+[[nodiscard]] Lame lame(const Material& material, bool plane_stress = false);
+
+/// The same as sigma = D eps.
 template <class Element>
 [[nodiscard]] Elasticity<Element> elasticity(const Material& material, bool plane_stress = false);
 
@@ -102,8 +111,8 @@ template <class Element>
 /// space). Returns the smallest Jacobian determinant over the quadrature points; when it is not positive the element is
 /// inverted and the matrices are meaningless.
 template <class Element>
-double stiffness_and_mass(const ElementNodes<Element>& nodes, const Elasticity<Element>& elasticity, double density,
-                          double thickness, ElementMatrix<Element>& stiffness, ScalarMatrix<Element>& mass);
+double stiffness_and_mass(const ElementNodes<Element>& nodes, const Lame& lame, double density, double thickness,
+                          ElementMatrix<Element>& stiffness, ScalarMatrix<Element>& mass);
 
 /// K_g = integral of grad N_a . sigma . grad N_b for one component (N/m), the same for all of them.
 /// `stress` at the quadrature points, Pa.

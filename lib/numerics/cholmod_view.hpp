@@ -16,9 +16,10 @@ namespace dovetail::numerics {
 template <class Scalar>
 constexpr int kXtype = std::is_same_v<Scalar, double> ? CHOLMOD_REAL : CHOLMOD_COMPLEX;
 
-/// The lower triangle of a compressed symmetric (Hermitian) matrix as CHOLMOD sees it, without a copy.
+/// The upper triangle of a compressed symmetric (Hermitian) matrix as CHOLMOD sees it, without a copy. Of this one it
+/// makes the permuted matrix at once, of the lower one by two transpositions.
 template <class Scalar>
-cholmod_sparse lower_view(const Eigen::SparseMatrix<Scalar>& a) {
+cholmod_sparse upper_view(const Eigen::SparseMatrix<Scalar>& a) {
   cholmod_sparse view{};
   view.nrow = static_cast<std::size_t>(a.rows());
   view.ncol = static_cast<std::size_t>(a.cols());
@@ -27,7 +28,7 @@ cholmod_sparse lower_view(const Eigen::SparseMatrix<Scalar>& a) {
   view.p = const_cast<int*>(a.outerIndexPtr());
   view.i = const_cast<int*>(a.innerIndexPtr());
   view.x = const_cast<Scalar*>(a.valuePtr());
-  view.stype = -1;
+  view.stype = 1;
   view.itype = CHOLMOD_INT;
   view.xtype = kXtype<Scalar>;
   view.dtype = CHOLMOD_DOUBLE;

@@ -64,7 +64,7 @@ struct PartialCholesky::Factor {
   Factor(const Factor&) = delete;
   Factor& operator=(const Factor&) = delete;
 
-  Status factorise(Sparse& lower, double& shift);
+  Status factorise(Sparse& upper, double& shift);
 
   [[nodiscard]] int supernodes() const { return static_cast<int>(factor->nsuper); }
   /// The part of a supernode that lies in the interior, or the whole of it.
@@ -88,14 +88,14 @@ struct PartialCholesky::Factor {
 
 // The whole of A has no Cholesky factor, so its border gets a shift that makes S + shift I positive definite. It is
 // large beside the negative part that S has in a body that floats, and no larger than the rest of S.
-Status PartialCholesky::Factor::factorise(Sparse& lower, double& shift) {
+Status PartialCholesky::Factor::factorise(Sparse& upper, double& shift) {
   constexpr BorderParams kParams = {};
-  const Eigen::Index border = lower.rows() - interior;
+  const Eigen::Index border = upper.rows() - interior;
   for (int attempt = 0; attempt < kParams.attempts; ++attempt) {
     const double added = attempt == 0 ? shift : (kParams.growth - 1) * shift;
-    for (Eigen::Index k = interior; k < lower.rows(); ++k) lower.coeffRef(k, k) += added;
+    for (Eigen::Index k = interior; k < upper.rows(); ++k) upper.coeffRef(k, k) += added;
     if (attempt > 0) shift *= kParams.growth;
-    cholmod_sparse view = lower_view(lower);
+    cholmod_sparse view = upper_view(upper);
     factorise_alone(view, factor, common);
     if (common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
     if (common.status == CHOLMOD_OK && factor->minor >= factor->n) return Status::converged;
@@ -189,17 +189,17 @@ void PartialCholesky::Factor::substitute(Eigen::MatrixXd& x) const {
 namespace {
 
 /// The order that is best for the interior, with the border last and as it is.
-std::vector<int> border_last(const Sparse& lower, Eigen::Index border) {
-  std::vector<int> order(static_cast<std::size_t>(lower.rows()));
+std::vector<int> border_last(const Sparse& upper, Eigen::Index border) {
+  std::vector<int> order(static_cast<std::size_t>(upper.rows()));
   std::iota(order.begin(), order.end(), 0);
-  const Eigen::Index interior = lower.rows() - border;
+  const Eigen::Index interior = upper.rows() - border;
   if (interior == 0) return order;
-  Sparse inner = lower.topLeftCorner(interior, interior);
+  Sparse inner = upper.topLeftCorner(interior, interior);
   inner.makeCompressed();
   cholmod_common common{};
   start_cholmod(common);
   common.supernodal = CHOLMOD_SIMPLICIAL;  // only its order is needed
-  cholmod_sparse view = lower_view(inner);
+  cholmod_sparse view = upper_view(inner);
   cholmod_factor* found = cholmod_analyze(&view, &common);
   const bool enough_memory = found != nullptr;
   if (enough_memory) std::copy_n(static_cast<const int*>(found->Perm), interior, order.begin());
@@ -211,19 +211,19 @@ std::vector<int> border_last(const Sparse& lower, Eigen::Index border) {
 
 }  // namespace
 
-std::shared_ptr<const EliminationOrder::Analysis> EliminationOrder::of(const Sparse& lower, Eigen::Index border) {
-  const std::span<const int> outer(lower.outerIndexPtr(), static_cast<std::size_t>(lower.cols() + 1));
-  const std::span<const int> inner(lower.innerIndexPtr(), static_cast<std::size_t>(lower.nonZeros()));
+std::shared_ptr<const EliminationOrder::Analysis> EliminationOrder::of(const Sparse& upper, Eigen::Index border) {
+  const std::span<const int> outer(upper.outerIndexPtr(), static_cast<std::size_t>(upper.cols() + 1));
+  const std::span<const int> inner(upper.innerIndexPtr(), static_cast<std::size_t>(upper.nonZeros()));
   const std::lock_guard lock(mutex_);
   if (analysis_ && border == border_ && std::ranges::equal(outer, outer_) && std::ranges::equal(inner, inner_))
     return analysis_;
-  std::vector<int> order = border_last(lower, border);
+  std::vector<int> order = border_last(upper, border);
   const auto found = std::make_shared<Analysis>();
   cholmod_common& common = found->common;
   common.nmethods = 1;
   common.method[0].ordering = CHOLMOD_GIVEN;
   common.postorder = 0;  // it would mix the border with the interior
-  cholmod_sparse view = lower_view(lower);
+  cholmod_sparse view = upper_view(upper);
   found->factor = cholmod_analyze_p(&view, order.data(), nullptr, 0, &common);
   if (found->factor == nullptr) throw std::bad_alloc();
   assert(std::ranges::equal(order, std::span(static_cast<const int*>(found->factor->Perm), order.size())));
@@ -237,14 +237,14 @@ std::shared_ptr<const EliminationOrder::Analysis> EliminationOrder::of(const Spa
 namespace {
 
 /// Entries of the border's diagonal must be there for the shift.
-void hold_diagonal(Sparse& lower, Eigen::Index border) {
-  const Eigen::Index first = lower.rows() - border;
-  Sparse diagonal(lower.rows(), lower.cols());
-  for (Eigen::Index k = first; k < lower.rows(); ++k) {
-    const Sparse::InnerIterator top(lower, k);
-    if (!top || top.row() != k) diagonal.insert(k, k) = 0;
+void hold_diagonal(Sparse& upper, Eigen::Index border) {
+  const Eigen::Index first = upper.rows() - border;
+  Sparse diagonal(upper.rows(), upper.cols());
+  for (Eigen::Index k = first; k < upper.rows(); ++k) {
+    const Sparse::ReverseInnerIterator last(upper, k);
+    if (!last || last.row() != k) diagonal.insert(k, k) = 0;
   }
-  if (diagonal.nonZeros() > 0) lower += diagonal;
+  if (diagonal.nonZeros() > 0) upper += diagonal;
 }
 
 }  // namespace
@@ -263,19 +263,19 @@ Status PartialCholesky::factorise(const Sparse& a, Eigen::Index border, Eliminat
   end_if_interrupted();
   const Eigen::Index interior = a.rows() - border;
   factor_.reset();
-  Sparse lower = a.triangularView<Eigen::Lower>();
-  hold_diagonal(lower, border);
-  const Eigen::Map<const Eigen::VectorXd> values(lower.valuePtr(), lower.nonZeros());
+  Sparse upper = a.triangularView<Eigen::Upper>();
+  hold_diagonal(upper, border);
+  const Eigen::Map<const Eigen::VectorXd> values(upper.valuePtr(), upper.nonZeros());
   // BLAS kernels let a NaN through as a pivot, so look at the input.
   if (!std::isfinite(values.cwiseAbs().sum())) return Status::not_finite;
-  const double size = border > 0 ? lower.diagonal().tail(border).cwiseAbs().mean() : 0;
+  const double size = border > 0 ? upper.diagonal().tail(border).cwiseAbs().mean() : 0;
   double shift = size > 0 ? size : 1;
 
   EliminationOrder own;
-  auto factor = std::make_unique<Factor>((order ? *order : own).of(lower, border)->factor, interior);
-  const Status status = factor->factorise(lower, shift);
+  auto factor = std::make_unique<Factor>((order ? *order : own).of(upper, border)->factor, interior);
+  const Status status = factor->factorise(upper, shift);
   if (status != Status::converged) return status;
-  Sparse().swap(lower);
+  Sparse().swap(upper);
   // L L^T by LAPACK, which has U U^T: U is L in reverse order. In place: the border may be as large as the rest.
   schur_ = factor->reversed_border();
   factor->forget_border();

@@ -15,9 +15,9 @@ namespace dovetail::numerics {
 class EliminationOrder {
  public:
   struct Analysis;
-  /// Of a matrix, of which only the lower triangle is there, in the order that is best for all but its last `border`
+  /// Of a matrix, of which only the upper triangle is there, in the order that is best for all but its last `border`
   /// rows: the one kept if it is of this pattern, else a new one, which is kept.
-  [[nodiscard]] std::shared_ptr<const Analysis> of(const Eigen::SparseMatrix<double>& lower, Eigen::Index border);
+  [[nodiscard]] std::shared_ptr<const Analysis> of(const Eigen::SparseMatrix<double>& upper, Eigen::Index border);
 
  private:
   std::mutex mutex_;
@@ -41,7 +41,7 @@ class PartialCholesky {
   PartialCholesky(PartialCholesky&&) noexcept;
   PartialCholesky& operator=(PartialCholesky&&) noexcept;
 
-  /// Only the lower triangle of `a` is read. `singular`: A_ii is not positive definite; `not_finite`.
+  /// Only the upper triangle of `a` is read. `singular`: A_ii is not positive definite; `not_finite`.
   /// Cost: one supernodal factorisation of A (CHOLMOD) in the order that is best for A_ii, with the border last.
   /// - `order`: to take it from where the pattern is the same; null: it is found anew
   [[nodiscard]] Status factorise(const Eigen::SparseMatrix<double>& a, Eigen::Index border,

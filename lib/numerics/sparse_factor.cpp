@@ -72,7 +72,7 @@ void SparseCholesky<Scalar>::analyse(const Matrix& a) {
   State& s = *state_;
   cholmod_free_factor(&s.factor, &s.common);
   s.factorised = false;
-  cholmod_sparse view = lower_view(a);
+  cholmod_sparse view = upper_view(a);
   s.factor = cholmod_analyze(&view, &s.common);
   if (s.factor == nullptr) throw std::bad_alloc();
   s.entries = a.nonZeros();
@@ -85,7 +85,7 @@ void SparseCholesky<Scalar>::analyse(const Matrix& a, const SparseCholesky& orde
   State& s = *state_;
   cholmod_free_factor(&s.factor, &s.common);
   s.factorised = false;
-  cholmod_sparse view = lower_view(a);
+  cholmod_sparse view = upper_view(a);
   const auto methods = s.common.nmethods;
   const auto first = s.common.method[0].ordering;
   s.common.nmethods = 1;
@@ -106,7 +106,7 @@ Status SparseCholesky<Scalar>::factorise(const Matrix& a) {
   const Eigen::Map<const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>> values(a.valuePtr(), a.nonZeros());
   // BLAS kernels let a NaN through as a pivot, so look at the input.
   if (!std::isfinite(values.cwiseAbs().sum())) return Status::not_finite;
-  cholmod_sparse view = lower_view(a);
+  cholmod_sparse view = upper_view(a);
   factorise_alone(view, s.factor, s.common);
   if (s.common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
   if (s.common.status != CHOLMOD_OK || s.factor->minor < s.factor->n) return Status::singular;

@@ -13,7 +13,7 @@ namespace dovetail::numerics {
 /// matrix, by CHOLMOD. The symbolic analysis (fill-reducing order, supernodes) depends on the pattern
 /// only and is kept: for the next matrix with the same pattern call `factorise` alone.
 ///
-/// Scalar is double or std::complex<double>; only the lower triangle of the matrices is read. The
+/// Scalar is double or std::complex<double>; of the matrices only the upper triangle is read. The
 /// work is done by BLAS, whose number of threads is the process's business (OPENBLAS_NUM_THREADS=1).
 ///
 ///   SparseCholesky<double> cholesky;

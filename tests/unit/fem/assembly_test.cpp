@@ -30,7 +30,7 @@ TEST(Assembler, SumsTheElementMatrices) {
   ElementMatrix<Triangle6> ke;
   ScalarMatrix<Triangle6> me;
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
-    stiffness_and_mass<Triangle6>(element_nodes<Triangle6>(grid.mesh, e), elasticity<Triangle6>(kTitanium[0]),
+    stiffness_and_mass<Triangle6>(element_nodes<Triangle6>(grid.mesh, e), lame<Triangle6>(kTitanium[0]),
                                   kTitanium[0].density, 1.0, ke, me);
     for (int i = 0; i < 12; ++i)
       for (int j = 0; j < 12; ++j) {

@@ -58,7 +58,7 @@ class CurvedElement : public ::testing::Test {
   CurvedElement() {
     nodes << 0.1, 1.2, 0.3, 0.62, 0.83, 0.17,  //
         0.0, 0.1, 0.9, -0.07, 0.58, 0.47;
-    smallest = stiffness_and_mass<Triangle6>(nodes, elasticity<Triangle6>({}), 4430, 0.04, stiffness, mass);
+    smallest = stiffness_and_mass<Triangle6>(nodes, lame<Triangle6>({}), 4430, 0.04, stiffness, mass);
   }
   ElementNodes<Triangle6> nodes;
   ElementMatrix<Triangle6> stiffness;
@@ -83,6 +83,17 @@ TEST_F(CurvedElement, HasThreeRigidModesAndNoOthers) {
   const Eigen::VectorXd values = numerics::all_values<double>(stiffness).values;
   EXPECT_LT(values.head(3).cwiseAbs().maxCoeff(), 1e-13 * values[11]);
   EXPECT_GT(values[3], 1e-4 * values[11]);
+}
+
+TEST_F(CurvedElement, IsTheWorkOfStressesOnStrains) {
+  ElementMatrix<Triangle6> work = ElementMatrix<Triangle6>::Zero();
+  Eigen::Matrix<double, Triangle6::kStresses, kElementDofs<Triangle6>> strain = decltype(strain)::Zero();
+  for (const auto& point : Triangle6::quadrature()) {
+    const SpatialGradients<Triangle6> space = spatial_gradients<Triangle6>(nodes, point.local);
+    fill_strain<Triangle6>(space.gradients, strain);
+    work += 0.04 * point.weight * space.determinant * strain.transpose() * elasticity<Triangle6>({}) * strain;
+  }
+  EXPECT_LT((stiffness - work).cwiseAbs().maxCoeff(), 1e-14 * work.cwiseAbs().maxCoeff());
 }
 
 TEST_F(CurvedElement, IsSymmetricToTheLastBit) {
@@ -131,7 +142,7 @@ TEST(StiffnessAndMass, ReportsAnInvertedElement) {
   nodes << 0, 0, 1, 0, 0.5, 0.5, 0, 1, 0, 0.5, 0.5, 0;  // clockwise
   ElementMatrix<Triangle6> stiffness;
   ScalarMatrix<Triangle6> mass;
-  EXPECT_LT(stiffness_and_mass<Triangle6>(nodes, elasticity<Triangle6>({}), 1, 1, stiffness, mass), 0);
+  EXPECT_LT(stiffness_and_mass<Triangle6>(nodes, lame<Triangle6>({}), 1, 1, stiffness, mass), 0);
 }
 
 }  // namespace

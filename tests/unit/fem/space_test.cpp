@@ -61,7 +61,7 @@ class CurvedWedge : public ::testing::Test {
       return curved;
     }();
     nodes = element_nodes<Wedge18>(mesh, 0);
-    smallest = stiffness_and_mass<Wedge18>(nodes, elasticity<Wedge18>({}), 4430, 1, stiffness, mass);
+    smallest = stiffness_and_mass<Wedge18>(nodes, lame<Wedge18>({}), 4430, 1, stiffness, mass);
   }
   ElementNodes<Wedge18> nodes;
   ElementMatrix<Wedge18> stiffness;
@@ -82,6 +82,17 @@ TEST_F(CurvedWedge, HasSixRigidModesAndNoOthers) {
   const Eigen::VectorXd values = numerics::all_values<double>(stiffness).values;
   EXPECT_LT(values.head(6).cwiseAbs().maxCoeff(), 1e-13 * values[53]);
   EXPECT_GT(values[6], 1e-5 * values[53]);
+}
+
+TEST_F(CurvedWedge, IsTheWorkOfStressesOnStrains) {
+  ElementMatrix<Wedge18> work = ElementMatrix<Wedge18>::Zero();
+  Eigen::Matrix<double, Wedge18::kStresses, kElementDofs<Wedge18>> strain = decltype(strain)::Zero();
+  for (const auto& point : Wedge18::quadrature()) {
+    const SpatialGradients<Wedge18> space = spatial_gradients<Wedge18>(nodes, point.local);
+    fill_strain<Wedge18>(space.gradients, strain);
+    work += point.weight * space.determinant * strain.transpose() * elasticity<Wedge18>({}) * strain;
+  }
+  EXPECT_LT((stiffness - work).cwiseAbs().maxCoeff(), 1e-14 * work.cwiseAbs().maxCoeff());
 }
 
 TEST_F(CurvedWedge, IsSymmetricToTheLastBit) {
@@ -121,8 +132,8 @@ TEST(SpaceAssembler, SumsTheElementMatrices) {
   ElementMatrix<Wedge18> ke;
   ScalarMatrix<Wedge18> me;
   for (int e = 0; e < mesh.element_count(); ++e) {
-    stiffness_and_mass<Wedge18>(element_nodes<Wedge18>(mesh, e), elasticity<Wedge18>(kTitanium[0]),
-                                kTitanium[0].density, 1.0, ke, me);
+    stiffness_and_mass<Wedge18>(element_nodes<Wedge18>(mesh, e), lame<Wedge18>(kTitanium[0]), kTitanium[0].density, 1.0,
+                                ke, me);
     for (int i = 0; i < 54; ++i)
       for (int j = 0; j < 54; ++j) {
         const int row = 3 * mesh.element(e)[static_cast<std::size_t>(i / 3)] + i % 3;
