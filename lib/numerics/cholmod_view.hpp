@@ -46,6 +46,20 @@ inline void start_cholmod(cholmod_common& common) {
   common.error_handler = nullptr;
 }
 
+/// The factor of a pattern, without values.
+struct SymbolicFactor {
+  cholmod_common common{};
+  cholmod_factor* factor = nullptr;
+
+  SymbolicFactor() { start_cholmod(common); }
+  ~SymbolicFactor() {
+    cholmod_free_factor(&factor, &common);
+    cholmod_finish(&common);
+  }
+  SymbolicFactor(const SymbolicFactor&) = delete;
+  SymbolicFactor& operator=(const SymbolicFactor&) = delete;
+};
+
 /// cholmod_factorize in one thread. CHOLMOD asks OpenMP for four threads in every supernode, whatever the user allows;
 /// what they share is so little that waiting for each other nearly doubles the time of a factorisation, and candidates
 /// keep the other cores busy.

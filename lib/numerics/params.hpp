@@ -14,6 +14,13 @@ struct FactorParams {
   Eigen::Index columns = 64;
 };
 
+/// When an order by minimum degree is not taken at once.
+struct OrderParams {
+  /// Operations per entry of the factor from which nested dissection, which takes longer, is tried as well; as CHOLMOD
+  /// has it. Few entries serve many operations where separators are large: in space, and on fine meshes.
+  double dissect = 500;
+};
+
 /// The border of a partial factorisation, which is shifted until it is positive definite. A shift too small costs a
 /// factorisation, one too large leaves the Schur complement its ratio to the shift in rounding.
 struct BorderParams {

@@ -7,9 +7,6 @@
 #include <cassert>
 #include <cmath>
 #include <new>
-#include <numeric>
-#include <span>
-#include <vector>
 
 #include "core/interruption.hpp"
 #include "numerics/cholmod_view.hpp"
@@ -32,20 +29,6 @@ struct Panel {
 };
 
 }  // namespace
-
-/// A symbolic factor.
-struct EliminationOrder::Analysis {
-  cholmod_common common{};
-  cholmod_factor* factor = nullptr;
-
-  Analysis() { start_cholmod(common); }
-  ~Analysis() {
-    cholmod_free_factor(&factor, &common);
-    cholmod_finish(&common);
-  }
-  Analysis(const Analysis&) = delete;
-  Analysis& operator=(const Analysis&) = delete;
-};
 
 struct PartialCholesky::Factor {
   cholmod_common common{};
@@ -184,54 +167,6 @@ void PartialCholesky::Factor::substitute(Eigen::MatrixXd& x) const {
                   top, n);
     }
   }
-}
-
-namespace {
-
-/// The order that is best for the interior, with the border last and as it is.
-std::vector<int> border_last(const Sparse& upper, Eigen::Index border) {
-  std::vector<int> order(static_cast<std::size_t>(upper.rows()));
-  std::iota(order.begin(), order.end(), 0);
-  const Eigen::Index interior = upper.rows() - border;
-  if (interior == 0) return order;
-  Sparse inner = upper.topLeftCorner(interior, interior);
-  inner.makeCompressed();
-  cholmod_common common{};
-  start_cholmod(common);
-  common.supernodal = CHOLMOD_SIMPLICIAL;  // only its order is needed
-  cholmod_sparse view = upper_view(inner);
-  cholmod_factor* found = cholmod_analyze(&view, &common);
-  const bool enough_memory = found != nullptr;
-  if (enough_memory) std::copy_n(static_cast<const int*>(found->Perm), interior, order.begin());
-  cholmod_free_factor(&found, &common);
-  cholmod_finish(&common);
-  if (!enough_memory) throw std::bad_alloc();
-  return order;
-}
-
-}  // namespace
-
-std::shared_ptr<const EliminationOrder::Analysis> EliminationOrder::of(const Sparse& upper, Eigen::Index border) {
-  const std::span<const int> outer(upper.outerIndexPtr(), static_cast<std::size_t>(upper.cols() + 1));
-  const std::span<const int> inner(upper.innerIndexPtr(), static_cast<std::size_t>(upper.nonZeros()));
-  const std::lock_guard lock(mutex_);
-  if (analysis_ && border == border_ && std::ranges::equal(outer, outer_) && std::ranges::equal(inner, inner_))
-    return analysis_;
-  std::vector<int> order = border_last(upper, border);
-  const auto found = std::make_shared<Analysis>();
-  cholmod_common& common = found->common;
-  common.nmethods = 1;
-  common.method[0].ordering = CHOLMOD_GIVEN;
-  common.postorder = 0;  // it would mix the border with the interior
-  cholmod_sparse view = upper_view(upper);
-  found->factor = cholmod_analyze_p(&view, order.data(), nullptr, 0, &common);
-  if (found->factor == nullptr) throw std::bad_alloc();
-  assert(std::ranges::equal(order, std::span(static_cast<const int*>(found->factor->Perm), order.size())));
-  outer_.assign(outer.begin(), outer.end());
-  inner_.assign(inner.begin(), inner.end());
-  border_ = border;
-  analysis_ = found;
-  return found;
 }
 
 namespace {

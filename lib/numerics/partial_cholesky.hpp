@@ -3,28 +3,11 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <memory>
-#include <mutex>
-#include <vector>
 
 #include "core/status.hpp"
+#include "numerics/elimination_order.hpp"
 
 namespace dovetail::numerics {
-
-/// Keeps the order of elimination that was found last, and what it makes of the pattern, for matrices with the same
-/// pattern. May be used from several threads.
-class EliminationOrder {
- public:
-  struct Analysis;
-  /// Of a matrix, of which only the upper triangle is there, in the order that is best for all but its last `border`
-  /// rows: the one kept if it is of this pattern, else a new one, which is kept.
-  [[nodiscard]] std::shared_ptr<const Analysis> of(const Eigen::SparseMatrix<double>& upper, Eigen::Index border);
-
- private:
-  std::mutex mutex_;
-  std::vector<int> outer_, inner_;  // of the pattern
-  Eigen::Index border_ = 0;
-  std::shared_ptr<const Analysis> analysis_;
-};
 
 /// A symmetric sparse matrix with all but its last rows and columns, the border b, eliminated:
 ///   A = [[L, 0], [L_b, I]] [[I, 0], [0, S]] [[L, 0], [L_b, I]]^T,  A_ii = L L^T (in a fill-reducing order),
@@ -42,7 +25,7 @@ class PartialCholesky {
   PartialCholesky& operator=(PartialCholesky&&) noexcept;
 
   /// Only the upper triangle of `a` is read. `singular`: A_ii is not positive definite; `not_finite`.
-  /// Cost: one supernodal factorisation of A (CHOLMOD) in the order that is best for A_ii, with the border last.
+  /// Cost: one supernodal factorisation of A (CHOLMOD) in an order with the border last.
   /// - `order`: to take it from where the pattern is the same; null: it is found anew
   [[nodiscard]] Status factorise(const Eigen::SparseMatrix<double>& a, Eigen::Index border,
                                  EliminationOrder* order = nullptr);
