@@ -218,13 +218,13 @@ TEST(Answers, NameWhatIsKeptOnTheMeshOfTheSearchAlone) {
   EXPECT_THAT(never_kept(record),
               testing::ElementsAre("the upper limit of the peak amplitude (8\u00a0mm) with 32 edges "
                                    "along each flank (candidate 2 comes nearest and misses it by "
-                                   "3\u00a0%)"));
+                                   "3.0\u00a0%)"));
   // A look that held refuses the others by what it adds.
   record.evaluations[1].constraints = {-0.10};
   record.evaluations[1].feasible = false;
   record.finer.front().constraints = {-0.04};
   EXPECT_THAT(never_kept(record), testing::ElementsAre(HasSubstr("with what a finer mesh adds to it (candidate 1 comes "
-                                                                 "nearest and misses it by 4\u00a0%)")));
+                                                                 "nearest and misses it by 4.0\u00a0%)")));
   record.finer.front().status = "steady_state: iteration_limit";
   record.finer.front().constraints = {std::nan("")};
   EXPECT_THAT(never_kept(record), testing::ElementsAre(HasSubstr("where candidate 2 has no answer")));
