@@ -137,7 +137,7 @@ template <class S>
 /// The candidate closest to `word` in edit distance; empty when nothing is near enough to suggest.
 [[nodiscard]] std::string nearest(std::string_view word, std::span<const std::string> candidates);
 
-/// Shortest decimal text that reads back to the same double; "nan" where it is none.
+/// Shortest decimal text that reads back to the same double; "nan" for a NaN of either sign.
 [[nodiscard]] std::string shortest(double value);
 
 /// "must be one of soft, hard", "must be hard"

@@ -99,7 +99,7 @@ struct Lame {
   double lambda = 0, mu = 0;
 };
 
-/// `plane_stress` counts in the plane only.
+/// `plane_stress` counts in the plane only: lambda is then what makes this hold there.
 template <class Element>
 [[nodiscard]] Lame lame(const Material& material, bool plane_stress = false);
 

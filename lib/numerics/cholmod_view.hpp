@@ -60,6 +60,9 @@ struct SymbolicFactor {
   SymbolicFactor& operator=(const SymbolicFactor&) = delete;
 };
 
+/// cholmod_analyze, by one thread at a time and apart from signals, as METIS may be asked; null: not enough memory.
+[[nodiscard]] cholmod_factor* analyse_alone(cholmod_sparse& matrix, cholmod_common& common);
+
 /// cholmod_factorize in one thread. CHOLMOD asks OpenMP for four threads in every supernode, whatever the user allows;
 /// what they share is so little that waiting for each other nearly doubles the time of a factorisation, and candidates
 /// keep the other cores busy.

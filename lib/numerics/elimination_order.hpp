@@ -5,6 +5,8 @@
 #include <mutex>
 #include <vector>
 
+#include "numerics/params.hpp"
+
 namespace dovetail::numerics {
 
 struct SymbolicFactor;
@@ -14,11 +16,14 @@ struct SymbolicFactor;
 /// be used from several threads.
 class EliminationOrder {
  public:
-  /// Of a matrix, of which only the upper triangle is there, with its last `border` rows last and as they are: the
-  /// order kept if it is of this pattern, else a new one, which is kept.
+  explicit EliminationOrder(const OrderParams& params = {}) : params_(params) {}
+
+  /// Of a compressed matrix, of which only the upper triangle is there, with its last `border` rows last and as they
+  /// are: the order kept if it is of this pattern, else a new one, which is kept.
   [[nodiscard]] std::shared_ptr<const SymbolicFactor> of(const Eigen::SparseMatrix<double>& upper, Eigen::Index border);
 
  private:
+  OrderParams params_;
   std::mutex mutex_;
   std::vector<int> outer_, inner_;  // of the pattern
   Eigen::Index border_ = 0;

@@ -16,8 +16,8 @@ struct FactorParams {
 
 /// When an order by minimum degree is not taken at once.
 struct OrderParams {
-  /// Operations per entry of the factor from which nested dissection, which takes longer, is tried as well; as CHOLMOD
-  /// has it. Few entries serve many operations where separators are large: in space, and on fine meshes.
+  /// Operations per entry of the factor from which nested dissection, which takes longer, is tried as well: CHOLMOD's
+  /// number. Few entries serve many operations where separators are large: in space, and on fine meshes.
   double dissect = 500;
 };
 

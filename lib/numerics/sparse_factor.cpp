@@ -73,7 +73,7 @@ void SparseCholesky<Scalar>::analyse(const Matrix& a) {
   cholmod_free_factor(&s.factor, &s.common);
   s.factorised = false;
   cholmod_sparse view = upper_view(a);
-  s.factor = cholmod_analyze(&view, &s.common);
+  s.factor = analyse_alone(view, s.common);
   if (s.factor == nullptr) throw std::bad_alloc();
   s.entries = a.nonZeros();
 }

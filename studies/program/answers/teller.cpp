@@ -11,6 +11,7 @@
 #include <iostream>
 #include <utility>
 
+#include "core/signals_held.hpp"
 #include "studies/program/engine/interrupt.hpp"
 #include "studies/program/engine/json_values.hpp"
 #include "studies/program/study_file/refusal.hpp"
@@ -53,11 +54,8 @@ Teller::Teller(std::ostream& err, const TellChoice& choice, bool plain)
   // Of all streams the standard ones alone may be written to by two threads.
   if (!shows_ || &err != &std::cerr) return;
   // Signals are for the thread that computes.
-  sigset_t all, before;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
+  const SignalsHeld held;
   thread_ = std::thread([this] { tick(); });
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
 
 Teller::~Teller() {

@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "core/replace_file.hpp"
+#include "core/signals_held.hpp"
 #include "studies/program/engine/json_values.hpp"
 
 namespace dovetail::studies {
@@ -27,12 +28,13 @@ void keep_seconds_taken(const std::filesystem::path& directory, double seconds) 
 }
 
 RunClock::RunClock(const std::filesystem::path& directory, bool resume)
-    : directory_(directory),
-      before_(resume ? seconds_taken(directory) : 0),
-      writer_([this](const std::stop_token& stop) {
-        std::unique_lock lock(mutex_);
-        while (!ends_.wait_for(lock, stop, kEvery, [&] { return stop.stop_requested(); })) keep();
-      }) {}
+    : directory_(directory), before_(resume ? seconds_taken(directory) : 0), writer_([this] {
+        const SignalsHeld held;  // they are for the thread that computes
+        return std::jthread([this](const std::stop_token& stop) {
+          std::unique_lock lock(mutex_);
+          while (!ends_.wait_for(lock, stop, kEvery, [&] { return stop.stop_requested(); })) keep();
+        });
+      }()) {}
 
 RunClock::~RunClock() {
   writer_.request_stop();

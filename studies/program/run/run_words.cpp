@@ -43,7 +43,7 @@ std::string limits_kept(const report::RunRecord& record) {
 
 /// "; none keeps A and B", or nothing.
 std::string listed_unkept(const report::RunRecord& record) {
-  const std::vector<std::string> never = report::never_kept(record);
+  const std::vector<std::string> never = words_of(report::never_kept(record));
   return never.empty() ? "" : fmt::format("; none keeps {}", fmt::join(never, ", nor "));
 }
 

@@ -106,7 +106,7 @@ std::string Node::shown() const {
     case Kind::whole:
       return std::to_string(whole);
     case Kind::real:
-      return std::isnan(real) ? "nan" : shortest(real);
+      return shortest(real);
     case Kind::text:
       return '"' + one_line(text.size() > 60 ? text.substr(0, 57) + "..." : text) + '"';
     case Kind::list:

@@ -72,7 +72,7 @@ std::map<std::string, double> with_linked(std::map<std::string, double> settings
   for (const auto& [key, value] : linked) {
     double& number = settings[key] = std::numeric_limits<double>::quiet_NaN();
     try {
-      number = formula_value(value, variables) + 0.0;  // no -0.0: one design has one bit pattern
+      number = formula_value(value, variables) + 0.0;  // no -0.0
     } catch (const mu::Parser::exception_type&) {
       // A value that does not exist is none of the key's range, and the design is refused.
     }

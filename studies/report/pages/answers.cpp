@@ -217,8 +217,10 @@ std::vector<std::string> what_next(const RunRecord& record) {
   if (record.evaluations.empty()) return all;
   const std::optional<Status> status = named<Status>(record.status);
   if (!best) {
-    if (const std::vector<std::string> never = never_kept(record); !never.empty())
-      all.push_back("Loosen " + listed(never) + ", or let other variables help to keep it.");
+    std::vector<std::string> never;
+    for (const Unkept& unkept : never_kept(record))
+      if (!unkept.limit.empty()) never.push_back(unkept.limit);
+    if (!never.empty()) all.push_back("Loosen " + listed(never) + ", or let other variables help to keep it.");
     if (const std::string why = why_none(record); !why.empty())
       all.push_back(
           "Find out why nothing can be computed: " + why +

@@ -138,7 +138,7 @@ std::string headline(const RunRecord& record) {
     if (const std::string why = why_none(record); !why.empty())
       return "No design was found: none of the candidates could be computed (" + why + ").";
     std::string text = "No feasible design was found: none of the candidates keeps every limit.";
-    if (const std::vector<std::string> never = never_kept(record); !never.empty())
+    if (const std::vector<std::string> never = words_of(never_kept(record)); !never.empty())
       text += " No candidate keeps " + listed(never) + ".";
     if (record.least_broken && *record.least_broken < record.evaluations.size())
       text += fmt::format(" The nearest is candidate {}.", *record.least_broken + 1);

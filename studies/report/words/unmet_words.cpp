@@ -21,8 +21,11 @@ std::string missed(const std::string& what, std::int64_t candidate, double by) {
                      significant(100 * by, 2));
 }
 
-double largest(const Numbers& constraints) {
-  return constraints.empty() ? kInfinity : std::ranges::max(constraints);
+/// On the mesh of the search, whatever finer ones say.
+bool keeps_all(const EvaluationRecord& evaluation) {
+  return optimizer::converged(evaluation.status) &&
+         std::ranges::all_of(evaluation.constraints, [](double c) { return c <= 0; }) &&
+         std::ranges::all_of(evaluation.rules, [](const auto& rule) { return rule.second <= 0; });
 }
 
 std::string mesh_words(const FinerRecord& check) {
@@ -30,55 +33,76 @@ std::string mesh_words(const FinerRecord& check) {
                                   : std::string("on a finer mesh");
 }
 
-/// The broken ones among `constraints`, `where` said behind the name of each.
-std::vector<std::string> broken_limits(const RunRecord& record, const Numbers& constraints, std::int64_t candidate,
-                                       const std::string& where) {
+/// Of what candidates keep on the mesh of the search: the limits that no look at a finer one keeps, each where it is
+/// missed by least.
+std::vector<Unkept> never_kept_in(const RunRecord& record, const std::vector<const FinerRecord*>& looks) {
   const std::vector<std::string> names = constraint_names(record.problem);
-  std::vector<std::string> found;
-  for (std::size_t j = 0; j < std::min(names.size(), constraints.size()); ++j)
-    if (constraints[j] > 0)
-      found.push_back(missed(limit_words(names[j], record.problem) + " " + where, candidate, constraints[j]));
-  return found;
-}
-
-/// Of a run whose candidates keep every limit on the mesh of the search: what they do not keep on finer ones.
-std::vector<std::string> never_kept_on_finer_meshes(const RunRecord& record) {
-  const FinerRecord *nearest = nullptr, *unknown = nullptr;
-  for (const FinerRecord& check : record.finer) {
-    if (!optimizer::converged(check.status))
-      unknown = &check;
-    else if (largest(check.constraints) > 0 &&
-             (nearest == nullptr || largest(check.constraints) < largest(nearest->constraints)))
-      nearest = &check;
+  std::vector<Unkept> found;
+  for (std::size_t j = 0; j < names.size() && !looks.empty(); ++j) {
+    const FinerRecord& nearest =
+        **std::ranges::min_element(looks, {}, [j](const FinerRecord* look) { return look->constraints[j]; });
+    const std::string limit = limit_words(names[j], record.problem);
+    if (nearest.constraints[j] > 0)
+      found.push_back({.limit = limit,
+                       .words = missed(limit + " " + mesh_words(nearest), nearest.evaluation, nearest.constraints[j])});
   }
-  if (nearest != nullptr) return broken_limits(record, nearest->constraints, nearest->evaluation, mesh_words(*nearest));
-  if (unknown == nullptr) return {};
-  return {fmt::format("its limits {}, where candidate {} has no answer ({})", mesh_words(*unknown),
-                      unknown->evaluation + 1, unknown->status)};
+  if (!found.empty()) return found;
+  for (const FinerRecord* look : looks)
+    for (std::size_t j = 0; j < names.size(); ++j)
+      if (look->constraints[j] > 0)
+        return {{.limit = {},
+                 .words = fmt::format("all limits at once on finer meshes ({} candidate {} breaks {})",
+                                      mesh_words(*look), look->evaluation + 1, limit_words(names[j], record.problem))}};
+  return {};
 }
 
-/// Of a run whose looks at finer meshes all held: what the others do not keep with what those looks change in limits.
-std::vector<std::string> never_kept_corrected(const RunRecord& record) {
-  Numbers changes(constraint_names(record.problem).size(), 0.0);
+/// What looks that all held change in limits, and the candidate that comes nearest to keep them so.
+std::vector<Unkept> never_kept_corrected(const RunRecord& record) {
+  const std::vector<std::string> names = constraint_names(record.problem);
+  Numbers changes(names.size(), 0.0);
   for (const FinerRecord& check : record.finer) {
-    const auto candidate = static_cast<std::size_t>(check.evaluation);
-    if (candidate >= record.evaluations.size()) continue;
-    const Numbers& there = check.constraints;
-    const Numbers& here = record.evaluations[candidate].constraints;
-    for (std::size_t j = 0; j < std::min({changes.size(), here.size(), there.size()}); ++j)
-      changes[j] = std::max(changes[j], there[j] - here[j]);
+    const Numbers& here = record.evaluations[static_cast<std::size_t>(check.evaluation)].constraints;
+    for (std::size_t j = 0; j < std::min({changes.size(), here.size(), check.constraints.size()}); ++j)
+      if (const double change = check.constraints[j] - here[j]; change > changes[j]) changes[j] = change;
   }
   Numbers nearest;
   std::size_t candidate = 0;
   for (std::size_t i = 0; i < record.evaluations.size(); ++i) {
     Numbers corrected = record.evaluations[i].constraints;
-    if (!record.evaluations[i].feasible || corrected.size() != changes.size()) continue;
+    if (!keeps_all(record.evaluations[i]) || corrected.size() != changes.size() || changes.empty()) continue;
     std::ranges::transform(corrected, changes, corrected.begin(), std::plus<>());
-    if (!(largest(corrected) < largest(nearest))) continue;
+    if (!nearest.empty() && std::ranges::max(corrected) >= std::ranges::max(nearest)) continue;
     nearest = std::move(corrected);
     candidate = i;
   }
-  return broken_limits(record, nearest, static_cast<std::int64_t>(candidate), "with what a finer mesh adds to it");
+  std::vector<Unkept> found;
+  for (std::size_t j = 0; j < nearest.size(); ++j) {
+    const std::string limit = limit_words(names[j], record.problem);
+    if (nearest[j] > 0)
+      found.push_back({.limit = limit,
+                       .words = missed(limit + " with what a finer mesh adds to it",
+                                       static_cast<std::int64_t>(candidate), nearest[j])});
+  }
+  return found;
+}
+
+/// Of a run with candidates that keep every limit on the mesh of the search: what they do not keep on finer ones.
+std::vector<Unkept> never_kept_on_finer_meshes(const RunRecord& record) {
+  std::vector<const FinerRecord*> looks;
+  const FinerRecord* unknown = nullptr;
+  for (const FinerRecord& check : record.finer) {
+    if (!keeps_all(record.evaluations[static_cast<std::size_t>(check.evaluation)])) continue;
+    if (optimizer::converged(check.status) && check.constraints.size() == constraint_names(record.problem).size())
+      looks.push_back(&check);
+    else
+      unknown = &check;
+  }
+  if (std::vector<Unkept> found = never_kept_in(record, looks); !found.empty()) return found;
+  if (unknown != nullptr)
+    return {{.limit = {},
+             .words = fmt::format("its limits {}, where candidate {} has no answer ({})", mesh_words(*unknown),
+                                  unknown->evaluation + 1, unknown->status)}};
+  return never_kept_corrected(record);
 }
 
 }  // namespace
@@ -96,7 +120,7 @@ std::string why_none(const RunRecord& record) {
   return fmt::format("{} in {} of {}", status, count, record.evaluations.size());
 }
 
-std::vector<std::string> never_kept(const RunRecord& record) {
+std::vector<Unkept> never_kept(const RunRecord& record) {
   // The least a limit or a rule is broken by, and where.
   struct Least {
     double c = kInfinity;
@@ -114,16 +138,22 @@ std::vector<std::string> never_kept(const RunRecord& record) {
       if (std::isfinite(evaluation.constraints[j])) limits[j].add(evaluation.constraints[j], i);
     for (const auto& [name, c] : evaluation.rules) rules[name].add(c, i);
   }
-  std::vector<std::string> found;
+  std::vector<Unkept> found;
   const auto tell = [&](const std::string& what, const Least& least) {
     if (std::isfinite(least.c) && least.c > 0)
-      found.push_back(missed(what, static_cast<std::int64_t>(least.candidate), least.c));
+      found.push_back({.limit = what, .words = missed(what, static_cast<std::int64_t>(least.candidate), least.c)});
   };
   for (std::size_t j = 0; j < names.size(); ++j) tell(limit_words(names[j], record.problem), limits[j]);
   for (const auto& [name, least] : rules) tell("the geometric rule \u201c" + words(name) + "\u201d", least);
-  if (!found.empty() || record.best) return found;
-  found = never_kept_on_finer_meshes(record);
-  return found.empty() && !record.finer.empty() ? never_kept_corrected(record) : found;
+  // Each limit may be kept by some, and all of them by none: no finer mesh is to blame then.
+  if (!found.empty() || record.best || std::ranges::none_of(record.evaluations, keeps_all)) return found;
+  return never_kept_on_finer_meshes(record);
+}
+
+std::vector<std::string> words_of(const std::vector<Unkept>& unkept) {
+  std::vector<std::string> words;
+  for (const Unkept& one : unkept) words.push_back(one.words);
+  return words;
 }
 
 }  // namespace dovetail::report

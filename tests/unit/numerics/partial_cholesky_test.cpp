@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <csignal>
 #include <cstdlib>
 #include <limits>
 #include <utility>
 #include <vector>
+
+#include "numerics/cholmod_view.hpp"
 
 namespace dovetail::numerics {
 namespace {
@@ -62,28 +65,68 @@ TEST(EliminationOrder, IsKeptForAPatternAndFoundAnewForAnother) {
     EXPECT_EQ(with.schur(), without.schur()) << side;
   }
   // One entry more is another pattern.
-  const Eigen::SparseMatrix<double> a = grid(8, 0.5).triangularView<Eigen::Lower>();
+  const Eigen::SparseMatrix<double> a = grid(8, 0.5).triangularView<Eigen::Upper>();
   Eigen::SparseMatrix<double> b = a;
   const auto first = kept.of(a, 8);
   EXPECT_EQ(kept.of(a, 8), first);
-  b.coeffRef(40, 3) = 0.1;
+  b.coeffRef(3, 40) = 0.1;
   b.makeCompressed();
   const auto second = kept.of(b, 8);
   EXPECT_NE(second, first);
   EXPECT_NE(kept.of(b, 9), second) << "another border";
 }
 
+// The order of a fine grid is that of its dissection, which takes less work.
+TEST(EliminationOrder, IsTheOneThatTakesLessWork) {
+  const auto operations = [](double dissect) {
+    const Eigen::SparseMatrix<double> a = grid(160, 0.5).triangularView<Eigen::Upper>();
+    return EliminationOrder({.dissect = dissect}).of(a, 320)->common.fl;
+  };
+  const double by_degree = operations(1e9), best = operations(0);
+  EXPECT_LE(best, by_degree);
+  EXPECT_EQ(best, operations(0)) << "found again";
+}
+
+TEST(EliminationOrder, TakesABorderOfOneAndNothingElse) {
+  const Eigen::SparseMatrix<double> one = grid(1, 0.5);
+  PartialCholesky cholesky;
+  ASSERT_EQ(cholesky.factorise(one, 1), Status::converged);
+  EXPECT_NEAR(cholesky.schur()(0, 0), 0.5, kSmall);
+}
+
+volatile std::sig_atomic_t met = 0;
+
+// METIS takes SIGTERM for itself while it works.
+TEST(EliminationOrder, LeavesTheHandlersOfSignalsAsTheyWere) {
+  struct sigaction mine {
+  }, before{}, after{};
+  mine.sa_handler = [](int) { met = met + 1; };
+  mine.sa_flags = SA_RESTART;
+  sigaction(SIGTERM, &mine, &before);
+  const Eigen::SparseMatrix<double> a = grid(40, 0.5).triangularView<Eigen::Upper>();
+  (void)EliminationOrder({.dissect = 0}).of(a, 40);
+  sigaction(SIGTERM, nullptr, &after);
+  EXPECT_EQ(after.sa_flags & (SA_RESTART | static_cast<int>(SA_RESETHAND)), SA_RESTART);
+  for (const int times : {1, 2}) {
+    std::raise(SIGTERM);
+    EXPECT_EQ(met, times);
+  }
+  sigaction(SIGTERM, &before, nullptr);
+}
+
 TEST_P(PartialCholeskyOf, LeavesTheSchurComplementOfTheDenseFormula) {
   const Eigen::SparseMatrix<double> a = grid(16, GetParam());
-  for (const Eigen::Index border : {16, 37, 250, 256}) {
-    PartialCholesky cholesky;
-    ASSERT_EQ(cholesky.factorise(a, border), Status::converged);
-    EXPECT_EQ(cholesky.size(), 256);
-    EXPECT_EQ(cholesky.border(), border);
-    const Eigen::MatrixXd exact = dense_schur(a, border);
-    EXPECT_LT((cholesky.schur() - exact).norm(), kSmall * exact.norm()) << border;
-    EXPECT_EQ(cholesky.schur(), Eigen::MatrixXd(cholesky.schur().transpose()));
-  }
+  EliminationOrder by_degree({.dissect = 1e9}), dissected({.dissect = 0});
+  for (const Eigen::Index border : {16, 37, 250, 256})
+    for (EliminationOrder* order : {&by_degree, &dissected}) {
+      PartialCholesky cholesky;
+      ASSERT_EQ(cholesky.factorise(a, border, order), Status::converged);
+      EXPECT_EQ(cholesky.size(), 256);
+      EXPECT_EQ(cholesky.border(), border);
+      const Eigen::MatrixXd exact = dense_schur(a, border);
+      EXPECT_LT((cholesky.schur() - exact).norm(), kSmall * exact.norm()) << border;
+      EXPECT_EQ(cholesky.schur(), Eigen::MatrixXd(cholesky.schur().transpose()));
+    }
 }
 
 TEST_P(PartialCholeskyOf, SolvesWithTheBorderHeldMovedAndFree) {

@@ -206,28 +206,56 @@ TEST(Report, SaysThatNoFeasibleDesignWasFound) {
   EXPECT_FALSE(has_nan(without_scripts(page)));
 }
 
-TEST(Answers, NameWhatIsKeptOnTheMeshOfTheSearchAlone) {
+/// A run without a best design, whose candidates keep their limit on the mesh of the search.
+RunRecord kept_there_alone() {
   RunRecord record = sample_record();
   record.best.reset();
-  for (EvaluationRecord& e : record.evaluations)
-    if (e.status == "converged") {
-      e.constraints = {-0.02};
-      e.feasible = true;
-    }
-  record.finer = {{.evaluation = 1, .flank_elements = 32, .status = "converged", .constraints = {0.03}}};
-  EXPECT_THAT(never_kept(record),
-              testing::ElementsAre("the upper limit of the peak amplitude (8\u00a0mm) with 32 edges "
-                                   "along each flank (candidate 2 comes nearest and misses it by "
-                                   "3.0\u00a0%)"));
-  // A look that held refuses the others by what it adds.
-  record.evaluations[1].constraints = {-0.10};
-  record.evaluations[1].feasible = false;
-  record.finer.front().constraints = {-0.04};
-  EXPECT_THAT(never_kept(record), testing::ElementsAre(HasSubstr("with what a finer mesh adds to it (candidate 1 comes "
-                                                                 "nearest and misses it by 4.0\u00a0%)")));
+  record.finer.clear();
+  for (EvaluationRecord& e : record.evaluations) {
+    e.feasible = false;
+    if (e.status == "converged") e.constraints = {-0.02};
+  }
+  return record;
+}
+
+TEST(Answers, NameWhatIsKeptOnTheMeshOfTheSearchAlone) {
+  RunRecord record = kept_there_alone();
+  record.finer = {{.evaluation = 1, .flank_elements = 32, .status = "converged", .constraints = {0.03}},
+                  {.evaluation = 0, .flank_elements = 32, .status = "converged", .constraints = {0.05}}};
+  EXPECT_THAT(words_of(never_kept(record)),
+              testing::ElementsAre("the upper limit of the peak amplitude (8\u00a0mm) with 32 edges along each flank "
+                                   "(candidate 2 comes nearest and misses it by 3.0\u00a0%)"));
+  EXPECT_THAT(what_next(record),
+              testing::Contains(HasSubstr("Loosen the upper limit of the peak amplitude (8\u00a0mm), "
+                                          "or")));
+  record.finer.resize(1);
   record.finer.front().status = "steady_state: iteration_limit";
   record.finer.front().constraints = {std::nan("")};
-  EXPECT_THAT(never_kept(record), testing::ElementsAre(HasSubstr("where candidate 2 has no answer")));
+  EXPECT_THAT(words_of(never_kept(record)), testing::ElementsAre(HasSubstr("where candidate 2 has no answer")));
+  EXPECT_THAT(what_next(record), testing::Not(testing::Contains(HasSubstr("Loosen"))));
+}
+
+// A candidate keeps on a finer mesh what it breaks on the search's: who keeps all is refused by what that look adds to
+// the other limit.
+TEST(Answers, NameWhatIsRefusedByCorrectionsAlone) {
+  RunRecord record = kept_there_alone();
+  record.problem.constraints.push_back({.response = "post_width_m", .lower = 8e-3, .upper = {}});
+  for (EvaluationRecord& e : record.evaluations) e.constraints.push_back(e.constraints.front());
+  record.evaluations[1].constraints = {0.2, -0.10};
+  record.finer = {{.evaluation = 1, .flank_elements = 32, .status = "converged", .constraints = {-0.1, -0.04}}};
+  EXPECT_THAT(words_of(never_kept(record)),
+              testing::ElementsAre("the lower limit of the post width (8\u00a0mm) with what a finer mesh adds to it "
+                                   "(candidate 1 comes nearest and misses it by 4.0\u00a0%)"));
+}
+
+TEST(Answers, DoNotBlameFinerMeshesWhereNoneKeepsAllLimits) {
+  RunRecord record = kept_there_alone();
+  record.finer = {{.evaluation = 1, .flank_elements = 32, .status = "converged", .constraints = {0.03}}};
+  // Whoever keeps the limit breaks a rule, and the other way round.
+  for (EvaluationRecord& e : record.evaluations) e.rules = {{"post_width_m", 0.1}};
+  record.evaluations[0].constraints = {0.2};
+  record.evaluations[0].rules = {{"post_width_m", -0.4}};
+  EXPECT_THAT(never_kept(record), testing::IsEmpty());
 }
 
 TEST(Report, SurvivesWhateverIsMissing) {
