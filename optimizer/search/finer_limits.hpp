@@ -17,8 +17,8 @@ class FinerLimits {
   [[nodiscard]] bool active() const;
   /// Shifts the session's constraints by what one level finer changes at a candidate. Throws StopSearch.
   void correct(std::size_t candidate);
-  /// Whether the candidate keeps its limits on every level. If not, it is rejected and the session's constraints
-  /// are shifted by what was seen. Throws StopSearch.
+  /// Whether the candidate keeps its limits on every level. If so, it is accepted; if not, rejected, and the session's
+  /// constraints are shifted by what was seen. Throws StopSearch.
   bool holds(std::size_t candidate);
 
   [[nodiscard]] const std::vector<FinerCheck>& checks() const { return checks_; }

@@ -78,6 +78,18 @@ SearchOutcome within_budget(Search&& search) {
   }
 }
 
+Front front_in(const EvaluationSession& session) {
+  const std::vector<Candidate> all(session.candidates().begin(), session.candidates().end());
+  return front_of(session.problem(), all);
+}
+
+/// The candidate to look at on finer meshes: the best one (of a front its compromise), or, where what was seen of
+/// others refuses everyone, the one it refuses by the least.
+std::optional<std::size_t> next_to_look_at(const EvaluationSession& session) {
+  if (!session.best()) return session.refused_by_shifts();
+  return session.problem().front ? front_in(session).compromise : *session.best();
+}
+
 /// After a search whose best designs broke limits on finer meshes: the best known one, unlike them, that does not.
 void settle_for_another(EvaluationSession& session, FinerLimits& finer, const CorrectionParams& params) {
   std::vector<std::size_t> broken;
@@ -87,15 +99,14 @@ void settle_for_another(EvaluationSession& session, FinerLimits& finer, const Co
     return std::ranges::equal(session.unit(i), session.unit(j),
                               [&](double a, double b) { return std::abs(a - b) <= params.apart; });
   };
-  for (int look = 0; session.best();) {
-    const std::size_t best = *session.best();
-    if (look == params.looks || std::ranges::any_of(broken, [&](std::size_t i) { return beside(best, i); })) {
-      session.reject(best);
+  int look = 0;
+  for (auto next = next_to_look_at(session); next && !session.accepted(*next); next = next_to_look_at(session)) {
+    if (look == params.looks || std::ranges::any_of(broken, [&](std::size_t i) { return beside(*next, i); })) {
+      session.reject(*next);
       continue;
     }
     ++look;
-    if (finer.holds(best)) return;
-    broken.push_back(best);
+    if (!finer.holds(*next)) broken.push_back(*next);
   }
 }
 
@@ -115,11 +126,6 @@ std::string refused_words(const FinerLimits& finer) {
                             : "limits kept on the search's mesh break on finer ones, or have no answer there";
 }
 
-Front front_in(const EvaluationSession& session) {
-  const std::vector<Candidate> all(session.candidates().begin(), session.candidates().end());
-  return front_of(session.problem(), all);
-}
-
 /// The search with its limits corrected by what finer meshes say, at its start and where it ends. Its best candidate
 /// keeps its limits on them, or there is none.
 SearchOutcome corrected_search(EvaluationSession& session, FinerLimits& finer) {
@@ -128,7 +134,7 @@ SearchOutcome corrected_search(EvaluationSession& session, FinerLimits& finer) {
   const auto all = static_cast<std::size_t>(options.max_evaluations);
   const bool only_scan = options.algorithm == Algorithm::scan;
   if (finer.active()) {
-    finer.correct(session.best().value_or(0));
+    finer.correct(session.best().value_or(session.least_broken().value_or(0)));
     session.limit(std::max(session.candidates().size(),
                            all - static_cast<std::size_t>(kParams.reserve * options.max_evaluations)));
   }
@@ -136,26 +142,28 @@ SearchOutcome corrected_search(EvaluationSession& session, FinerLimits& finer) {
                                     : within_budget([&] { return search(session); });
   double step = kParams.step * options.initial_step;
   // What was kept for a look at finer meshes serves to find something to look at.
-  if (finer.active() && !session.best() && !only_scan && outcome.status == Status::iteration_limit) {
+  if (finer.active() && !next_to_look_at(session) && !only_scan && outcome.status == Status::iteration_limit) {
     session.limit(all);
     outcome = within_budget([&] { return search_once(session, options.initial_step, kParams.looks); });
   }
   std::optional<std::size_t> held;
-  for (int look = 0; finer.active() && session.best(); ++look) {
+  for (int look = 0; finer.active(); ++look) {
+    const std::optional<std::size_t> next = next_to_look_at(session);
+    if (!next) break;
     const std::size_t left = all - session.candidates().size();
-    if (finer.holds(*session.best())) {
+    if (finer.holds(*next) && session.best() == next) {
       const bool unfinished = outcome.status == Status::iteration_limit && left > 0;
-      if (unfinished && session.best() == held)
+      if (unfinished && next == held)
         outcome.message = "going on from the best design brought nothing better; " + std::to_string(left) +
                           " evaluations of the budget are left";
-      if (!unfinished || session.best() == held) return outcome;
-      held = session.best();
+      if (!unfinished || next == held) return outcome;
+      held = next;
     }
     if (look + 1 >= kParams.looks) {
       settle_for_another(session, finer, kParams);
       break;
     }
-    if (left == 0 || only_scan || !session.best()) continue;
+    if (left == 0 || only_scan) continue;
     session.limit(session.candidates().size() + (left + 1) / 2);
     step = std::max(step, 2 * stopping_step(options));
     static_cast<void>(within_budget([&] { return search_once(session, step, look + 1); }));
@@ -187,7 +195,7 @@ std::string tie_words(const EvaluationSession& session) {
 SearchOutcome front_search(EvaluationSession& session, FinerLimits& finer) {
   const Algorithm algorithm = session.options().algorithm;
   SearchOutcome outcome{.status = Status::converged, .message = "scan: complete"};
-  if (finer.active()) finer.correct(session.best().value_or(0));
+  if (finer.active()) finer.correct(session.best().value_or(session.least_broken().value_or(0)));
   if (algorithm == Algorithm::nsga2)
     outcome = within_budget([&] { return search_once(session, session.options().initial_step, 0); });
   else if (algorithm != Algorithm::scan)
@@ -195,8 +203,11 @@ SearchOutcome front_search(EvaluationSession& session, FinerLimits& finer) {
         [&] { return epsilon_constraint(session, [&] { return within_budget([&] { return search(session); }); }); });
   session.focus({});
   bool held = !finer.active();
-  for (int look = 0; !held && session.best() && look < CorrectionParams{}.looks; ++look)
-    held = finer.holds(front_in(session).compromise);
+  for (int look = 0; !held && look < CorrectionParams{}.looks; ++look) {
+    const std::optional<std::size_t> next = next_to_look_at(session);
+    if (!next) break;
+    held = finer.holds(*next) && session.best() && front_in(session).compromise == *next;
+  }
   const bool refused = std::ranges::any_of(finer.checks(), [](const FinerCheck& check) { return !check.held; });
   if (const std::string words = refused_words(finer); !held && refused)
     outcome.message = describe(outcome.status, outcome.message) + "; " +

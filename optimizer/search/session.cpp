@@ -192,13 +192,23 @@ void EvaluationSession::reject(std::size_t index) {
   judge_again();
 }
 
+void EvaluationSession::accept(std::size_t index) {
+  accepted_.push_back(index);
+  judge_again();
+}
+
+bool EvaluationSession::accepted(std::size_t index) const {
+  return std::ranges::find(accepted_, index) != accepted_.end();
+}
+
 void EvaluationSession::focus(std::optional<Focus> on) {
   focus_ = std::move(on);
   judge_again();
 }
 
 Judgement EvaluationSession::judged(std::size_t index, const Evaluation& evaluation) const {
-  Judgement judgement = judge(problem_, evaluation, options_.constraint_tolerance, shifts_);
+  const std::span<const double> shifts = accepted(index) ? std::span<const double>{} : shifts_;
+  Judgement judgement = judge(problem_, evaluation, options_.constraint_tolerance, shifts);
   if (std::ranges::find(rejected_, index) != rejected_.end()) judgement.feasible = false;
   if (!focus_) return judgement;
   judgement.objective =
@@ -236,6 +246,16 @@ std::optional<std::size_t> EvaluationSession::least_broken() const {
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     const bool failed = !candidates_[i].judgement.computed && !candidates_[i].evaluation.infeasible();
     if (!failed && (!least || rank(i) < rank(*least))) least = i;
+  }
+  return least;
+}
+
+std::optional<std::size_t> EvaluationSession::refused_by_shifts() const {
+  std::optional<std::size_t> least;
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    const Candidate& c = candidates_[i];
+    if (!c.evaluation.feasible || c.judgement.feasible || std::ranges::find(rejected_, i) != rejected_.end()) continue;
+    if (!least || c.judgement.violation < candidates_[*least].judgement.violation) least = i;
   }
   return least;
 }

@@ -51,6 +51,9 @@ class EvaluationSession {
   void focus(std::optional<Focus> on);
   /// Whatever its values say, this candidate does not keep its limits.
   void reject(std::size_t index);
+  /// This candidate keeps its limits, whatever shifts say: finer meshes were asked about itself.
+  void accept(std::size_t index);
+  [[nodiscard]] bool accepted(std::size_t index) const;
 
   /// `unit` as it will be evaluated: in the box, on the grid.
   [[nodiscard]] static std::vector<double> snap(std::span<const double> unit);
@@ -63,6 +66,8 @@ class EvaluationSession {
   [[nodiscard]] std::optional<std::size_t> best() const { return best_; }
   /// The candidate with the smallest violation, computed ones before those without physics; nothing if all failed.
   [[nodiscard]] std::optional<std::size_t> least_broken() const;
+  /// Of candidates refused by shifts alone, the one with the smallest violation.
+  [[nodiscard]] std::optional<std::size_t> refused_by_shifts() const;
   [[nodiscard]] SearchStatistics& statistics() { return statistics_; }
   [[nodiscard]] int unused_records() const;
   /// Throws StopSearch when the user asked for the end.
@@ -94,7 +99,7 @@ class EvaluationSession {
   std::deque<std::vector<double>> units_;
   std::size_t limit_;
   std::vector<double> shifts_;  // [constraints]
-  std::vector<std::size_t> rejected_;
+  std::vector<std::size_t> rejected_, accepted_;
   std::optional<Focus> focus_;
   std::optional<std::size_t> best_;
   SearchStatistics statistics_;

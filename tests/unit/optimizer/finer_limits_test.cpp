@@ -4,6 +4,7 @@
 
 #include "bowl.hpp"
 #include "scratch_file.hpp"
+#include "two_bowls.hpp"
 
 namespace dovetail::optimizer {
 namespace {
@@ -89,31 +90,95 @@ TEST(FinerLimitsOf, ARunThatNeverMetItsLimitsDoesNotBlameFinerMeshes) {
   EXPECT_FALSE(result.message.starts_with(";")) << result.message;
 }
 
-// The start keeps on a finer mesh what it breaks on the search's; what that look adds to the other limit refuses all
-// who keep both.
-TEST(FinerLimitsOf, ARunRefusedByCorrectionsAloneSaysSo) {
-  const auto tilted = [](std::span<const double> x) {
-    Evaluation e = bowl(x);
-    e.responses["tilt"] = 8 - x[1];
-    return e;
-  };
+/// The bowl with a second limit, which the start keeps and most who keep the first do not.
+Evaluation tilted(std::span<const double> x) {
+  Evaluation e = bowl(x);
+  e.responses["tilt"] = 8 - x[1];
+  return e;
+}
+
+Problem tilted_bowl() {
   Problem problem = bowl_problem();
   problem.constraints.push_back({.response = "tilt", .lower = {}, .upper = 2.5});
+  return problem;
+}
+
+/// Without a scan, which would find who keeps both limits before the start is looked at.
+OptimizerOptions without_scan(Algorithm algorithm) {
+  OptimizerOptions result = options();
+  result.algorithm = algorithm;
+  result.scan_evaluations = 1;
+  return result;
+}
+
+// The start keeps on a finer mesh what it breaks on the search's; what that look adds to the other limit refuses all
+// who keep both. They are looked at themselves, and break it, too.
+TEST(FinerLimitsOf, ARunRefusedByFinerMeshesSaysSo) {
   const RunHooks hooks{.finer = [&](std::span<const double> x, int) {
     Evaluation e = tilted(x);
     e.responses["height"] -= 3;
     e.responses["tilt"] += 2;
     return e;
   }};
-  OptimizerOptions everywhere = options();
-  everywhere.algorithm = Algorithm::de;
-  everywhere.scan_evaluations = 1;  // more would find who keeps both before the start is looked at
-  const OptimizationResult result = run_optimization(problem, tilted, everywhere, hooks);
+  const OptimizationResult result = run_optimization(tilted_bowl(), tilted, without_scan(Algorithm::de), hooks);
   EXPECT_FALSE(result.best);
-  ASSERT_EQ(result.finer.size(), 1U);
-  EXPECT_TRUE(result.finer.front().held);
+  ASSERT_GT(result.finer.size(), 1U);
+  EXPECT_FALSE(result.finer.back().held);
   EXPECT_NE(result.message.find("limits kept on the search's mesh break on finer ones"), std::string::npos)
       << result.message;
+}
+
+// Only the start changes that much on a finer mesh: who keeps the limits must not be refused for it, unseen.
+TEST(FinerLimitsOf, WhatTheStartSawThereDoesNotRefuseOthersForGood) {
+  const FinerEvaluator finer = [](std::span<const double> x, int) {
+    Evaluation e = tilted(x);
+    e.responses["tilt"] += std::ranges::equal(x, bowl_problem().space.start()) ? 3 : 0.01;
+    return e;
+  };
+  for (const Algorithm algorithm : {Algorithm::de, Algorithm::cobyla, Algorithm::cmaes}) {
+    const OptimizationResult result =
+        run_optimization(tilted_bowl(), tilted, without_scan(algorithm), {.finer = finer});
+    ASSERT_TRUE(result.best) << to_string(algorithm) << ": " << result.message;
+    EXPECT_LE(finer(result.evaluations[*result.best].x, 2).responses.at("tilt"), 2.5);
+    EXPECT_EQ(result.finer.back().candidate, *result.best);
+  }
+}
+
+TEST(FinerLimitsOf, WhatTheStartSawThereDoesNotRefuseAFront) {
+  Problem problem = two_bowls();
+  problem.constraints = {{.response = "height", .lower = {}, .upper = 0.8}};
+  const auto high = [&](std::span<const double> x, double at_start) {
+    Evaluation e = two_bowls_at(x);
+    e.responses["height"] = x[1] + (std::ranges::equal(x, problem.space.start()) ? at_start : 0);
+    return e;
+  };
+  const RunHooks hooks{.finer = [&](std::span<const double> x, int) { return high(x, 9); }};
+  for (const Algorithm algorithm : {Algorithm::nsga2, Algorithm::cobyla}) {
+    OptimizerOptions some = without_scan(algorithm);
+    some.scan_evaluations = 0;
+    const OptimizationResult result = run_optimization(
+        problem, [&](std::span<const double> x) { return high(x, 0); }, some, hooks);
+    ASSERT_TRUE(result.best) << to_string(algorithm) << ": " << result.message;
+    EXPECT_EQ(result.finer.back().candidate, *result.best) << to_string(algorithm);
+  }
+}
+
+// One that held is known to hold: another one's look cannot refuse it any more.
+TEST(FinerLimitsOf, ADesignThatHeldIsKeptWhateverLaterLooksSay) {
+  std::vector<std::vector<double>> seen;
+  const FinerEvaluator finer = [&](std::span<const double> x, int) {
+    Evaluation e = bowl(x);
+    const std::vector<double> here(x.begin(), x.end());
+    if (seen.empty() || seen.back() != here) seen.push_back(here);
+    e.responses["height"] += seen.size() > 2 ? 30 : 0.01;  // the start and the first best one hold
+    return e;
+  };
+  OptimizerOptions few = options();
+  few.max_evaluations = 10;
+  const OptimizationResult result = run_optimization(low_bowl(), bowl, few, {.finer = finer});
+  ASSERT_TRUE(result.best) << result.message;
+  EXPECT_GT(seen.size(), 2U);
+  EXPECT_EQ(result.evaluations[*result.best].x, seen[1]);
 }
 
 // What is kept for a look at finer meshes is no use without a design to look at.
