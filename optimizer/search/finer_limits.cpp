@@ -55,26 +55,25 @@ void FinerLimits::correct(std::size_t candidate) {
 }
 
 bool FinerLimits::holds(std::size_t candidate) {
-  const CorrectionParams params;
-  std::vector<double> more(session_.shifts().size(), 0.0), own = more;
-  for (int level = 1; level <= session_.options().finer_meshes; ++level) {
+  std::vector<double> shifts(session_.shifts().size(), 0.0);
+  bool held = true;
+  for (int level = 1; held && level <= session_.options().finer_meshes; ++level) {
     const FinerCheck& check = look(candidate, level);
+    held = check.held;
     // Without an answer there nothing is learned, and what was known stays.
-    if (check.held || check.evaluation.converged()) {
-      make_up(check, params.more, more);
-      make_up(check, 1, own);
-    } else {
-      std::ranges::transform(more, session_.shifts(), more.begin(), [](double a, double b) { return std::max(a, b); });
-    }
-    if (check.held) continue;
-    session_.reject(candidate);
-    session_.shift_constraints(std::move(more));
-    return false;
+    if (held || check.evaluation.converged())
+      make_up(check, CorrectionParams{}.more, shifts);
+    else
+      std::ranges::transform(shifts, session_.shifts(), shifts.begin(),
+                             [](double a, double b) { return std::max(a, b); });
   }
-  // What was seen elsewhere refused it wrongly: its own is the nearer to where the search goes on.
-  if (!session_[candidate].judgement.feasible) session_.shift_constraints(std::move(own));
-  session_.accept(candidate);
-  return true;
+  // Of one that held they are known to be too large only where they refused it.
+  if (!held || !session_[candidate].judgement.feasible) session_.shift_constraints(std::move(shifts));
+  if (held)
+    session_.accept(candidate);
+  else
+    session_.reject(candidate);
+  return held;
 }
 
 }  // namespace dovetail::optimizer

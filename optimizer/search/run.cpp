@@ -94,14 +94,16 @@ std::optional<std::size_t> next_to_look_at(const EvaluationSession& session) {
 void settle_for_another(EvaluationSession& session, FinerLimits& finer, const CorrectionParams& params) {
   std::vector<std::size_t> broken;
   for (const FinerCheck& check : finer.checks())
-    if (!check.held) broken.push_back(check.candidate);
+    if (!check.held && session[check.candidate].evaluation.feasible) broken.push_back(check.candidate);
   const auto beside = [&](std::size_t i, std::size_t j) {
     return std::ranges::equal(session.unit(i), session.unit(j),
                               [&](double a, double b) { return std::abs(a - b) <= params.apart; });
   };
   int look = 0;
   for (auto next = next_to_look_at(session); next && !session.accepted(*next); next = next_to_look_at(session)) {
-    if (look == params.looks || std::ranges::any_of(broken, [&](std::size_t i) { return beside(*next, i); })) {
+    const bool looked_enough = look == params.looks;
+    if (looked_enough && !session.best()) return;
+    if (looked_enough || std::ranges::any_of(broken, [&](std::size_t i) { return beside(*next, i); })) {
       session.reject(*next);
       continue;
     }
@@ -126,6 +128,28 @@ std::string refused_words(const FinerLimits& finer) {
                             : "limits kept on the search's mesh break on finer ones, or have no answer there";
 }
 
+/// Some keep all limits on the mesh of the search, and none does on finer ones.
+bool all_refused(const EvaluationSession& session) {
+  return !session.best() && std::ranges::any_of(session.candidates(), [](const Candidate& candidate) {
+    return candidate.evaluation.feasible;
+  });
+}
+
+/// By what is seen where the search begins. Of a design that breaks its limits anyway that is no guide to those that
+/// keep them: as a part of what it has too much of it may refuse them all.
+void correct_at_start(EvaluationSession& session, FinerLimits& finer) {
+  if (finer.active() && session.best()) finer.correct(*session.best());
+}
+
+/// A part of the evaluations, for what is left to do after looks at finer meshes.
+void keep_for_looks(EvaluationSession& session) {
+  constexpr CorrectionParams kParams;
+  const double part = session.best() || session.refused_by_shifts() ? kParams.reserve : kParams.uncorrected;
+  const int all = session.options().max_evaluations;
+  session.limit(
+      std::max(session.candidates().size(), static_cast<std::size_t>(all) - static_cast<std::size_t>(part * all)));
+}
+
 /// The search with its limits corrected by what finer meshes say, at its start and where it ends. Its best candidate
 /// keeps its limits on them, or there is none.
 SearchOutcome corrected_search(EvaluationSession& session, FinerLimits& finer) {
@@ -133,29 +157,21 @@ SearchOutcome corrected_search(EvaluationSession& session, FinerLimits& finer) {
   constexpr CorrectionParams kParams;
   const auto all = static_cast<std::size_t>(options.max_evaluations);
   const bool only_scan = options.algorithm == Algorithm::scan;
-  if (finer.active()) {
-    finer.correct(session.best().value_or(session.least_broken().value_or(0)));
-    session.limit(std::max(session.candidates().size(),
-                           all - static_cast<std::size_t>(kParams.reserve * options.max_evaluations)));
-  }
+  correct_at_start(session, finer);
+  if (finer.active()) keep_for_looks(session);
   SearchOutcome outcome = only_scan ? SearchOutcome{.status = Status::converged, .message = "scan: complete"}
                                     : within_budget([&] { return search(session); });
   double step = kParams.step * options.initial_step;
-  // What was kept for a look at finer meshes serves to find something to look at.
-  if (finer.active() && !next_to_look_at(session) && !only_scan && outcome.status == Status::iteration_limit) {
-    session.limit(all);
-    outcome = within_budget([&] { return search_once(session, options.initial_step, kParams.looks); });
-  }
   std::optional<std::size_t> held;
   for (int look = 0; finer.active(); ++look) {
     const std::optional<std::size_t> next = next_to_look_at(session);
-    if (!next) break;
-    const std::size_t left = all - session.candidates().size();
-    if (finer.holds(*next) && session.best() == next) {
-      const bool unfinished = outcome.status == Status::iteration_limit && left > 0;
+    const std::size_t known = session.candidates().size(), left = all - known;
+    const bool refused = !session.best(), unfinished = outcome.status == Status::iteration_limit && left > 0;
+    if (!next && (!unfinished || only_scan)) break;
+    if (next && finer.holds(*next) && !refused) {
       if (unfinished && next == held)
-        outcome.message = "going on from the best design brought nothing better; " + std::to_string(left) +
-                          " evaluations of the budget are left";
+        outcome.message = "going on from the best design brought nothing better that keeps its limits; " +
+                          std::to_string(left) + " evaluations of the budget are left";
       if (!unfinished || next == held) return outcome;
       held = next;
     }
@@ -164,14 +180,20 @@ SearchOutcome corrected_search(EvaluationSession& session, FinerLimits& finer) {
       break;
     }
     if (left == 0 || only_scan) continue;
-    session.limit(session.candidates().size() + (left + 1) / 2);
+    if (refused) {
+      // The search was led by what others change there, which refused everyone: it begins anew. Without any to look at
+      // what was kept for looks serves to find one.
+      const auto kept = static_cast<std::size_t>(kParams.reserve * static_cast<double>(left));
+      session.limit(next ? all - kept : all);
+      outcome = within_budget([&] { return search_once(session, options.initial_step, kParams.looks + look); });
+      continue;
+    }
+    session.limit(known + (left + 1) / 2);
     step = std::max(step, 2 * stopping_step(options));
     static_cast<void>(within_budget([&] { return search_once(session, step, look + 1); }));
     step /= 2;
   }
-  const bool met = std::ranges::any_of(session.candidates(),
-                                       [](const Candidate& candidate) { return candidate.evaluation.feasible; });
-  if (finer.active() && !session.best() && met)
+  if (finer.active() && all_refused(session))
     outcome.message = describe(outcome.status, outcome.message) + "; " + refused_words(finer);
   return outcome;
 }
@@ -193,27 +215,37 @@ std::string tie_words(const EvaluationSession& session) {
 
 /// Points of a front, of which the compromise keeps its limits on finer meshes.
 SearchOutcome front_search(EvaluationSession& session, FinerLimits& finer) {
-  const Algorithm algorithm = session.options().algorithm;
-  SearchOutcome outcome{.status = Status::converged, .message = "scan: complete"};
-  if (finer.active()) finer.correct(session.best().value_or(session.least_broken().value_or(0)));
-  if (algorithm == Algorithm::nsga2)
-    outcome = within_budget([&] { return search_once(session, session.options().initial_step, 0); });
-  else if (algorithm != Algorithm::scan)
-    outcome = within_budget(
-        [&] { return epsilon_constraint(session, [&] { return within_budget([&] { return search(session); }); }); });
-  session.focus({});
-  bool held = !finer.active();
-  for (int look = 0; !held && look < CorrectionParams{}.looks; ++look) {
+  const OptimizerOptions& options = session.options();
+  constexpr CorrectionParams kParams;
+  const auto points = [&] {
+    SearchOutcome found{.status = Status::converged, .message = "scan: complete"};
+    if (options.algorithm == Algorithm::nsga2)
+      found = within_budget([&] { return search_once(session, options.initial_step, 0); });
+    else if (options.algorithm != Algorithm::scan)
+      found = within_budget(
+          [&] { return epsilon_constraint(session, [&] { return within_budget([&] { return search(session); }); }); });
+    session.focus({});
+    return found;
+  };
+  correct_at_start(session, finer);
+  const auto all = static_cast<std::size_t>(options.max_evaluations);
+  // With nobody left the search may have to be done again.
+  if (finer.active() && !session.best()) keep_for_looks(session);
+  SearchOutcome outcome = points();
+  session.limit(all);
+  for (int look = 0; finer.active() && look < kParams.looks; ++look) {
     const std::optional<std::size_t> next = next_to_look_at(session);
-    if (!next) break;
-    held = finer.holds(*next) && session.best() && front_in(session).compromise == *next;
+    const bool refused = !session.best();
+    if (!next && (outcome.status != Status::iteration_limit || session.candidates().size() == all)) break;
+    if (next && finer.holds(*next) && !refused) return outcome;
+    if (refused && (!next || session.best())) outcome = points();
   }
-  const bool refused = std::ranges::any_of(finer.checks(), [](const FinerCheck& check) { return !check.held; });
-  if (const std::string words = refused_words(finer); !held && refused)
-    outcome.message = describe(outcome.status, outcome.message) + "; " +
-                      (session.best() ? "of points that looked like a compromise " + words +
-                                            ", and the one there is now was not looked at"
-                                      : words);
+  if (!finer.active() || (session.best() && session.accepted(front_in(session).compromise))) return outcome;
+  if (session.best())
+    outcome.message = describe(outcome.status, outcome.message) + "; of points that looked like a compromise " +
+                      refused_words(finer) + ", and the one there is now was not looked at";
+  else if (all_refused(session))
+    outcome.message = describe(outcome.status, outcome.message) + "; " + refused_words(finer);
   return outcome;
 }
 

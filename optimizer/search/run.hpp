@@ -101,16 +101,16 @@ struct OptimizationResult {
 /// Minimises the problem: the start, `scan_evaluations` Latin-hypercube candidates, then the algorithm from the best
 /// seen, then restarts with smaller steps while budget is left.
 ///
-/// With hooks.finer the limits hold on finer meshes, too: what one level finer changes in the constraints is added to
-/// them before the algorithm starts; where it ends, the best design is evaluated on `finer_meshes` finer ones, and when
-/// it breaks a limit there, the constraints are shifted by what was seen and the search goes on from there with
-/// small steps. `best` then is a design that keeps its limits on all of them, and `feasible` of a Judgement says that
-/// its values leave room for the shifts.
+/// With hooks.finer the limits hold on finer meshes, too: what one level finer changes in the constraints of the best
+/// design so far is added to them before the algorithm starts; where it ends, the best design is evaluated on
+/// `finer_meshes` finer ones, and when it breaks a limit there, the constraints are shifted by what was seen and the
+/// search goes on from there with small steps. Where that refuses everyone, the one it refuses by the least is looked
+/// at itself, and the search begins anew with what is seen there. `best` then is a design that keeps its limits on all
+/// of them, and `feasible` of a Judgement says that its values leave room for the shifts, or that it was seen to hold.
 ///
 /// Of a front algorithms find points, see pagmo_search.hpp (nsga2) and front_search.hpp (all others); the scan has at
-/// least one generation of nsga2 and de. Limits are corrected once, by what the candidate with the least first
-/// objective changes, and the compromise has to keep them; the points beside it are judged with the shifts these looks
-/// bring.
+/// least one generation of nsga2 and de. Limits are corrected by what the candidate with the least first objective
+/// changes, and the compromise has to keep them; the points beside it are judged with the shifts these looks bring.
 ///
 /// Same problem, options and evaluator give the same candidates bit by bit, however many are computed at once. To
 /// resume, run again with the journal: it answers the candidates it holds, the algorithm takes the same path and

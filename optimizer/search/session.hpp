@@ -44,7 +44,8 @@ class EvaluationSession {
 
   /// Evaluations from now on end at this number of candidates, the options' max_evaluations at most.
   void limit(std::size_t candidates);
-  /// Candidates keep their limits when c + shift does; order of constraint_names. All are judged again.
+  /// Candidates keep their limits when c + shift does, but those accepted; order of constraint_names. All are judged
+  /// again.
   void shift_constraints(std::vector<double> shifts);
   [[nodiscard]] const std::vector<double>& shifts() const { return shifts_; }
   /// From now on candidates are judged by this, which adds a limit for each term; by nothing: as the problem says.

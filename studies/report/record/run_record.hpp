@@ -199,7 +199,7 @@ struct RunRecord {
   std::optional<std::size_t> baseline;      ///< index of the start
   std::optional<DesignRecord> best_design, baseline_design;
   std::vector<VerificationRecord> verifications;  ///< of the best designs, best first
-  std::vector<FinerRecord> finer;                 ///< in the order asked for; the best design is among the last
+  std::vector<FinerRecord> finer;                 ///< in the order asked for; the best design is among them
   std::vector<DepartureRecord> departures;        ///< of the start and the best design
   std::optional<FrontRecord> front;               ///< of which `best` is the compromise
   Provenance provenance;

@@ -441,7 +441,9 @@ TEST(Answers, TellWhatToDoNext) {
   record.least_broken = 1;
   EXPECT_THAT(what_next(record), testing::Contains(HasSubstr("Start from candidate 2")));
   // More evaluations are no advice where going on brought nothing.
-  record.message = "going on from the best design brought nothing better; 4 evaluations of the budget are left";
+  record.message =
+      "going on from the best design brought nothing better that keeps its limits; 4 evaluations of the budget are "
+      "left";
   EXPECT_THAT(what_next(record), testing::Not(testing::Contains(HasSubstr("Go on"))));
 }
 
