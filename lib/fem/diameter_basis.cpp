@@ -62,7 +62,7 @@ void orthonormalise(Eigen::MatrixXd& directions) {
   directions.conservativeResize(Eigen::NoChange, count);
 }
 
-Eigen::MatrixXcd product(const Eigen::MatrixXd& a, const Eigen::MatrixXcd& b) {
+Eigen::MatrixXcd product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::MatrixXcd& b) {
   Eigen::MatrixXcd result(a.rows(), b.cols());
   result.real() = numerics::product(a, Eigen::MatrixXd(b.real()));
   result.imag() = numerics::product(a, Eigen::MatrixXd(b.imag()));
@@ -84,9 +84,10 @@ DiameterBasis::DiameterBasis(const SectorMesh& sector, const Sparse& stiffness, 
   const GluedJoint<Complex> one = glued_joint(complex_constraints(sector, bore, 1), flexibility);
   const auto [a, b] = transformation_parts(sector, one.constraints.transformation);
   place_ = places(sector, a);
-  stiffness_.matrix = phase_matrix(stiffness, a, b);
-  if (one.springs.nonZeros() > 0) stiffness_.matrix.constant += one.springs;
-  mass_.matrix = phase_matrix(mass, a, b);
+  PhaseMatrix of_stiffness = phase_matrix(stiffness, a, b);
+  if (one.springs.nonZeros() > 0) of_stiffness.constant += one.springs;
+  stiffness_.emplace(std::move(of_stiffness));
+  mass_.emplace(phase_matrix(mass, a, b));
 }
 
 Eigen::MatrixXcd DiameterBasis::turned(double phase, const Eigen::MatrixXcd& vectors) const {
@@ -110,29 +111,54 @@ void DiameterBasis::add(const Eigen::MatrixXd& vectors) {
   for (Eigen::Index m = 0; m < vectors.cols(); ++m)
     if (const double length = vectors.col(m).norm(); length > 0) fresh.col(count++) = vectors.col(m) / length;
   fresh.conservativeResize(Eigen::NoChange, count);
-  for (int pass = 0; pass < 2 && basis_.cols() > 0; ++pass)
-    numerics::add_product(basis_, -numerics::transposed_product(basis_, fresh), fresh);
+  for (int pass = 0; pass < 2 && size_ > 0; ++pass)
+    numerics::add_product(basis(), -numerics::transposed_product(basis(), fresh), fresh);
   orthonormalise(fresh);
-  const Eigen::Index old = basis_.cols();
-  basis_.conservativeResize(vectors.rows(), old + fresh.cols());
-  basis_.rightCols(fresh.cols()) = fresh;
-  stiffness_.grow(basis_);
-  mass_.grow(basis_);
+  if (fresh.cols() == 0) return;
+  const Eigen::Index grown = size_ + fresh.cols();
+  if (grown > held_.cols()) held_.conservativeResize(vectors.rows(), std::max(grown, 2 * held_.cols()));
+  held_.middleCols(size_, fresh.cols()) = fresh;
+  size_ = grown;
+  stiffness_->grow(basis(), fresh.cols());
+  mass_->grow(basis(), fresh.cols());
 }
 
 Eigen::VectorXd DiameterBasis::eigenvalues(double phase, Eigen::Index count) const {
-  if (basis_.cols() < count) return {};  // nothing converged so far
-  const numerics::Pairs<Complex> found = numerics::all_values<Complex>(stiffness_.reduced(phase), mass_.reduced(phase));
+  if (size_ < count) return {};  // nothing converged so far
+  const numerics::Pairs<Complex> found =
+      numerics::all_values<Complex>(stiffness_->reduced(phase), mass_->reduced(phase));
   if (found.status != Status::converged) return {};
   return found.values.head(count);
 }
 
 Eigen::MatrixXcd DiameterBasis::residuals(double phase, Eigen::Index count) const {
-  count = std::min(count, basis_.cols());
-  const numerics::Pairs<Complex> found = numerics::all_pairs<Complex>(stiffness_.reduced(phase), mass_.reduced(phase));
+  count = std::min(count, size_);
+  const numerics::Pairs<Complex> found =
+      numerics::all_pairs<Complex>(stiffness_->reduced(phase), mass_->reduced(phase));
   if (found.status != Status::converged) return {};
-  const Eigen::MatrixXcd y = found.vectors.leftCols(count), vectors = product(basis_, y);
-  return stiffness_.times(phase, y, vectors) - mass_.times(phase, y, vectors) * found.values.head(count).asDiagonal();
+  const Eigen::MatrixXcd vectors = product(basis(), found.vectors.leftCols(count));
+  return stiffness_->times(phase, vectors) - mass_->times(phase, vectors) * found.values.head(count).asDiagonal();
+}
+
+DiameterBasis::OnBasis::OnBasis(PhaseMatrix of) : matrix(std::move(of)) {
+  const Sparse& turns = matrix.turning;
+  constexpr Eigen::Index kNone = -1;
+  std::vector<Eigen::Index> place(static_cast<std::size_t>(turns.rows()), kNone);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Eigen::Index dof = 0; dof < turns.cols(); ++dof) {
+    Sparse::InnerIterator entry(turns, dof);
+    if (entry) columns.push_back(dof);
+    for (; entry; ++entry) {
+      Eigen::Index& row = place[static_cast<std::size_t>(entry.row())];
+      if (row == kNone) {
+        row = static_cast<Eigen::Index>(rows.size());
+        rows.push_back(entry.row());
+      }
+      entries.emplace_back(static_cast<int>(row), static_cast<int>(columns.size()) - 1, entry.value());
+    }
+  }
+  cuts.resize(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(columns.size()));
+  cuts.setFromTriplets(entries.begin(), entries.end());
 }
 
 Eigen::MatrixXcd DiameterBasis::OnBasis::reduced(double phase) const {
@@ -142,32 +168,34 @@ Eigen::MatrixXcd DiameterBasis::OnBasis::reduced(double phase) const {
   return result;
 }
 
-Eigen::MatrixXcd DiameterBasis::OnBasis::times(double phase, const Eigen::MatrixXcd& y,
-                                               const Eigen::MatrixXcd& vectors) const {
-  Eigen::MatrixXcd result = product(image, y);
-  const Eigen::MatrixXd re = vectors.real(), im = vectors.imag();
-  const auto add = [&](const auto& sparse, Complex factor) {
-    const Eigen::MatrixXd of_re = sparse * re, of_im = sparse * im;
-    result.real() += factor.real() * of_re - factor.imag() * of_im;
-    result.imag() += factor.real() * of_im + factor.imag() * of_re;
+Eigen::MatrixXcd DiameterBasis::OnBasis::times(double phase, const Eigen::MatrixXcd& vectors) const {
+  const Eigen::Index count = vectors.cols();
+  Eigen::MatrixXd parts(vectors.rows(), 2 * count);
+  parts << vectors.real(), vectors.imag();
+  const auto joined = [count](const Eigen::MatrixXd& of_parts, Complex factor) {
+    const auto re = of_parts.leftCols(count), im = of_parts.rightCols(count);
+    Eigen::MatrixXcd result(of_parts.rows(), count);
+    result.real() = factor.real() * re - factor.imag() * im;
+    result.imag() = factor.real() * im + factor.imag() * re;
+    return result;
   };
-  add(matrix.turning, std::polar(1.0, phase));
-  add(matrix.turning.transpose(), std::polar(1.0, -phase));
+  Eigen::MatrixXcd result = joined(numerics::symmetric_product(matrix.constant, parts), 1);
+  result(rows, Eigen::all) += joined(cuts * parts(columns, Eigen::all), std::polar(1.0, phase));
+  result(columns, Eigen::all) += joined(cuts.transpose() * parts(rows, Eigen::all), std::polar(1.0, -phase));
   return result;
 }
 
-void DiameterBasis::OnBasis::grow(const Eigen::MatrixXd& basis) {
-  const Eigen::Index old = constant.rows(), size = basis.cols(), fresh = size - old;
-  const Eigen::MatrixXd directions = basis.rightCols(fresh);
-  const Eigen::MatrixXd turned = matrix.turning * directions, back = matrix.turning.transpose() * directions;
-  image.conservativeResize(basis.rows(), size);
-  image.rightCols(fresh) = numerics::symmetric_product(matrix.constant, directions);
+void DiameterBasis::OnBasis::grow(const Eigen::Ref<const Eigen::MatrixXd>& basis, Eigen::Index fresh) {
+  const Eigen::Index size = basis.cols(), old = size - fresh;
   constant.conservativeResize(size, size);
-  turning.conservativeResize(size, size);
-  constant.rightCols(fresh) = numerics::transposed_product(basis, image.rightCols(fresh));
+  constant.rightCols(fresh) =
+      numerics::transposed_product(basis, numerics::symmetric_product(matrix.constant, basis.rightCols(fresh)));
   constant.bottomLeftCorner(fresh, old) = constant.topRightCorner(old, fresh).transpose();
-  turning.rightCols(fresh) = numerics::transposed_product(basis, turned);
-  turning.bottomLeftCorner(fresh, old) = numerics::transposed_product(back, basis.leftCols(old));
+  const Eigen::MatrixXd in_rows = basis(rows, Eigen::all), in_columns = basis(columns, Eigen::all);
+  const Eigen::MatrixXd turned = cuts * in_columns.rightCols(fresh), back = cuts.transpose() * in_rows.rightCols(fresh);
+  turning.conservativeResize(size, size);
+  turning.rightCols(fresh) = numerics::transposed_product(in_rows, turned);
+  turning.bottomLeftCorner(fresh, old) = numerics::transposed_product(back, in_columns.leftCols(old));
 }
 
 }  // namespace dovetail::fem

@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <complex>
+#include <optional>
+#include <vector>
 
 #include "fem/constraints.hpp"
 #include "fem/sector_mesh.hpp"
@@ -26,8 +28,8 @@ class DiameterBasis {
   DiameterBasis(const SectorMesh& sector, const Eigen::SparseMatrix<double>& stiffness,
                 const Eigen::SparseMatrix<double>& mass, BoreSupport bore, const Eigen::VectorXd& flexibility);
 
-  [[nodiscard]] const PhaseMatrix& stiffness() const { return stiffness_.matrix; }
-  [[nodiscard]] const PhaseMatrix& mass() const { return mass_.matrix; }
+  [[nodiscard]] const PhaseMatrix& stiffness() const { return stiffness_->matrix; }
+  [[nodiscard]] const PhaseMatrix& mass() const { return mass_->matrix; }
 
   /// Vectors that turn by `phase` more from one sector to the next, evenly over each: what solves a problem of one
   /// phase nearly does so of another when it is turned there. At the cuts exactly, so that what is left is smooth.
@@ -47,19 +49,23 @@ class DiameterBasis {
   /// A matrix and what it makes of the basis B.
   struct OnBasis {
     PhaseMatrix matrix;
-    Eigen::MatrixXd image;              ///< A0 B
-    Eigen::MatrixXd constant, turning;  ///< B^T A0 B, B^T A1 B
+    Eigen::MatrixXd constant, turning;        ///< B^T A0 B, B^T A1 B
+    std::vector<Eigen::Index> rows, columns;  ///< of A1 that are not empty: those at the cuts
+    Eigen::SparseMatrix<double> cuts;         ///< A1 of these
 
+    explicit OnBasis(PhaseMatrix of);
     [[nodiscard]] Eigen::MatrixXcd reduced(double phase) const;
-    /// A(phase) B y, of which `vectors` are B y.
-    [[nodiscard]] Eigen::MatrixXcd times(double phase, const Eigen::MatrixXcd& y,
-                                         const Eigen::MatrixXcd& vectors) const;
-    void grow(const Eigen::MatrixXd& basis);
+    [[nodiscard]] Eigen::MatrixXcd times(double phase, const Eigen::MatrixXcd& vectors) const;
+    /// `basis` has `fresh` more columns than at the last call.
+    void grow(const Eigen::Ref<const Eigen::MatrixXd>& basis, Eigen::Index fresh);
   };
 
+  [[nodiscard]] auto basis() const { return held_.leftCols(size_); }
+
   Eigen::VectorXd place_;  ///< [dofs] angle about the axis in the sense of the phase, over that of a sector
-  OnBasis stiffness_, mass_;
-  Eigen::MatrixXd basis_;
+  std::optional<OnBasis> stiffness_, mass_;
+  Eigen::MatrixXd held_;  ///< the basis, with room for more
+  Eigen::Index size_ = 0;
 };
 
 }  // namespace dovetail::fem
