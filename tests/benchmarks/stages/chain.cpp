@@ -55,9 +55,10 @@ double Chain::contact_size() const {
 std::vector<Kernel> kernels(const Chain& chain) {
   const double lift = KernelParams{}.lift * chain.scene.loading.speed * chain.scene.loading.speed;
   const optimizer::Matrices& matrices = *chain.candidate.matrices.shared;
-  const Eigen::SparseMatrix<double> free =
+  Eigen::SparseMatrix<double> free =
       fem::constrain(matrices.stiffness, matrices.system.constraints) + lift * matrices.system.mass;
-  std::vector<Kernel> result = sparse_kernels(free);
+  const reduction::FullModel full = chain.matrices->full_model(std::move(free));
+  std::vector<Kernel> result = sparse_kernels(full.stiffness, full.contact_size());
   result.push_back(dense_lu_kernel(active_size(chain)));
   result.push_back(dense_inverse_kernel(matrices.system.contact_size()));
   result.push_back(march_kernel(chain));

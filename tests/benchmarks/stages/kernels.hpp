@@ -22,7 +22,8 @@ struct Kernel {
 using Needs = std::map<std::string, double>;
 
 // Names of kernels.
-inline constexpr const char* kFactorisation = "factorisation";  ///< sparse Cholesky factors, analysis kept
+inline constexpr const char* kOrder = "order";                  ///< of elimination, with the analysis
+inline constexpr const char* kFactorisation = "factorisation";  ///< sparse Cholesky factors, order and analysis kept
 inline constexpr const char* kBackSolve = "back_solve";         ///< one column of many
 inline constexpr const char* kDenseLu = "dense_lu";             ///< one operation of it
 inline constexpr const char* kDenseInverse = "dense_inverse";   ///< at the size of the trace, or one operation of it
@@ -39,8 +40,10 @@ struct KernelParams {
   double lift = 100;
 };
 
-/// CHOLMOD on the positive definite `stiffness`: its factorisation in an order that is known, and back-solves.
-[[nodiscard]] std::vector<Kernel> sparse_kernels(const Eigen::SparseMatrix<double>& stiffness);
+/// CHOLMOD on the positive definite `stiffness`, of which the last `border` unknowns are the flanks': an order that
+/// leaves them last, factors in it - without them last, the flexibility of the flanks would be a back-solve for each -
+/// and back-solves.
+[[nodiscard]] std::vector<Kernel> sparse_kernels(const Eigen::SparseMatrix<double>& stiffness, Eigen::Index border);
 /// dgetrf of n unknowns. Its units are operations, 2/3 n^3.
 [[nodiscard]] Kernel dense_lu_kernel(Eigen::Index unknowns);
 /// dpotrf and dpotri of n unknowns. Its units are operations, n^3.

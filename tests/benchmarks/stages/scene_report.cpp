@@ -45,6 +45,8 @@ Needs needs_of_whole(const std::vector<Stage>& stages, const SceneReport& report
   for (const StageReport& stage : report.stages)
     if (!is_part(stage.name) && std::ranges::any_of(stages, [&](const Stage& s) { return s.work.name == stage.name; }))
       for (const auto& [kernel, units] : stage.needs) whole[kernel] += units;
+  // Stages know the order of elimination; a whole evaluation finds it if it factorises.
+  if (whole[kFactorisation] > 0) whole[kOrder] = 1;
   return whole;
 }
 
