@@ -64,7 +64,8 @@ SearchOutcome epsilon_constraint(EvaluationSession& session, const std::function
     const std::size_t before = session.candidates().size();
     session.limit(before + share);
     const bool converged = search().status == Status::converged;
-    if (!converged && session.candidates().size() == all) throw StopSearch{Status::iteration_limit};
+    if (!converged && (session.candidates().size() == all || session.time_over()))
+      throw StopSearch{Status::iteration_limit};
     limited += converged ? 0 : 1;
   };
   const std::vector<std::vector<double>> ways = fractions(runs - terms, terms - 1, options.seed);

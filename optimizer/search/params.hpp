@@ -17,7 +17,7 @@ struct SubstituteParams {
 /// How a search goes on after a look at finer meshes.
 struct CorrectionParams {
   double reserve = 0.2;      ///< of the evaluations, for what is left to do after a look
-  double uncorrected = 0.5;  ///< of the evaluations, where the search begins with no design to correct limits by
+  double uncorrected = 0.5;  ///< the same, where the search begins with no design to correct limits by
   double step = 0.25;  ///< first step of the search that goes on, by that of the search; halves from round to round
   int looks = 6;       ///< while the search goes on, and as many in the end at what is known
   double apart = 0.1;  ///< a known design closer than this in every variable to one that broke its limits is passed

@@ -135,19 +135,18 @@ bool all_refused(const EvaluationSession& session) {
   });
 }
 
-/// By what is seen where the search begins. Of a design that breaks its limits anyway that is no guide to those that
-/// keep them: as a part of what it has too much of it may refuse them all.
-void correct_at_start(EvaluationSession& session, FinerLimits& finer) {
-  if (finer.active() && session.best()) finer.correct(*session.best());
+/// Evaluations from now on leave this part of `of`.
+void leave(EvaluationSession& session, double part, std::size_t of) {
+  const auto left = static_cast<std::size_t>(part * static_cast<double>(of));
+  session.limit(
+      std::max(session.candidates().size(), static_cast<std::size_t>(session.options().max_evaluations) - left));
 }
 
-/// A part of the evaluations, for what is left to do after looks at finer meshes.
-void keep_for_looks(EvaluationSession& session) {
-  constexpr CorrectionParams kParams;
-  const double part = session.best() || session.refused_by_shifts() ? kParams.reserve : kParams.uncorrected;
-  const int all = session.options().max_evaluations;
-  session.limit(
-      std::max(session.candidates().size(), static_cast<std::size_t>(all) - static_cast<std::size_t>(part * all)));
+/// By what is seen where the search begins, at the best design. Of a design that breaks limits it is no guide to
+/// others: as a part of what that one has too much of it may refuse them all. Whether there is one to correct them by.
+bool correct_at_start(EvaluationSession& session, FinerLimits& finer) {
+  if (session.best()) finer.correct(*session.best());
+  return session.best() || session.refused_by_shifts();
 }
 
 /// The search with its limits corrected by what finer meshes say, at its start and where it ends. Its best candidate
@@ -157,8 +156,8 @@ SearchOutcome corrected_search(EvaluationSession& session, FinerLimits& finer) {
   constexpr CorrectionParams kParams;
   const auto all = static_cast<std::size_t>(options.max_evaluations);
   const bool only_scan = options.algorithm == Algorithm::scan;
-  correct_at_start(session, finer);
-  if (finer.active()) keep_for_looks(session);
+  bool corrected = !finer.active() || correct_at_start(session, finer);
+  if (finer.active()) leave(session, corrected ? kParams.reserve : kParams.uncorrected, all);
   SearchOutcome outcome = only_scan ? SearchOutcome{.status = Status::converged, .message = "scan: complete"}
                                     : within_budget([&] { return search(session); });
   double step = kParams.step * options.initial_step;
@@ -175,22 +174,25 @@ SearchOutcome corrected_search(EvaluationSession& session, FinerLimits& finer) {
       if (!unfinished || next == held) return outcome;
       held = next;
     }
-    if (look + 1 >= kParams.looks) {
+    if (look + 1 >= kParams.looks || session.time_over()) {
       settle_for_another(session, finer, kParams);
       break;
     }
     if (left == 0 || only_scan) continue;
-    if (refused) {
-      // The search was led by what others change there, which refused everyone: it begins anew. Without any to look at
-      // what was kept for looks serves to find one.
-      const auto kept = static_cast<std::size_t>(kParams.reserve * static_cast<double>(left));
-      session.limit(next ? all - kept : all);
-      outcome = within_budget([&] { return search_once(session, options.initial_step, kParams.looks + look); });
+    // A search that was led by what others change there, which refused everyone, begins anew, and one that was cut
+    // short before a first look which finds nothing to correct goes on. Without any to look at what was kept for looks
+    // serves to find one.
+    const bool cut_short = !std::exchange(corrected, true) && held;
+    if (refused || cut_short) {
+      leave(session, next ? kParams.reserve : 0, left);
+      outcome = within_budget([&] { return search_once(session, options.initial_step, 0); });
       continue;
     }
     session.limit(known + (left + 1) / 2);
     step = std::max(step, 2 * stopping_step(options));
-    static_cast<void>(within_budget([&] { return search_once(session, step, look + 1); }));
+    if (const SearchOutcome again = within_budget([&] { return search_once(session, step, look + 1); });
+        again.status == Status::converged)
+      outcome = again;
     step /= 2;
   }
   if (finer.active() && all_refused(session))
@@ -227,18 +229,21 @@ SearchOutcome front_search(EvaluationSession& session, FinerLimits& finer) {
     session.focus({});
     return found;
   };
-  correct_at_start(session, finer);
   const auto all = static_cast<std::size_t>(options.max_evaluations);
-  // With nobody left the search may have to be done again.
-  if (finer.active() && !session.best()) keep_for_looks(session);
+  // Without a design to correct limits by, or where it refuses everyone, the search may have to be done again.
+  const bool corrected = !finer.active() || (correct_at_start(session, finer) && session.best());
+  if (!corrected) leave(session, kParams.uncorrected, all);
   SearchOutcome outcome = points();
-  session.limit(all);
+  leave(session, 0, 0);
+  bool kept = !corrected;
   for (int look = 0; finer.active() && look < kParams.looks; ++look) {
     const std::optional<std::size_t> next = next_to_look_at(session);
     const bool refused = !session.best();
-    if (!next && (outcome.status != Status::iteration_limit || session.candidates().size() == all)) break;
-    if (next && finer.holds(*next) && !refused) return outcome;
-    if (refused && (!next || session.best())) outcome = points();
+    kept = kept && outcome.status == Status::iteration_limit && session.candidates().size() < all;
+    if (!next && !kept) break;
+    if (next && finer.holds(*next) && !refused && !kept) return outcome;
+    if (kept || (refused && session.best())) outcome = points();
+    kept = false;
   }
   if (!finer.active() || (session.best() && session.accepted(front_in(session).compromise))) return outcome;
   if (session.best())

@@ -73,6 +73,8 @@ class EvaluationSession {
   [[nodiscard]] int unused_records() const;
   /// Throws StopSearch when the user asked for the end.
   void stop_if_asked() const;
+  /// No evaluation begins any more. The start is computed whatever the time.
+  [[nodiscard]] bool time_over() const { return hooks_.time_over && !candidates_.empty() && hooks_.time_over(); }
 
  private:
   struct Pending {
@@ -87,8 +89,6 @@ class EvaluationSession {
   void call_evaluator(Pending& candidate) const;
   void commit(Pending& candidate, const std::string& phase);
   void judge_again();
-  /// The start is computed whatever the time.
-  [[nodiscard]] bool time_over() const { return hooks_.time_over && !candidates_.empty() && hooks_.time_over(); }
   [[nodiscard]] Judgement judged(std::size_t index, const Evaluation& evaluation) const;
 
   const Problem& problem_;

@@ -90,7 +90,7 @@ TEST(FinerLimitsOf, ARunThatNeverMetItsLimitsDoesNotBlameFinerMeshes) {
   EXPECT_FALSE(result.message.starts_with(";")) << result.message;
 }
 
-/// The bowl with a second limit, which the start keeps and most who keep the first do not.
+/// The bowl with a second limit: few designs keep both.
 Evaluation tilted(std::span<const double> x) {
   Evaluation e = bowl(x);
   e.responses["tilt"] = 8 - x[1];
@@ -103,7 +103,7 @@ Problem tilted_bowl() {
   return problem;
 }
 
-/// Without a scan, which would find who keeps both limits before the start is looked at.
+/// With next to no scan, which would find who keeps both limits.
 OptimizerOptions without_scan(Algorithm algorithm) {
   OptimizerOptions result = options();
   result.algorithm = algorithm;
@@ -172,6 +172,67 @@ TEST(FinerLimitsOf, WhatOneDesignChangesDoesNotRefuseAFront) {
     EXPECT_EQ(result.message.find("not looked at"), std::string::npos) << result.message;
     EXPECT_GT(result.front->points.size(), 5U);
   }
+}
+
+// A start that breaks its limit costs the search nothing but a look where finer meshes change nothing.
+TEST(FinerLimitsOf, AStartThatBreaksItsLimitIsNoReasonToSearchLess) {
+  OptimizerOptions some = options();
+  some.scan_evaluations = 0;
+  for (const Algorithm algorithm : {Algorithm::cobyla, Algorithm::slsqp, Algorithm::ipopt}) {
+    SCOPED_TRACE(to_string(algorithm));
+    some.algorithm = algorithm;
+    some.max_evaluations = 200;
+    const RunHooks hooks{.finer = [](std::span<const double> x, int) { return bowl(x); }};
+    const OptimizationResult result = run_optimization(low_bowl(), bowl, some, hooks);
+    EXPECT_EQ(result.status, Status::converged) << result.message;
+    EXPECT_NEAR(result.evaluations[*result.best].judgement.objective, 1 + 1.0 / 9, 1e-3);
+    EXPECT_LE(result.finer.size(), 3U);  // of the first that keeps it, and of the best twice
+  }
+  Problem far = two_bowls();  // the start breaks x >= 2.7
+  far.constraints.front().lower = 2.7;
+  some.algorithm = Algorithm::nsga2;
+  some.max_evaluations = 120;
+  const RunHooks hooks{.finer = [](std::span<const double> x, int) { return two_bowls_at(x); }};
+  const OptimizationResult result = run_optimization(far, two_bowls_at, some, hooks);
+  EXPECT_EQ(result.evaluations.size(), 120U);
+  EXPECT_TRUE(result.best) << result.message;
+}
+
+// What is kept for looks is spent before a front says that its budget is used up.
+TEST(FinerLimitsOf, AFrontSpendsItsWholeBudget) {
+  OptimizerOptions some = options();
+  some.algorithm = Algorithm::nsga2;
+  some.max_evaluations = 120;
+  for (const double change : {0.0, -9.0}) {  // of those that come after the first: all hold, or none
+    SCOPED_TRACE(change);
+    const FinerEvaluator first = first_changes(two_bowls_at, "x", -9);
+    const RunHooks hooks{.finer = [&](std::span<const double> x, int level) {
+      Evaluation e = first(x, level);
+      e.responses["x"] += change;
+      return e;
+    }};
+    const OptimizationResult result = run_optimization(two_bowls(), two_bowls_at, some, hooks);
+    EXPECT_EQ(result.best.has_value(), change == 0) << result.message;
+    EXPECT_EQ(result.evaluations.size(), 120U) << result.message;
+  }
+}
+
+// The time of a run is over for searching on, and for looks at one after the other.
+TEST(FinerLimitsOf, FewLooksComeAfterTheTimeOfARun) {
+  int evaluations = 0;
+  const Evaluator counting = [&](std::span<const double> x) {
+    ++evaluations;
+    return bowl(x);
+  };
+  RunHooks hooks{.finer = [](std::span<const double> x, int) {
+    Evaluation e = bowl(x);
+    e.responses["height"] += 20;
+    return e;
+  }};
+  hooks.time_over = [&] { return evaluations >= 20; };
+  const OptimizationResult result = run_optimization(low_bowl(), counting, options(), hooks);
+  EXPECT_FALSE(result.best);
+  EXPECT_LE(result.finer.size(), 8U);
 }
 
 // One that held is known to hold: what is seen of another one cannot refuse it any more.
