@@ -45,13 +45,16 @@ void FinerLimits::make_up(const FinerCheck& check, double more, std::vector<doub
   }
 }
 
-void FinerLimits::correct(std::size_t candidate) {
-  if (!active() || !session_[candidate].judgement.computed) return;
+bool FinerLimits::correct(std::size_t candidate) {
+  if (!session_[candidate].judgement.computed) return false;
+  const bool kept = session_[candidate].evaluation.feasible;
   const FinerCheck& check = look(candidate, 1);
-  if (!check.evaluation.converged()) return;
+  if (!check.evaluation.converged()) return kept;
   std::vector<double> shifts(session_.shifts().size(), 0.0);
   make_up(check, 1, shifts);
+  if (!kept && std::ranges::max(shifts) > CorrectionParams{}.guide) return false;
   session_.shift_constraints(std::move(shifts));
+  return true;
 }
 
 bool FinerLimits::holds(std::size_t candidate) {

@@ -15,8 +15,10 @@ class FinerLimits {
 
   /// There are limits, and finer meshes to look at them.
   [[nodiscard]] bool active() const;
-  /// Shifts the session's constraints by what one level finer changes at a candidate. Throws StopSearch.
-  void correct(std::size_t candidate);
+  /// Shifts the session's constraints by what one level finer changes at a candidate. Of one that breaks limits large
+  /// changes say nothing of others: as a part of what it has too much of they may refuse all. Whether it says anything.
+  /// Throws StopSearch.
+  bool correct(std::size_t candidate);
   /// Whether the candidate keeps its limits on every level. If so, it is accepted; if not, rejected, and the session's
   /// constraints are shifted by what was seen. Throws StopSearch.
   bool holds(std::size_t candidate);

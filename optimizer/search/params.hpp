@@ -18,6 +18,9 @@ struct SubstituteParams {
 struct CorrectionParams {
   double reserve = 0.2;      ///< of the evaluations, for what is left to do after a look
   double uncorrected = 0.5;  ///< the same, where the search begins with no design to correct limits by
+  /// Of a limit, change on a finer mesh of a design that breaks limits, up to which it is a guide to others. With the
+  /// 0.7 that a sharp flank end adds to a pressure everybody is refused, and nothing is found. 0: no guide.
+  double guide = 0.1;
   double step = 0.25;  ///< first step of the search that goes on, by that of the search; halves from round to round
   int looks = 6;       ///< while the search goes on, and as many in the end at what is known
   double apart = 0.1;  ///< a known design closer than this in every variable to one that broke its limits is passed

@@ -142,11 +142,10 @@ void leave(EvaluationSession& session, double part, std::size_t of) {
       std::max(session.candidates().size(), static_cast<std::size_t>(session.options().max_evaluations) - left));
 }
 
-/// By what is seen where the search begins, at the best design. Of a design that breaks limits it is no guide to
-/// others: as a part of what that one has too much of it may refuse them all. Whether there is one to correct them by.
-bool correct_at_start(EvaluationSession& session, FinerLimits& finer) {
-  if (session.best()) finer.correct(*session.best());
-  return session.best() || session.refused_by_shifts();
+/// By what is seen where the search begins: at the best design, or the one that breaks its limits by the least. Whether
+/// that says anything.
+bool correct_at_start(const EvaluationSession& session, FinerLimits& finer) {
+  return finer.correct(session.best().value_or(session.least_broken().value_or(0)));
 }
 
 /// The search with its limits corrected by what finer meshes say, at its start and where it ends. Its best candidate
@@ -231,7 +230,7 @@ SearchOutcome front_search(EvaluationSession& session, FinerLimits& finer) {
   };
   const auto all = static_cast<std::size_t>(options.max_evaluations);
   // Without a design to correct limits by, or where it refuses everyone, the search may have to be done again.
-  const bool corrected = !finer.active() || (correct_at_start(session, finer) && session.best());
+  const bool corrected = !finer.active() || (correct_at_start(session, finer) && !session.refused_by_shifts());
   if (!corrected) leave(session, kParams.uncorrected, all);
   SearchOutcome outcome = points();
   leave(session, 0, 0);

@@ -198,6 +198,22 @@ TEST(FinerLimitsOf, AStartThatBreaksItsLimitIsNoReasonToSearchLess) {
   EXPECT_TRUE(result.best) << result.message;
 }
 
+// Little that changes at such a start leads the search to where limits are kept on finer meshes at once.
+TEST(FinerLimitsOf, AStartThatBreaksItsLimitIsAGuideWhereLittleChanges) {
+  OptimizerOptions some = options();
+  some.scan_evaluations = 0;
+  const RunHooks hooks{.finer = [](std::span<const double> x, int) {
+    Evaluation e = bowl(x);
+    e.responses["height"] += 0.1;
+    return e;
+  }};
+  const OptimizationResult result = run_optimization(low_bowl(), bowl, some, hooks);
+  ASSERT_TRUE(result.best) << result.message;
+  ASSERT_EQ(result.finer.size(), 3U);
+  EXPECT_EQ(result.finer.front().candidate, 0U);
+  EXPECT_EQ(result.finer[1].candidate, *result.best);
+}
+
 // What is kept for looks is spent before a front says that its budget is used up.
 TEST(FinerLimitsOf, AFrontSpendsItsWholeBudget) {
   OptimizerOptions some = options();
