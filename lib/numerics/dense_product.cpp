@@ -100,6 +100,15 @@ void add_product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<co
               static_cast<int>(b.outerStride()), 1.0, c.data(), static_cast<int>(c.outerStride()));
 }
 
+void add_product_transposed(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b,
+                            Eigen::Ref<Eigen::MatrixXd> c) {
+  assert(a.cols() == b.cols() && c.rows() == a.rows() && c.cols() == b.rows());
+  if (c.size() == 0 || a.cols() == 0) return;
+  cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, static_cast<int>(a.rows()), static_cast<int>(b.rows()),
+              static_cast<int>(a.cols()), 1.0, a.data(), static_cast<int>(a.outerStride()), b.data(),
+              static_cast<int>(b.outerStride()), 1.0, c.data(), static_cast<int>(c.outerStride()));
+}
+
 Eigen::MatrixXd product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b) {
   return multiplied<Eigen::MatrixXd>(CblasNoTrans, a, b);
 }

@@ -10,6 +10,9 @@ void product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, Eigen::MatrixXd
 /// C += A B, C of the right size; all may be blocks of larger matrices.
 void add_product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b,
                  Eigen::Ref<Eigen::MatrixXd> c);
+/// C += A B^T, the same.
+void add_product_transposed(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b,
+                            Eigen::Ref<Eigen::MatrixXd> c);
 [[nodiscard]] Eigen::MatrixXd product(const Eigen::Ref<const Eigen::MatrixXd>& a,
                                       const Eigen::Ref<const Eigen::MatrixXd>& b);
 [[nodiscard]] Eigen::MatrixXcd product(const Eigen::Ref<const Eigen::MatrixXcd>& a,

@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cstddef>
 
+#include "numerics/dense_product.hpp"
+
 namespace dovetail::numerics {
 
 namespace {
@@ -59,6 +61,36 @@ Eigen::MatrixXd symmetric_product(const Eigen::SparseMatrix<double>& a, const Ei
   const Eigen::Map<const SparseRows> rows(a.rows(), a.cols(), a.nonZeros(), a.outerIndexPtr(), a.innerIndexPtr(),
                                           a.valuePtr(), a.innerNonZeroPtr());
   return multiplied(rows, Rows(x));
+}
+
+Eigen::MatrixXd congruent(const Eigen::MatrixXd& x, const Eigen::SparseMatrix<double>& a) {
+  assert(a.rows() == a.cols() && a.cols() == x.cols());
+  constexpr Eigen::Index kBlock = 256;  // columns of X and of X A that the cache holds
+  constexpr Eigen::Index kPanels = 4;   // of the symmetric product, each up to its last column
+  const Eigen::Index rows = x.rows();
+  Eigen::MatrixXd left(rows, kBlock), right(rows, kBlock);
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(rows, rows);
+  const auto add = [&](Eigen::Index columns) {
+    for (Eigen::Index panel = 0; panel < kPanels; ++panel) {
+      const Eigen::Index first = panel * rows / kPanels, end = (panel + 1) * rows / kPanels;
+      add_product_transposed(left.block(first, 0, end - first, columns), right.topLeftCorner(end, columns),
+                             result.block(first, 0, end - first, end));
+    }
+  };
+  Eigen::Index columns = 0;
+  for (Eigen::Index column = 0; column < a.cols(); ++column) {
+    Eigen::SparseMatrix<double>::InnerIterator entry(a, column);
+    if (!entry) continue;
+    left.col(columns) = x.col(column);
+    right.col(columns).setZero();
+    // Whole columns of X one after the other: they are asked for in no order, and each is read as it lies.
+    for (; entry; ++entry) right.col(columns) += entry.value() * x.col(entry.row());
+    if (++columns < kBlock) continue;
+    add(columns);
+    columns = 0;
+  }
+  add(columns);
+  return result.selfadjointView<Eigen::Lower>();
 }
 
 }  // namespace dovetail::numerics

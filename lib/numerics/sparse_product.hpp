@@ -15,4 +15,7 @@ using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMaj
 /// The same with a symmetric A, whose columns are its rows.
 [[nodiscard]] Eigen::MatrixXd symmetric_product(const Eigen::SparseMatrix<double>& a, const Eigen::MatrixXd& x);
 
+/// X A X^T with a symmetric A, whose columns are its rows. Empty ones cost nothing.
+[[nodiscard]] Eigen::MatrixXd congruent(const Eigen::MatrixXd& x, const Eigen::SparseMatrix<double>& a);
+
 }  // namespace dovetail::numerics

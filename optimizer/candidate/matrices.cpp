@@ -51,10 +51,10 @@ Eigen::SparseMatrix<double> geometric_stiffness(const Scene& scene, const fem::S
                                        fem::quadrature_stress(sector.mesh, materials(scene), displacement));
 }
 
-/// Displacements to unit forces on the trace.
+/// Displacements to unit forces on the trace, transposed.
 Eigen::MatrixXd forced(const reduction::ResidualFlexibility& structure) {
   const Eigen::Index m = structure.basis().vectors.cols(), trace = structure.on_contact().rows();
-  return structure.field(Eigen::MatrixXd::Zero(m, trace), Eigen::MatrixXd::Identity(trace, trace));
+  return structure.field(Eigen::MatrixXd::Zero(m, trace), Eigen::MatrixXd::Identity(trace, trace)).transpose();
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ struct Matrices {
   // To add what the preload of another design changes:
   reduction::StaticCondensation at_rest;  ///< of K; its factors are kept for designs that share the matrices alone
   Eigen::VectorXd preloaded;              ///< displacement of all nodes
-  Eigen::MatrixXd forced;                 ///< to unit forces on the trace [n, nt]
+  Eigen::MatrixXd forced;                 ///< to unit forces on the trace, transposed [nt, n]
 };
 
 /// What the preload that stresses the matrices acts on.

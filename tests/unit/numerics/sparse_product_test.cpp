@@ -40,5 +40,17 @@ TEST(SparseProduct, TakesColumnsOfASymmetricMatrixForRows) {
   EXPECT_LE((symmetric_product(a, x) - Eigen::MatrixXd(a) * x).norm(), 1e-14 * x.norm());
 }
 
+// Every number of rows, more columns than one block, and empty ones.
+TEST(SparseProduct, IsCongruent) {
+  Eigen::SparseMatrix<double> a = scattered(1300, 1300, 700);
+  a = Eigen::SparseMatrix<double>(a + Eigen::SparseMatrix<double>(a.transpose()));
+  for (const Eigen::Index rows : {0, 1, 2, 7, 36, 71}) {
+    const Eigen::MatrixXd x = Eigen::MatrixXd::Random(rows, 1300), exact = x * (a * x.transpose());
+    const Eigen::MatrixXd found = congruent(x, a);
+    EXPECT_LE((found - exact).norm(), 1e-14 * exact.norm()) << rows;
+    EXPECT_EQ(found, found.transpose());
+  }
+}
+
 }  // namespace
 }  // namespace dovetail::numerics

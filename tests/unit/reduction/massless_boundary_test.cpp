@@ -227,7 +227,7 @@ TEST_P(AtSpeed, AChangeOfTheStiffnessIsTakenToFirstOrder) {
     TraceModel changed = trace;
     const Eigen::Index m = trace.structure->basis().vectors.cols(), nt = full.contact_size();
     const Eigen::MatrixXd forced =
-        trace.structure->field(Eigen::MatrixXd::Zero(m, nt), Eigen::MatrixXd::Identity(nt, nt));
+        trace.structure->field(Eigen::MatrixXd::Zero(m, nt), Eigen::MatrixXd::Identity(nt, nt)).transpose();
     changed.change = std::make_shared<StiffnessChange>(stiffness_change(*trace.structure, size * change, forced));
     const Reduction found = reduce(changed, same, trace.contact, 1e-3);
     FullModel exact = full;
