@@ -18,6 +18,13 @@ struct SearchOutcome {
   std::string message;
 };
 
+/// How it ended, for people.
+[[nodiscard]] inline std::string words_of(const SearchOutcome& outcome) {
+  if (outcome.status == Status::iteration_limit && outcome.message.empty()) return kBudgetUsedUp;
+  if (outcome.status == Status::interrupted) return "interrupted; everything finished is kept";
+  return outcome.message;
+}
+
 /// Keeps what a callback throws while a C library is on the stack: `run` returns false once anything was thrown, and
 /// the caller rethrows when the library has returned.
 class CallbackGuard {
