@@ -60,6 +60,18 @@ auto of_best(const RunRecord& record, const Records& records) {
   return found;
 }
 
+/// How the best design keeps its limits on a finer mesh.
+std::string kept_there(const RunRecord& record, const FinerRecord& look) {
+  if (!optimizer::converged(look.status)) return "could not be computed (" + look.status + ")";
+  if (const auto limits = broken(record, look.constraints); !limits.empty()) return "breaks " + listed(limits);
+  const auto least = std::ranges::max_element(look.constraints);
+  const auto at = static_cast<std::size_t>(least - look.constraints.begin());
+  const std::vector<std::string> names = constraint_names(record.problem);
+  if (at >= names.size()) return "keeps every limit";
+  return fmt::format("keeps every limit; nearest is {}, kept by {}", limit_words(names[at], record.problem),
+                     percentage(-*least));
+}
+
 std::string plain_bar(double bar, const Unit& unit) {
   return significant(bar / unit.si, 2) + (unit.symbol.empty() ? "" : "\u00a0" + unit.symbol);
 }
@@ -97,13 +109,8 @@ std::vector<std::string> how_sure(const RunRecord& record) {
     all.push_back(fmt::format("Wear by the full history, wear found directly and at finer settings{}: {}.",
                               v->load_case.empty() ? "" : " (" + v->load_case + ")", v->agreement()));
   if (verified.empty()) all.push_back("The best design was not held against a wear history.");
-  for (const FinerRecord* finer : of_best(record, record.finer)) {
-    const std::vector<std::string> limits = broken(record, finer->constraints);
-    all.push_back(fmt::format("With {} edges along each flank it {}.", finer->flank_elements,
-                              !optimizer::converged(finer->status) ? "could not be computed (" + finer->status + ")"
-                              : limits.empty()                     ? "keeps every limit"
-                                                                   : "breaks " + listed(limits)));
-  }
+  for (const FinerRecord* finer : of_best(record, record.finer))
+    all.push_back(fmt::format("{} it {}.", capital(mesh_words(*finer)), kept_there(record, *finer)));
   return all;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 
@@ -158,14 +159,34 @@ ObjectiveScale objective_scale(const RunRecord& record) {
   return {.factor = si / unit.si, .unit = unit.symbol, .label = term_words(record.problem, term)};
 }
 
+bool keeps_all(const EvaluationRecord& evaluation) {
+  return optimizer::converged(evaluation.status) &&
+         std::ranges::all_of(evaluation.constraints, [](double c) { return c <= 0; }) &&
+         std::ranges::all_of(evaluation.rules, [](const auto& rule) { return rule.second <= 0; });
+}
+
+std::string mesh_words(const FinerRecord& check) {
+  return check.flank_elements > 0 ? fmt::format("with {} edges along each flank", check.flank_elements)
+                                  : std::string("on a finer mesh");
+}
+
 std::vector<std::string> holding(const RunRecord& record) {
   constexpr double kNear = 0.005;
   std::vector<std::string> found;
   const EvaluationRecord* best = best_of(record);
   if (!best) return found;
   const std::vector<std::string> names = constraint_names(record.problem);
-  for (std::size_t i = 0; i < std::min(names.size(), best->constraints.size()); ++i)
-    if (best->constraints[i] > -kNear) found.push_back(limit_words(names[i], record.problem));
+  for (std::size_t i = 0; i < std::min(names.size(), best->constraints.size()); ++i) {
+    const std::string limit = limit_words(names[i], record.problem);
+    const auto there = std::ranges::find_if(record.finer, [&](const FinerRecord& look) {
+      return look.evaluation == static_cast<std::int64_t>(*record.best) && i < look.constraints.size() &&
+             look.constraints[i] > -kNear;
+    });
+    if (best->constraints[i] > -kNear)
+      found.push_back(limit);
+    else if (there != record.finer.end())
+      found.push_back(limit + " " + mesh_words(*there));
+  }
   for (const auto& [name, c] : best->rules)
     if (c > -kNear && c != 0) found.push_back("the geometric rule \u201c" + words(name) + "\u201d");
   const std::vector<optimizer::DesignVariable>& variables = record.problem.space.variables();
@@ -191,9 +212,10 @@ std::vector<std::string> without_bar(const RunRecord& record) {
 }
 
 std::string ending(const RunRecord& record) {
-  std::size_t feasible = 0, failed = 0;
+  std::size_t feasible = 0, failed = 0, refused = 0;
   for (const EvaluationRecord& e : record.evaluations) {
     feasible += e.feasible ? 1 : 0;
+    refused += !e.feasible && keeps_all(e) ? 1 : 0;
     const optimizer::Outcome outcome = optimizer::outcome_of(e.status);
     failed += outcome != optimizer::Outcome::converged && outcome != optimizer::Outcome::infeasible ? 1 : 0;
   }
@@ -206,8 +228,10 @@ std::string ending(const RunRecord& record) {
           ? "The search converged."
           : fmt::format("The search {}: {}{}", status == Status::iteration_limit ? "ended" : "stopped early", why,
                         why.ends_with(".") ? "" : ".");
-  return fmt::format("{} It looked at {}: {} feasible, {} breaking a limit or a geometric rule, {} not computed.", how,
-                     counted(static_cast<std::size_t>(all), "candidate"), feasible, all - feasible - failed, failed);
+  const std::string finer = refused == 0 ? "" : fmt::format(" ({} of them by what finer meshes add alone)", refused);
+  return fmt::format("{} It looked at {}: {} feasible, {} breaking a limit or a geometric rule{}, {} not computed.",
+                     how, counted(static_cast<std::size_t>(all), "candidate"), feasible, all - feasible - failed, finer,
+                     failed);
 }
 
 std::string at_bound(const optimizer::DesignVariable& variable, double value) {

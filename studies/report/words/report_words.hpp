@@ -61,8 +61,14 @@ struct ObjectiveScale {
 };
 [[nodiscard]] ObjectiveScale objective_scale(const RunRecord& record);
 
+/// Whether a candidate keeps its limits and rules on the mesh of the search, whatever finer ones say.
+[[nodiscard]] bool keeps_all(const EvaluationRecord& evaluation);
+
+/// "with 96 edges along each flank"
+[[nodiscard]] std::string mesh_words(const FinerRecord& look);
+
 /// What holds the best design: active limits, geometric rules and bounds by name. A limit or rule counts as active
-/// within 0.5 % of its scale, a bound within 0.5 % of the variable's range.
+/// within 0.5 % of its scale, there or on a finer mesh, a bound within 0.5 % of the variable's range.
 [[nodiscard]] std::vector<std::string> holding(const RunRecord& record);
 
 /// What the objective or a limit rests on while its value at the best design has no error bar, though others have one.

@@ -21,18 +21,6 @@ std::string missed(const std::string& what, std::int64_t candidate, double by) {
                      significant(100 * by, 2));
 }
 
-/// On the mesh of the search, whatever finer ones say.
-bool keeps_all(const EvaluationRecord& evaluation) {
-  return optimizer::converged(evaluation.status) &&
-         std::ranges::all_of(evaluation.constraints, [](double c) { return c <= 0; }) &&
-         std::ranges::all_of(evaluation.rules, [](const auto& rule) { return rule.second <= 0; });
-}
-
-std::string mesh_words(const FinerRecord& check) {
-  return check.flank_elements > 0 ? fmt::format("with {} edges along each flank", check.flank_elements)
-                                  : std::string("on a finer mesh");
-}
-
 /// Of what candidates keep on the mesh of the search: the limits that no look at a finer one keeps, each where it is
 /// missed by least.
 std::vector<Unkept> never_kept_in(const RunRecord& record, const std::vector<const FinerRecord*>& looks) {

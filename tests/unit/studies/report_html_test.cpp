@@ -45,6 +45,11 @@ TEST(ReportWords, SayWhyASearchEnded) {
   record.status = "stalled";
   record.message = "";
   EXPECT_THAT(ending(record), StartsWith("The search stopped early: stalled. It looked at"));
+  EXPECT_THAT(ending(record), Not(HasSubstr("finer meshes")));
+  record.evaluations[1].constraints = {-0.02};
+  record.evaluations[1].rules.clear();
+  record.evaluations[1].feasible = false;
+  EXPECT_THAT(ending(record), HasSubstr("(1 of them by what finer meshes add alone)"));
 }
 
 TEST(Escape, LeavesNothingThatMarkupUnderstands) {
@@ -132,6 +137,24 @@ TEST(Report, SaysWhatChangedAndWhatHoldsTheBest) {
             "error bars of the two values (39 times their sum).");
   EXPECT_THAT(holding(record), testing::ElementsAre("the upper limit of the peak amplitude (8\u00a0mm)",
                                                     "the upper bound of the neck width"));
+}
+
+TEST(Report, SaysWhatHoldsTheBestOnAFinerMesh) {
+  RunRecord record = sample_record();
+  record.evaluations[*record.best].constraints = {-0.02};
+  const FinerRecord there{.evaluation = static_cast<std::int64_t>(*record.best),
+                          .flank_elements = 96,
+                          .status = "converged",
+                          .constraints = {-0.0045}};
+  record.finer = {there};
+  EXPECT_THAT(holding(record), testing::ElementsAre("the upper limit of the peak amplitude (8\u00a0mm) with 96 edges "
+                                                    "along each flank",
+                                                    "the upper bound of the neck width"));
+  EXPECT_THAT(how_sure(record),
+              testing::Contains("With 96 edges along each flank it keeps every limit; nearest is "
+                                "the upper limit of the peak amplitude (8\u00a0mm), kept by 0.45\u00a0%."));
+  record.finer.front().evaluation += 1;  // another design's
+  EXPECT_THAT(holding(record), testing::ElementsAre("the upper bound of the neck width"));
 }
 
 TEST(Report, DoesNotCallAChangeWithinTheErrorAnImprovement) {
@@ -410,7 +433,9 @@ TEST(Answers, TellHowSureAndHowFar) {
   RunRecord record = sample_record();
   EXPECT_THAT(how_sure(record), testing::Contains("Error bar: asymptotic wear volume \u00b12.0\u00a0%."));
   EXPECT_THAT(how_sure(record), testing::Contains("The best design was not held against a wear history."));
-  EXPECT_THAT(how_sure(record), testing::Contains("With 32 edges along each flank it keeps every limit."));
+  EXPECT_THAT(how_sure(record),
+              testing::Contains("With 32 edges along each flank it keeps every limit; nearest is the upper limit of "
+                                "the peak amplitude (8\u00a0mm), kept by 1.0\u00a0%."));
   record.verifications.front().evaluation = 3;
   EXPECT_THAT(how_sure(record), testing::Contains(HasSubstr("(cruise): agree within their bars")));
   EXPECT_THAT(
