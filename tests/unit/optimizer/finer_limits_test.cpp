@@ -1,40 +1,17 @@
 #include <gtest/gtest.h>
 
-#include <cmath>
-
-#include "bowl.hpp"
+#include "finer_bowls.hpp"
 #include "scratch_file.hpp"
 #include "two_bowls.hpp"
 
 namespace dovetail::optimizer {
 namespace {
 
-/// The bowl's bottom lies at height 4; with this limit the best point is where the limit is.
-Problem low_bowl() {
-  Problem problem = bowl_problem();
-  problem.constraints = {{.response = "height", .lower = {}, .upper = 3}};
-  return problem;
-}
-
-OptimizerOptions options() {
-  OptimizerOptions result = bowl_options(Algorithm::cobyla);
-  result.max_evaluations = 60;
-  return result;
-}
-
-/// Finer meshes see higher walls, and the more so the further from x = 0: what was measured at the start is wrong where
-/// the search ends.
-Evaluation finer_bowl(std::span<const double> x, int level) {
-  Evaluation e = bowl(x);
-  e.responses["height"] += 0.1 * level + 0.1 * std::abs(x[0]);
-  return e;
-}
-
 class FinerLimits : public ScratchFile {};
 
 TEST(FinerLimitsOf, TheBestDesignHoldOnEveryMesh) {
   const RunHooks hooks{.finer = finer_bowl};
-  const OptimizationResult result = run_optimization(low_bowl(), bowl, options(), hooks);
+  const OptimizationResult result = run_optimization(low_bowl(), bowl, short_search(), hooks);
   ASSERT_TRUE(result.best) << result.message;
   const Candidate& best = result.evaluations[*result.best];
   for (int level = 1; level <= 2; ++level) EXPECT_LE(finer_bowl(best.x, level).responses.at("height"), 3) << level;
@@ -52,12 +29,12 @@ TEST(FinerLimitsOf, NothingIsAskedWithoutMeshesOrWithoutLimits) {
     ++asked;
     return finer_bowl(x, level);
   }};
-  OptimizerOptions none = options();
+  OptimizerOptions none = short_search();
   none.finer_meshes = 0;
   EXPECT_TRUE(run_optimization(low_bowl(), bowl, none, hooks).best);
   Problem free = low_bowl();
   free.constraints.clear();
-  EXPECT_TRUE(run_optimization(free, bowl, options(), hooks).best);
+  EXPECT_TRUE(run_optimization(free, bowl, short_search(), hooks).best);
   EXPECT_EQ(asked, 0);
 }
 
@@ -67,14 +44,14 @@ TEST(FinerLimitsOf, NoDesignIsHandedOverThatBreaksThemThere) {
     e.responses["height"] += 20;
     return e;
   }};
-  const OptimizationResult result = run_optimization(low_bowl(), bowl, options(), hooks);
+  const OptimizationResult result = run_optimization(low_bowl(), bowl, short_search(), hooks);
   EXPECT_FALSE(result.best);
   EXPECT_NE(result.message.find("finer"), std::string::npos) << result.message;
 }
 
 TEST(FinerLimitsOf, ADesignWithoutAnswerThereIsNotSaidToBreakThem) {
   const RunHooks hooks{.finer = [](std::span<const double>, int) { return failed(); }};
-  const OptimizationResult result = run_optimization(low_bowl(), bowl, options(), hooks);
+  const OptimizationResult result = run_optimization(low_bowl(), bowl, short_search(), hooks);
   EXPECT_FALSE(result.best);
   EXPECT_NE(result.message.find("finer ones have no answer"), std::string::npos) << result.message;
   EXPECT_EQ(result.message.find("break"), std::string::npos) << result.message;
@@ -83,7 +60,7 @@ TEST(FinerLimitsOf, ADesignWithoutAnswerThereIsNotSaidToBreakThem) {
 TEST(FinerLimitsOf, ARunThatNeverMetItsLimitsDoesNotBlameFinerMeshes) {
   Problem problem = low_bowl();
   problem.constraints.front().upper = -100;
-  const OptimizationResult result = run_optimization(problem, bowl, options(), {.finer = finer_bowl});
+  const OptimizationResult result = run_optimization(problem, bowl, short_search(), {.finer = finer_bowl});
   EXPECT_FALSE(result.best);
   EXPECT_EQ(result.message.find("finer"), std::string::npos) << result.message;
   EXPECT_EQ(result.message.find("; ;"), std::string::npos) << result.message;
@@ -105,7 +82,7 @@ Problem tilted_bowl() {
 
 /// With next to no scan, which would find who keeps both limits.
 OptimizerOptions without_scan(Algorithm algorithm) {
-  OptimizerOptions result = options();
+  OptimizerOptions result = short_search();
   result.algorithm = algorithm;
   result.scan_evaluations = 1;
   return result;
@@ -126,16 +103,6 @@ TEST(FinerLimitsOf, ARunRefusedByFinerMeshesSaysSo) {
   EXPECT_FALSE(result.finer.back().held);
   EXPECT_NE(result.message.find("limits kept on the search's mesh break on finer ones"), std::string::npos)
       << result.message;
-}
-
-/// The first candidate that is looked at changes by so much, all others by next to nothing.
-FinerEvaluator first_changes(const Evaluator& evaluator, const std::string& response, double by) {
-  return [=, first = std::vector<double>()](std::span<const double> x, int) mutable {
-    if (first.empty()) first.assign(x.begin(), x.end());
-    Evaluation e = evaluator(x);
-    e.responses[response] += std::ranges::equal(x, first) ? by : 0.01;
-    return e;
-  };
 }
 
 // Who keeps the limits must not be refused unseen for what another one changes, and the search goes on as it would have
@@ -161,7 +128,7 @@ TEST(FinerLimitsOf, WhatOneDesignChangesDoesNotRefuseAFront) {
   const Problem problem = two_bowls();
   for (const Algorithm algorithm : {Algorithm::nsga2, Algorithm::cobyla}) {
     SCOPED_TRACE(to_string(algorithm));
-    OptimizerOptions some = options();
+    OptimizerOptions some = short_search();
     some.algorithm = algorithm;
     some.max_evaluations = 200;
     // x is to be 0.5 at least.
@@ -171,65 +138,6 @@ TEST(FinerLimitsOf, WhatOneDesignChangesDoesNotRefuseAFront) {
     EXPECT_NE(result.status, Status::stalled) << result.message;
     EXPECT_EQ(result.message.find("not looked at"), std::string::npos) << result.message;
     EXPECT_GT(result.front->points.size(), 5U);
-  }
-}
-
-// A start that breaks its limit costs the search nothing but a look where finer meshes change nothing.
-TEST(FinerLimitsOf, AStartThatBreaksItsLimitIsNoReasonToSearchLess) {
-  OptimizerOptions some = options();
-  some.scan_evaluations = 0;
-  for (const Algorithm algorithm : {Algorithm::cobyla, Algorithm::slsqp, Algorithm::ipopt}) {
-    SCOPED_TRACE(to_string(algorithm));
-    some.algorithm = algorithm;
-    some.max_evaluations = 200;
-    const RunHooks hooks{.finer = [](std::span<const double> x, int) { return bowl(x); }};
-    const OptimizationResult result = run_optimization(low_bowl(), bowl, some, hooks);
-    EXPECT_EQ(result.status, Status::converged) << result.message;
-    EXPECT_NEAR(result.evaluations[*result.best].judgement.objective, 1 + 1.0 / 9, 1e-3);
-    EXPECT_LE(result.finer.size(), 3U);  // of the first that keeps it, and of the best twice
-  }
-  Problem far = two_bowls();  // the start breaks x >= 2.7
-  far.constraints.front().lower = 2.7;
-  some.algorithm = Algorithm::nsga2;
-  some.max_evaluations = 120;
-  const RunHooks hooks{.finer = [](std::span<const double> x, int) { return two_bowls_at(x); }};
-  const OptimizationResult result = run_optimization(far, two_bowls_at, some, hooks);
-  EXPECT_EQ(result.evaluations.size(), 120U);
-  EXPECT_TRUE(result.best) << result.message;
-}
-
-// Little that changes at such a start leads the search to where limits are kept on finer meshes at once.
-TEST(FinerLimitsOf, AStartThatBreaksItsLimitIsAGuideWhereLittleChanges) {
-  OptimizerOptions some = options();
-  some.scan_evaluations = 0;
-  const RunHooks hooks{.finer = [](std::span<const double> x, int) {
-    Evaluation e = bowl(x);
-    e.responses["height"] += 0.1;
-    return e;
-  }};
-  const OptimizationResult result = run_optimization(low_bowl(), bowl, some, hooks);
-  ASSERT_TRUE(result.best) << result.message;
-  ASSERT_EQ(result.finer.size(), 3U);
-  EXPECT_EQ(result.finer.front().candidate, 0U);
-  EXPECT_EQ(result.finer[1].candidate, *result.best);
-}
-
-// What is kept for looks is spent before a front says that its budget is used up.
-TEST(FinerLimitsOf, AFrontSpendsItsWholeBudget) {
-  OptimizerOptions some = options();
-  some.algorithm = Algorithm::nsga2;
-  some.max_evaluations = 120;
-  for (const double change : {0.0, -9.0}) {  // of those that come after the first: all hold, or none
-    SCOPED_TRACE(change);
-    const FinerEvaluator first = first_changes(two_bowls_at, "x", -9);
-    const RunHooks hooks{.finer = [&](std::span<const double> x, int level) {
-      Evaluation e = first(x, level);
-      e.responses["x"] += change;
-      return e;
-    }};
-    const OptimizationResult result = run_optimization(two_bowls(), two_bowls_at, some, hooks);
-    EXPECT_EQ(result.best.has_value(), change == 0) << result.message;
-    EXPECT_EQ(result.evaluations.size(), 120U) << result.message;
   }
 }
 
@@ -246,7 +154,7 @@ TEST(FinerLimitsOf, FewLooksComeAfterTheTimeOfARun) {
     return e;
   }};
   hooks.time_over = [&] { return evaluations >= 20; };
-  const OptimizationResult result = run_optimization(low_bowl(), counting, options(), hooks);
+  const OptimizationResult result = run_optimization(low_bowl(), counting, short_search(), hooks);
   EXPECT_FALSE(result.best);
   EXPECT_LE(result.finer.size(), 8U);
 }
@@ -261,7 +169,7 @@ TEST(FinerLimitsOf, ADesignThatHeldIsKeptWhateverLaterLooksSay) {
     e.responses["height"] += seen.size() > 2 ? 30 : 0.01;  // the first two hold
     return e;
   };
-  OptimizerOptions few = options();
+  OptimizerOptions few = short_search();
   few.max_evaluations = 10;
   const OptimizationResult result = run_optimization(low_bowl(), bowl, few, {.finer = finer});
   ASSERT_TRUE(result.best) << result.message;
@@ -273,7 +181,7 @@ TEST(FinerLimitsOf, ADesignThatHeldIsKeptWhateverLaterLooksSay) {
 TEST(FinerLimitsOf, ARunThatNeverMeetsItsLimitsSpendsItsWholeBudget) {
   Problem problem = low_bowl();
   problem.constraints[0].upper = -100;
-  OptimizerOptions few = options();
+  OptimizerOptions few = short_search();
   few.max_evaluations = 10;
   const OptimizationResult result = run_optimization(problem, bowl, few, {.finer = finer_bowl});
   EXPECT_FALSE(result.best);
@@ -282,7 +190,7 @@ TEST(FinerLimitsOf, ARunThatNeverMeetsItsLimitsSpendsItsWholeBudget) {
 
 TEST(FinerLimitsOf, ADesignThatFailsThereIsPassedOver) {
   const RunHooks hooks{.finer = [](std::span<const double> x, int) { return x[0] > 0.9 ? failed() : bowl(x); }};
-  const OptimizationResult result = run_optimization(low_bowl(), bowl, options(), hooks);
+  const OptimizationResult result = run_optimization(low_bowl(), bowl, short_search(), hooks);
   ASSERT_TRUE(result.best) << result.message;
   EXPECT_LE(result.evaluations[*result.best].x[0], 0.9);
 }
@@ -296,13 +204,13 @@ TEST_F(FinerLimits, AreNotComputedAgainWhenARunGoesOn) {
   OptimizationResult first, again;
   {
     Journal journal = Journal::create(file, "key");
-    first = run_optimization(low_bowl(), bowl, options(), {.finer = finer, .finer_journal = &journal});
+    first = run_optimization(low_bowl(), bowl, short_search(), {.finer = finer, .finer_journal = &journal});
   }
   const int before = asked;
   EXPECT_GT(before, 2);
   {
     Journal journal = Journal::resume(file, "key");
-    again = run_optimization(low_bowl(), bowl, options(), {.finer = finer, .finer_journal = &journal});
+    again = run_optimization(low_bowl(), bowl, short_search(), {.finer = finer, .finer_journal = &journal});
   }
   EXPECT_EQ(asked, before);
   EXPECT_EQ(again.best, first.best);
