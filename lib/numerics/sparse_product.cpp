@@ -63,7 +63,7 @@ Eigen::MatrixXd symmetric_product(const Eigen::SparseMatrix<double>& a, const Ei
   return multiplied(rows, Rows(x));
 }
 
-Eigen::MatrixXd congruent(const Eigen::MatrixXd& x, const Eigen::SparseMatrix<double>& a) {
+Eigen::MatrixXd congruent_by_rows(const Eigen::SparseMatrix<double>& a, const Eigen::MatrixXd& x) {
   assert(a.rows() == a.cols() && a.cols() == x.cols());
   constexpr Eigen::Index kBlock = 256;  // columns of X and of X A that the cache holds
   constexpr Eigen::Index kPanels = 4;   // of the symmetric product, each up to its last column

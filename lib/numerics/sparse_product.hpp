@@ -16,6 +16,6 @@ using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMaj
 [[nodiscard]] Eigen::MatrixXd symmetric_product(const Eigen::SparseMatrix<double>& a, const Eigen::MatrixXd& x);
 
 /// X A X^T with a symmetric A, whose columns are its rows. Empty ones cost nothing.
-[[nodiscard]] Eigen::MatrixXd congruent(const Eigen::MatrixXd& x, const Eigen::SparseMatrix<double>& a);
+[[nodiscard]] Eigen::MatrixXd congruent_by_rows(const Eigen::SparseMatrix<double>& a, const Eigen::MatrixXd& x);
 
 }  // namespace dovetail::numerics

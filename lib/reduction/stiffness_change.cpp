@@ -51,7 +51,7 @@ StiffnessChange stiffness_change(const ResidualFlexibility& structure, const Spa
   const Eigen::MatrixXd on_phi = numerics::symmetric_product(result.whole, phi);
   result.on_trace.resize(nt + m, nt + m);
   // Fields of contact forces decay: of them the rows count where the change is not negligible.
-  result.on_trace.topLeftCorner(nt, nt) = numerics::congruent(forced, what_counts(result.whole));
+  result.on_trace.topLeftCorner(nt, nt) = numerics::congruent_by_rows(what_counts(result.whole), forced);
   result.on_trace.topRightCorner(nt, m) = numerics::product(forced, on_phi);
   result.on_trace.bottomLeftCorner(m, nt) = result.on_trace.topRightCorner(nt, m).transpose();
   result.on_trace.bottomRightCorner(m, m) = numerics::transposed_product(phi, on_phi);

@@ -1,6 +1,8 @@
 #include "optimizer/search/corrected_search.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <utility>

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "optimizer/search/ipopt_search.hpp"
 #include "optimizer/search/nlopt_search.hpp"

@@ -61,15 +61,16 @@ auto of_best(const RunRecord& record, const Records& records) {
 }
 
 /// How the best design keeps its limits on a finer mesh.
-std::string kept_there(const RunRecord& record, const FinerRecord& look) {
+std::string kept_there(const RunRecord& record, const EvaluationRecord& best, const FinerRecord& look) {
   if (!optimizer::converged(look.status)) return "could not be computed (" + look.status + ")";
   if (const auto limits = broken(record, look.constraints); !limits.empty()) return "breaks " + listed(limits);
-  const auto least = std::ranges::max_element(look.constraints);
-  const auto at = static_cast<std::size_t>(least - look.constraints.begin());
+  const auto nearest = std::ranges::max_element(look.constraints);
+  const auto at = static_cast<std::size_t>(nearest - look.constraints.begin());
   const std::vector<std::string> names = constraint_names(record.problem);
   if (at >= names.size()) return "keeps every limit";
-  return fmt::format("keeps every limit; nearest is {}, kept by {}", limit_words(names[at], record.problem),
-                     percentage(-*least));
+  const Numbers bars = judgement_bars(record.problem, best.responses, best.error_estimates).constraints;
+  return fmt::format("keeps every limit; nearest is {} with {} room{}", limit_words(names[at], record.problem),
+                     percentage(-*nearest), -*nearest < bars[at] ? ", less than its error bar" : "");
 }
 
 std::string plain_bar(double bar, const Unit& unit) {
@@ -110,7 +111,7 @@ std::vector<std::string> how_sure(const RunRecord& record) {
                               v->load_case.empty() ? "" : " (" + v->load_case + ")", v->agreement()));
   if (verified.empty()) all.push_back("The best design was not held against a wear history.");
   for (const FinerRecord* finer : of_best(record, record.finer))
-    all.push_back(fmt::format("{} it {}.", capital(mesh_words(*finer)), kept_there(record, *finer)));
+    all.push_back(fmt::format("{} it {}.", capital(mesh_words(*finer)), kept_there(record, *best, *finer)));
   return all;
 }
 
@@ -242,8 +243,9 @@ std::vector<std::string> what_next(const RunRecord& record) {
     });
     if (doubted) all.push_back("Look into the verification first: its table says what does not agree.");
     add_bounds(record, *best, all);
-    std::vector<std::string> held = holding(record);
-    std::erase_if(held, [](const std::string& by) { return by.find(" bound of ") != std::string::npos; });
+    std::vector<std::string> held;
+    for (const Holder& by : holding(record))
+      if (by.what.find(" bound of ") == std::string::npos) held.push_back(by.what);
     if (!held.empty())
       all.push_back(fmt::format("Loosen {} if more is wanted: {} the best design.", listed(held),
                                 held.size() == 1 ? "it holds" : "they hold"));

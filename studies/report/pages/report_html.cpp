@@ -49,7 +49,8 @@ std::string notes(const Comparison& designs) {
 }
 
 void add_opening(const RunRecord& record, Blanks& blanks) {
-  const std::vector<std::string> held = holding(record);
+  std::vector<std::string> held;
+  for (const Holder& by : holding(record)) held.push_back(by.words());
   blanks["name"] = record.title.empty() ? record.name : record.title;
   blanks["headline"] = headline(record);
   blanks["best"] = record.front ? "compromise on this front" : "best design";

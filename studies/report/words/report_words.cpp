@@ -10,6 +10,7 @@
 
 #include "contact/wear_law.hpp"
 #include "optimizer/responses/response_table.hpp"
+#include "optimizer/search/params.hpp"
 
 namespace dovetail::report {
 
@@ -170,29 +171,35 @@ std::string mesh_words(const FinerRecord& check) {
                                   : std::string("on a finer mesh");
 }
 
-std::vector<std::string> holding(const RunRecord& record) {
+std::vector<Holder> holding(const RunRecord& record) {
   constexpr double kNear = 0.005;
-  std::vector<std::string> found;
+  // A search makes up for more than what a look changed in a limit that broke: so much of it may be left.
+  constexpr double kLeft = 1.1 * (optimizer::CorrectionParams{}.more - 1);
+  std::vector<Holder> found;
   const EvaluationRecord* best = best_of(record);
   if (!best) return found;
   const std::vector<std::string> names = constraint_names(record.problem);
   for (std::size_t i = 0; i < std::min(names.size(), best->constraints.size()); ++i) {
-    const std::string limit = limit_words(names[i], record.problem);
-    const auto there = std::ranges::find_if(record.finer, [&](const FinerRecord& look) {
-      return look.evaluation == static_cast<std::int64_t>(*record.best) && i < look.constraints.size() &&
-             look.constraints[i] > -kNear;
-    });
-    if (best->constraints[i] > -kNear)
-      found.push_back(limit);
+    const double here = best->constraints[i];
+    const auto holds = [&](const FinerRecord& look) {
+      if (look.evaluation != static_cast<std::int64_t>(*record.best) || i >= look.constraints.size()) return false;
+      const double there = look.constraints[i];
+      return there <= 0 && there > -kNear - kLeft * std::max(there - here, 0.0);
+    };
+    const auto there = std::ranges::find_if(record.finer, holds);
+    if (here > -kNear)
+      found.push_back({.what = limit_words(names[i], record.problem), .where = {}});
     else if (there != record.finer.end())
-      found.push_back(limit + " " + mesh_words(*there));
+      found.push_back({.what = limit_words(names[i], record.problem), .where = mesh_words(*there)});
   }
   for (const auto& [name, c] : best->rules)
-    if (c > -kNear && c != 0) found.push_back("the geometric rule \u201c" + words(name) + "\u201d");
+    if (c > -kNear && c != 0)
+      found.push_back({.what = "the geometric rule \u201c" + words(name) + "\u201d", .where = {}});
   const std::vector<optimizer::DesignVariable>& variables = record.problem.space.variables();
   for (std::size_t i = 0; i < std::min(variables.size(), best->x.size()); ++i) {
     const std::string bound = at_bound(variables[i], best->x[i]);
-    if (!bound.empty()) found.push_back(fmt::format("the {} bound of the {}", bound, key_words(variables[i].key)));
+    if (!bound.empty())
+      found.push_back({.what = fmt::format("the {} bound of the {}", bound, key_words(variables[i].key)), .where = {}});
   }
   return found;
 }
@@ -228,7 +235,9 @@ std::string ending(const RunRecord& record) {
           ? "The search converged."
           : fmt::format("The search {}: {}{}", status == Status::iteration_limit ? "ended" : "stopped early", why,
                         why.ends_with(".") ? "" : ".");
-  const std::string finer = refused == 0 ? "" : fmt::format(" ({} of them by what finer meshes add alone)", refused);
+  const std::string finer = refused == 0 || record.finer.empty()
+                                ? ""
+                                : fmt::format(", of them {} on finer meshes alone or by what these change", refused);
   return fmt::format("{} It looked at {}: {} feasible, {} breaking a limit or a geometric rule{}, {} not computed.",
                      how, counted(static_cast<std::size_t>(all), "candidate"), feasible, all - feasible - failed, finer,
                      failed);

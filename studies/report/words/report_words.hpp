@@ -67,9 +67,16 @@ struct ObjectiveScale {
 /// "with 96 edges along each flank"
 [[nodiscard]] std::string mesh_words(const FinerRecord& look);
 
-/// What holds the best design: active limits, geometric rules and bounds by name. A limit or rule counts as active
-/// within 0.5 % of its scale, there or on a finer mesh, a bound within 0.5 % of the variable's range.
-[[nodiscard]] std::vector<std::string> holding(const RunRecord& record);
+/// A limit, geometric rule or bound that holds the best design.
+struct Holder {
+  std::string what;   ///< "the upper limit of the peak amplitude (8 mm)"
+  std::string where;  ///< of a limit that only a finer mesh makes one: "with 96 edges along each flank"
+  [[nodiscard]] std::string words() const { return where.empty() ? what : what + " " + where; }
+};
+
+/// What holds the best design. A limit or rule counts within 0.5 % of its scale, a bound within 0.5 % of the variable's
+/// range; on a finer mesh a limit from which the search kept away by what it changes there counts, too.
+[[nodiscard]] std::vector<Holder> holding(const RunRecord& record);
 
 /// What the objective or a limit rests on while its value at the best design has no error bar, though others have one.
 [[nodiscard]] std::vector<std::string> without_bar(const RunRecord& record);

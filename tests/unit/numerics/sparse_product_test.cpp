@@ -46,7 +46,7 @@ TEST(SparseProduct, IsCongruent) {
   a = Eigen::SparseMatrix<double>(a + Eigen::SparseMatrix<double>(a.transpose()));
   for (const Eigen::Index rows : {0, 1, 2, 7, 36, 71}) {
     const Eigen::MatrixXd x = Eigen::MatrixXd::Random(rows, 1300), exact = x * (a * x.transpose());
-    const Eigen::MatrixXd found = congruent(x, a);
+    const Eigen::MatrixXd found = congruent_by_rows(a, x);
     EXPECT_LE((found - exact).norm(), 1e-14 * exact.norm()) << rows;
     EXPECT_EQ(found, found.transpose());
   }

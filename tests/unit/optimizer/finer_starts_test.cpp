@@ -22,6 +22,7 @@ TEST(FinerLimitsOf, AStartThatBreaksItsLimitIsNoReasonToSearchLess) {
     const RunHooks hooks{.finer = [](std::span<const double> x, int) { return bowl(x); }};
     const OptimizationResult result = run_optimization(low_bowl(), bowl, some, hooks);
     EXPECT_EQ(result.status, Status::converged) << result.message;
+    ASSERT_TRUE(result.best) << result.message;
     EXPECT_NEAR(result.evaluations[*result.best].judgement.objective, 1 + 1.0 / 9, 1e-3);
     EXPECT_LE(result.finer.size(), 3U);  // of the first that keeps it, and of the best twice
   }
@@ -135,6 +136,7 @@ TEST(FinerLimitsOf, ASearchThatIsRefusedBeginsAnewWithItsFirstStep) {
         one.responses.at("bowl") < run.result.evaluations[best].evaluation.responses.at("bowl"))
       best = i;
   }
+  ASSERT_LT(run.at[refused], run.result.evaluations.size()) << "the search did not go on";
   const std::vector<double>&from = run.result.evaluations[best].x, &next = run.result.evaluations[run.at[refused]].x;
   EXPECT_NEAR(std::abs(next[0] - from[0]) / 4 + std::abs(next[1] - from[1]) / 10, some.initial_step, 1e-9);
 }

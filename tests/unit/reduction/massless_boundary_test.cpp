@@ -255,5 +255,37 @@ TEST_P(AtSpeed, AChangeOfTheStiffnessIsTakenToFirstOrder) {
   EXPECT_GT(last_model, 0);
 }
 
+// What is negligible in a change is left out so that a body that only moves along still feels nothing of it, whether or
+// not its diagonal is there to be told.
+TEST(StiffnessChange, LeavesOutWhatIsNegligibleAndStillDoesNothingToBodiesThatMoveAlong) {
+  const FullModel full = truss_model({.contact_mass = false});
+  const TraceModel trace = trace_model(full, {.modes = 1000});
+  ASSERT_EQ(trace.status, Status::converged) << trace.message;
+  const Eigen::Index n = full.size();
+  // Springs from each unknown to the next, the last one weak; the first two pull as much as they push.
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto spring = [&](Eigen::Index i, Eigen::Index j, double k) {
+    for (const auto& [r, c, sign] : {std::tuple{i, i, 1}, {j, j, 1}, {i, j, -1}, {j, i, -1}})
+      entries.emplace_back(static_cast<int>(r), static_cast<int>(c), sign * k);
+  };
+  spring(0, 1, 1.0);
+  spring(0, 2, -1.0);  // the diagonal of the first is an exact zero
+  spring(0, n - 1, 1e-5);
+  spring(0, n - 2, -1e-5);
+  spring(1, n - 1, 1e-5);
+  Eigen::SparseMatrix<double> change(n, n);
+  change.setFromTriplets(entries.begin(), entries.end());
+  ASSERT_EQ(change.coeff(0, 0), 0);
+  Eigen::MatrixXd forced(2, n);
+  forced.row(0).setOnes();
+  forced.row(1) = some(n, 1).transpose();
+  const StiffnessChange found = stiffness_change(*trace.structure, change, forced);
+  EXPECT_NEAR(found.on_trace(0, 0), 0, 1e-15);
+  EXPECT_NEAR(found.on_trace(0, 1), 0, 1e-15);
+  const double exact = forced.row(1) * (change * forced.row(1).transpose());
+  EXPECT_NEAR(found.on_trace(1, 1), exact, 1e-3 * std::abs(exact));
+  EXPECT_NE(found.on_trace(1, 1), exact);
+}
+
 }  // namespace
 }  // namespace dovetail::reduction

@@ -39,6 +39,12 @@ std::string without_scripts(std::string page) {
   return page;
 }
 
+std::vector<std::string> holders(const RunRecord& record) {
+  std::vector<std::string> all;
+  for (const Holder& by : holding(record)) all.push_back(by.words());
+  return all;
+}
+
 TEST(ReportWords, SayWhyASearchEnded) {
   RunRecord record = sample_record();
   EXPECT_THAT(ending(record), StartsWith("The search ended: the budget of evaluations is used up. It looked at"));
@@ -49,7 +55,9 @@ TEST(ReportWords, SayWhyASearchEnded) {
   record.evaluations[1].constraints = {-0.02};
   record.evaluations[1].rules.clear();
   record.evaluations[1].feasible = false;
-  EXPECT_THAT(ending(record), HasSubstr("(1 of them by what finer meshes add alone)"));
+  EXPECT_THAT(ending(record), HasSubstr(", of them 1 on finer meshes alone or by what these change, "));
+  record.finer.clear();  // refused by a closer look at the start
+  EXPECT_THAT(ending(record), Not(HasSubstr("finer meshes")));
 }
 
 TEST(Escape, LeavesNothingThatMarkupUnderstands) {
@@ -135,7 +143,7 @@ TEST(Report, SaysWhatChangedAndWhatHoldsTheBest) {
             "The asymptotic wear volume fell from 0.800 to 0.100\u00a0mm\u00b3 (\u221288\u00a0%). The change is far "
             "beyond the "
             "error bars of the two values (39 times their sum).");
-  EXPECT_THAT(holding(record), testing::ElementsAre("the upper limit of the peak amplitude (8\u00a0mm)",
+  EXPECT_THAT(holders(record), testing::ElementsAre("the upper limit of the peak amplitude (8\u00a0mm)",
                                                     "the upper bound of the neck width"));
 }
 
@@ -147,14 +155,28 @@ TEST(Report, SaysWhatHoldsTheBestOnAFinerMesh) {
                           .status = "converged",
                           .constraints = {-0.0045}};
   record.finer = {there};
-  EXPECT_THAT(holding(record), testing::ElementsAre("the upper limit of the peak amplitude (8\u00a0mm) with 96 edges "
-                                                    "along each flank",
-                                                    "the upper bound of the neck width"));
-  EXPECT_THAT(how_sure(record),
-              testing::Contains("With 96 edges along each flank it keeps every limit; nearest is "
-                                "the upper limit of the peak amplitude (8\u00a0mm), kept by 0.45\u00a0%."));
+  const char *limit = "the upper limit of the peak amplitude (8\u00a0mm) with 96 edges along each flank",
+             *bound = "the upper bound of the neck width";
+  EXPECT_THAT(holders(record), testing::ElementsAre(limit, bound));
+  EXPECT_THAT(what_next(record), testing::Contains(HasSubstr("peak amplitude (8\u00a0mm) if more is wanted")));
+  EXPECT_THAT(how_sure(record), testing::Contains("With 96 edges along each flank it keeps every limit; nearest is the "
+                                                  "upper limit of the peak amplitude (8\u00a0mm) with 0.45\u00a0% "
+                                                  "room."));
+  // Of what another design changed there, a fifth more was kept away from.
+  record.finer.front().constraints = {-0.01};
+  record.evaluations[*record.best].constraints = {-0.06};
+  EXPECT_THAT(holders(record), testing::ElementsAre(limit, bound));
+  record.evaluations[*record.best].constraints = {-0.02};
+  EXPECT_THAT(holders(record), testing::ElementsAre(bound));
+  record.finer = {there};
   record.finer.front().evaluation += 1;  // another design's
-  EXPECT_THAT(holding(record), testing::ElementsAre("the upper bound of the neck width"));
+  EXPECT_THAT(holders(record), testing::ElementsAre(bound));
+  record.finer = {there};
+  record.finer.front().constraints = {0.01};  // it breaks it
+  EXPECT_THAT(holders(record), testing::ElementsAre(bound));
+  record.finer = {there};
+  record.evaluations[*record.best].error_estimates["peak_amplitude_m"] = 1e-4;
+  EXPECT_THAT(how_sure(record), testing::Contains(HasSubstr("room, less than its error bar.")));
 }
 
 TEST(Report, DoesNotCallAChangeWithinTheErrorAnImprovement) {
@@ -435,7 +457,7 @@ TEST(Answers, TellHowSureAndHowFar) {
   EXPECT_THAT(how_sure(record), testing::Contains("The best design was not held against a wear history."));
   EXPECT_THAT(how_sure(record),
               testing::Contains("With 32 edges along each flank it keeps every limit; nearest is the upper limit of "
-                                "the peak amplitude (8\u00a0mm), kept by 1.0\u00a0%."));
+                                "the peak amplitude (8\u00a0mm) with 1.0\u00a0% room."));
   record.verifications.front().evaluation = 3;
   EXPECT_THAT(how_sure(record), testing::Contains(HasSubstr("(cruise): agree within their bars")));
   EXPECT_THAT(
