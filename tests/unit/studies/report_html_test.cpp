@@ -502,7 +502,7 @@ TEST(Influence, FindsWhatRisesAndWhatHasAValley) {
                                                  {.key = "geometry.c_mm", .lower = 0, .upper = 1, .start = 0}});
   Numbers values;
   for (int i = 0; i < 125; ++i) {
-    const double a = 0.25 * (i % 5), b = 0.25 * (i / 5 % 5), c = 0.25 * (i / 25);
+    const double a = 0.25 * (i % 5), b = 0.25 * (i / 5 % 5), c = 0.25 * (i / 25 % 5);
     EvaluationRecord e;
     e.x = {a, b, c};
     record.evaluations.push_back(e);
