@@ -17,21 +17,28 @@ namespace dovetail::numerics {
 namespace {
 
 /// M times blocks of columns, row by row of M, without its stored zeros (a mass matrix on the pattern of a stiffness is
-/// mostly zeros).
+/// mostly zeros). Outlived by M, of which a copy is made where there are such zeros only.
 template <class Scalar>
 class Weight;
-
-using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 template <>
 class Weight<double> {
  public:
-  explicit Weight(const Eigen::SparseMatrix<double>& mass) : mass_(mass) { mass_.prune(0.0); }
-  [[nodiscard]] Eigen::MatrixXd operator()(const Eigen::MatrixXd& x) const { return product(mass_, Rows(x)); }
+  explicit Weight(const Eigen::SparseMatrix<double>& mass) : mass_(&mass) {
+    if (!mass.isCompressed() || !(mass.coeffs() == 0).any()) return;
+    pruned_ = mass.pruned();
+    mass_ = &pruned_;
+  }
+  Weight(const Weight&) = delete;
+  Weight& operator=(const Weight&) = delete;
+  [[nodiscard]] Eigen::MatrixXd operator()(const Eigen::MatrixXd& x) const { return symmetric_product(*mass_, x); }
 
  private:
-  SparseRows mass_;
+  Eigen::SparseMatrix<double> pruned_;
+  const Eigen::SparseMatrix<double>* mass_;
 };
+
+using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 /// Cyclic symmetry makes few entries complex, and complex products cost several real ones: real and imaginary parts
 /// side by side.

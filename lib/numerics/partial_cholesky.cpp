@@ -171,6 +171,25 @@ void PartialCholesky::Factor::substitute(Eigen::MatrixXd& x) const {
 
 namespace {
 
+/// Its upper triangle, in no more memory than that needs: Eigen's own takes as much as for the whole.
+Sparse upper_triangle(const Sparse& a) {
+  const auto count = [&](Eigen::Index column) {
+    const int* const rows = a.innerIndexPtr() + a.outerIndexPtr()[column];
+    const Eigen::Index stored = a.innerVector(column).nonZeros();
+    return static_cast<int>(std::upper_bound(rows, rows + stored, static_cast<int>(column)) - rows);
+  };
+  Sparse upper(a.rows(), a.cols());
+  int* const starts = upper.outerIndexPtr();
+  for (Eigen::Index column = 0; column < a.cols(); ++column) starts[column + 1] = starts[column] + count(column);
+  upper.resizeNonZeros(starts[a.cols()]);
+  for (Eigen::Index column = 0; column < a.cols(); ++column) {
+    const int from = a.outerIndexPtr()[column], stored = starts[column + 1] - starts[column];
+    std::copy_n(a.innerIndexPtr() + from, stored, upper.innerIndexPtr() + starts[column]);
+    std::copy_n(a.valuePtr() + from, stored, upper.valuePtr() + starts[column]);
+  }
+  return upper;
+}
+
 /// Entries of the border's diagonal must be there for the shift.
 void hold_diagonal(Sparse& upper, Eigen::Index border) {
   const Eigen::Index first = upper.rows() - border;
@@ -198,7 +217,7 @@ Status PartialCholesky::factorise(const Sparse& a, Eigen::Index border, Eliminat
   end_if_interrupted();
   const Eigen::Index interior = a.rows() - border;
   factor_.reset();
-  Sparse upper = a.triangularView<Eigen::Upper>();
+  Sparse upper = upper_triangle(a);
   hold_diagonal(upper, border);
   const Eigen::Map<const Eigen::VectorXd> values(upper.valuePtr(), upper.nonZeros());
   // BLAS kernels let a NaN through as a pivot, so look at the input.

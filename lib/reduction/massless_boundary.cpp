@@ -139,7 +139,6 @@ TraceModel trace_model(const FullModel& full, const ReductionOptions& options, c
   check(full, options);
   TraceModel result;
   Clock::time_point start = Clock::now();
-  const Sparse mass = full.mass.pruned();
   Factor stiffness = known;
   Status factorised = Status::converged;
   if (!stiffness) {
@@ -150,7 +149,7 @@ TraceModel trace_model(const FullModel& full, const ReductionOptions& options, c
   result.seconds_factorisation = lap(start);
   if (factorised != Status::converged)
     return failed(std::move(result), factorised, "the stiffness with the contact held is not positive definite");
-  std::optional<FloatingInverse> held(std::in_place, *stiffness, mass);
+  std::optional<FloatingInverse> held(std::in_place, *stiffness, full.mass);
   const FloatingInverse& inverse = *held;
   result.seconds_contact_solves = lap(start);
   if (inverse.status() != Status::converged)
@@ -166,14 +165,14 @@ TraceModel trace_model(const FullModel& full, const ReductionOptions& options, c
   const Eigen::MatrixXd responses = static_responses(full, inverse, modes, limit - modes.vectors.cols());
   Eigen::MatrixXd vectors(full.size(), modes.vectors.cols() + responses.cols());
   vectors << modes.vectors, responses;
-  RitzBasis basis = rayleigh_ritz(full.stiffness, mass, vectors);
+  RitzBasis basis = rayleigh_ritz(full.stiffness, full.mass, vectors);
   result.seconds_modes = lap(start);
   if (basis.vectors.cols() < vectors.cols())
     return failed(std::move(result), Status::singular, "the kept modes and static responses are not independent");
   result.first_neglected_eigenvalue = modes.first_neglected;
   held.reset();  // a matrix of the contact's size
 
-  result.structure = std::make_shared<ResidualFlexibility>(stiffness, mass, std::move(basis), modes.soft());
+  result.structure = std::make_shared<ResidualFlexibility>(stiffness, full.mass, std::move(basis), modes.soft());
   result.seconds_contact_solves += lap(start);
   if (const Status status = result.structure->status(); status != Status::converged)
     return failed(std::move(result), status,

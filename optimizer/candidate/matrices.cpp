@@ -73,12 +73,13 @@ MatricesStages::MatricesStages(const Scene& scene, const fem::SectorMesh& sector
   matrices_->assembler = patterns.assembler;
 }
 
-reduction::FullModel MatricesStages::full_model(Eigen::SparseMatrix<double>&& stiffness) const {
+reduction::FullModel MatricesStages::full_model(Eigen::SparseMatrix<double>&& stiffness,
+                                                Eigen::SparseMatrix<double>&& mass) const {
   const fem::SectorSystem& system = matrices_->system;
   const double speed = scene_.loading.speed;
   reduction::FullModel full;
   full.stiffness.swap(stiffness);
-  full.mass = system.mass;
+  full.mass.swap(mass);
   full.static_force = speed * speed * system.centrifugal;
   full.cosine_force = system.tip;
   full.sine_force = Eigen::MatrixXd::Zero(system.size(), 1);
@@ -102,8 +103,16 @@ void MatricesStages::assemble() {
   matrices_->system = fem::build_sector_system(sector_, materials(scene_), *matrices_->assembler);
 }
 
+// The mass is lent to what is condensed and reduced: beside the factor of a large sector every copy counts.
+void MatricesStages::condense() {
+  fem::SectorSystem& system = matrices_->system;
+  reduction::FullModel full = full_model(std::move(system.stiffness), std::move(system.mass));
+  matrices_->at_rest = reduction::condense_statically(full);
+  system.mass.swap(full.mass);
+}
+
 void MatricesStages::add_prestress() {
-  matrices_->at_rest = reduction::condense_statically(full_model(std::move(matrices_->system.stiffness)));
+  condense();
   const Status prestress = preloaded(scene_, cells_, by_, *matrices_, matrices_->preloaded);
   if (prestress != Status::converged) {
     matrices_->status = failed_at("prestress", prestress);
@@ -119,9 +128,11 @@ void MatricesStages::add_prestress() {
 void MatricesStages::reduce() {
   // Of the same stiffness, where other modes of it were asked for before.
   const reduction::Factor factor = matrices_->trace.structure ? matrices_->trace.structure->factor() : nullptr;
-  matrices_->trace =
-      reduction::trace_model(full_model(fem::constrain(matrices_->stiffness, matrices_->system.constraints)),
-                             {.modes = scene_.solver.modes}, factor);
+  fem::SectorSystem& system = matrices_->system;
+  reduction::FullModel full =
+      full_model(fem::constrain(matrices_->stiffness, system.constraints), std::move(system.mass));
+  matrices_->trace = reduction::trace_model(full, {.modes = scene_.solver.modes}, factor);
+  system.mass.swap(full.mass);
   if (matrices_->trace.status != Status::converged)
     matrices_->status = failed_at("reduction", matrices_->trace.status) + ": " + matrices_->trace.message;
   else if (scene_.solver.prestress == Prestress::shared)

@@ -62,10 +62,13 @@ class MatricesStages {
   void reduce();         ///< to the trace
 
   [[nodiscard]] const std::shared_ptr<Matrices>& matrices() const { return matrices_; }
-  /// What is reduced, with a stiffness in independent coordinates.
-  [[nodiscard]] reduction::FullModel full_model(Eigen::SparseMatrix<double>&& stiffness) const;
+  /// What is reduced, with stiffness and mass in independent coordinates.
+  [[nodiscard]] reduction::FullModel full_model(Eigen::SparseMatrix<double>&& stiffness,
+                                                Eigen::SparseMatrix<double>&& mass) const;
 
  private:
+  void condense();
+
   const Scene& scene_;
   const fem::SectorMesh& sector_;
   const fem::ContactCells& cells_;

@@ -57,7 +57,8 @@ std::vector<Kernel> kernels(const Chain& chain) {
   const optimizer::Matrices& matrices = *chain.candidate.matrices.shared;
   Eigen::SparseMatrix<double> free =
       fem::constrain(matrices.stiffness, matrices.system.constraints) + lift * matrices.system.mass;
-  const reduction::FullModel full = chain.matrices->full_model(std::move(free));
+  const reduction::FullModel full =
+      chain.matrices->full_model(std::move(free), Eigen::SparseMatrix<double>(matrices.system.mass));
   std::vector<Kernel> result = sparse_kernels(full.stiffness, full.contact_size());
   result.push_back(dense_lu_kernel(active_size(chain)));
   result.push_back(dense_inverse_kernel(matrices.system.contact_size()));

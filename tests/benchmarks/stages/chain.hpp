@@ -30,7 +30,6 @@ struct Chain {
 
   struct Parts {  ///< of a reduction to the trace
     reduction::FullModel full;
-    Eigen::SparseMatrix<double> mass;
     std::shared_ptr<numerics::PartialCholesky> factors;
     std::optional<reduction::FloatingInverse> inverse;
     reduction::FreeModes modes;

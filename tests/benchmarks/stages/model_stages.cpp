@@ -33,7 +33,8 @@ double assembled_bytes(const fem::SectorSystem& system) {
 /// The order of elimination is kept from design to design: found here, it is in no stage.
 void find_order(Chain& chain) {
   Eigen::SparseMatrix<double> stiffness = chain.matrices->matrices()->system.stiffness;
-  const reduction::FullModel full = chain.matrices->full_model(std::move(stiffness));
+  const reduction::FullModel full = chain.matrices->full_model(
+      std::move(stiffness), Eigen::SparseMatrix<double>(chain.matrices->matrices()->system.mass));
   (void)numerics::PartialCholesky().factorise(full.stiffness, full.contact_size(), chain.patterns.order.get());
 }
 
@@ -44,7 +45,6 @@ void take_matrices(Chain& chain) {
 }
 
 void factorise(Chain::Parts& parts) {
-  parts.mass = parts.full.mass.pruned();
   parts.factors = std::make_shared<numerics::PartialCholesky>();
   const Status status =
       parts.factors->factorise(parts.full.stiffness, parts.full.contact_size(), parts.full.order.get());
@@ -54,7 +54,7 @@ void factorise(Chain::Parts& parts) {
 void find_modes(const Chain& chain, Chain::Parts& parts) {
   const reduction::FullModel& full = parts.full;
   const Eigen::Index limit = full.internal_size();
-  parts.inverse.emplace(*parts.factors, parts.mass);
+  parts.inverse.emplace(*parts.factors, parts.full.mass);
   parts.modes = reduction::free_modes(*parts.inverse, chain.scene.solver.modes, limit,
                                       reduction::ReductionOptions{}.eigen_tolerance);
   require(parts.modes.status == Status::converged, "modes", to_string(parts.modes.status));
@@ -63,18 +63,18 @@ void find_modes(const Chain& chain, Chain::Parts& parts) {
   parts.responses = responses.cols();
   Eigen::MatrixXd vectors(full.size(), parts.modes.vectors.cols() + responses.cols());
   vectors << parts.modes.vectors, responses;
-  parts.basis = reduction::rayleigh_ritz(full.stiffness, parts.mass, vectors);
+  parts.basis = reduction::rayleigh_ritz(full.stiffness, parts.full.mass, vectors);
 }
 
 /// Columns that the search for modes solves for, counted in a search of its own.
 double solves_for_modes(const Chain& chain, const Chain::Parts& parts) {
   Eigen::Index columns = 0;
-  const numerics::ShiftInverse<double> counting{.rows = parts.mass.rows(), .solve = [&](const Eigen::MatrixXd& b) {
+  const numerics::ShiftInverse<double> counting{.rows = parts.full.mass.rows(), .solve = [&](const Eigen::MatrixXd& b) {
                                                   columns += b.cols();
                                                   return parts.inverse->apply(b);
                                                 }};
   const auto wanted = static_cast<int>(chain.scene.solver.modes - parts.inverse->rigid_modes().cols());
-  (void)numerics::nearest_modes(counting, parts.mass,
+  (void)numerics::nearest_modes(counting, parts.full.mass,
                                 {.count = wanted + 1,
                                  .tolerance = reduction::ReductionOptions{}.eigen_tolerance,
                                  .vector_limit = reduction::FloatingParams{}.vector_limit});
@@ -100,10 +100,11 @@ std::vector<Stage> matrices_stages(Chain& chain) {
   const auto full = [&] {
     const optimizer::Matrices& made = *chain.matrices->matrices();
     if (parts.full.stiffness.size() == 0)
-      parts.full = chain.matrices->full_model(fem::constrain(made.stiffness, made.system.constraints));
+      parts.full = chain.matrices->full_model(fem::constrain(made.stiffness, made.system.constraints),
+                                              Eigen::SparseMatrix<double>(made.system.mass));
   };
   const auto flexibility = [&] {
-    const reduction::ResidualFlexibility structure(parts.factors, parts.mass, parts.basis, parts.modes.soft());
+    const reduction::ResidualFlexibility structure(parts.factors, parts.full.mass, parts.basis, parts.modes.soft());
     require(structure.status() == Status::converged, "trace", to_string(structure.status()));
   };
   return {
