@@ -154,11 +154,20 @@ bool Assembler::serves(const Mesh& mesh) const {
          mesh.connectivity == connectivity_;
 }
 
+Eigen::SparseMatrix<double> Assembler::zeros() const {
+  Eigen::SparseMatrix<double> result(pattern_.rows(), pattern_.cols());
+  result.resizeNonZeros(pattern_.nonZeros());
+  std::copy_n(pattern_.outerIndexPtr(), pattern_.cols() + 1, result.outerIndexPtr());
+  std::copy_n(pattern_.innerIndexPtr(), pattern_.nonZeros(), result.innerIndexPtr());
+  result.coeffs().setZero();
+  return result;
+}
+
 FullMatrices Assembler::stiffness_and_mass(const Mesh& mesh, std::span<const Material> materials) const {
   assert(mesh.element_count() == elements_ && mesh.dimensions() * mesh.node_count() == pattern_.rows());
   check(mesh, materials);
-  FullMatrices full{mesh.dimensions(), pattern_.cast<double>(), {}};
-  Eigen::SparseMatrix<double> on_pattern = full.stiffness;  // the mass
+  FullMatrices full{mesh.dimensions(), zeros(), {}};
+  Eigen::SparseMatrix<double> on_pattern = zeros();  // the mass
   with_element(mesh.kind, [&]<class Element>(Element) {
     std::vector<Lame> elasticities;
     for (const Region& region : mesh.regions)
@@ -180,14 +189,14 @@ FullMatrices Assembler::stiffness_and_mass(const Mesh& mesh, std::span<const Mat
       scatter.add(mass, on_pattern.valuePtr());
     }
   });
-  full.mass = on_pattern.pruned();
+  Eigen::SparseMatrix<double>(on_pattern.pruned()).swap(full.mass);
   return full;
 }
 
 Eigen::SparseMatrix<double> Assembler::geometric_stiffness(const Mesh& mesh, const StressField& stress) const {
   assert(mesh.element_count() == elements_);
   assert(stress.rows() == stress_components(mesh.kind) && stress.cols() == quadrature_points(mesh.kind) * elements_);
-  Eigen::SparseMatrix<double> full = pattern_.cast<double>();
+  Eigen::SparseMatrix<double> full = zeros();
   with_element(mesh.kind, [&]<class Element>(Element) {
     ScalarMatrix<Element> stiffness;
     for (int e = 0; e < elements_; ++e) {

@@ -40,6 +40,8 @@ class Assembler {
   [[nodiscard]] Eigen::SparseMatrix<double> geometric_stiffness(const Mesh& mesh, const StressField& stress) const;
 
  private:
+  [[nodiscard]] Eigen::SparseMatrix<double> zeros() const;
+
   /// [elements, N, N] where the block of nodes (a, b) begins, b outer, in the first column of b; its next columns
   /// follow at distances of column_length_.
   std::vector<int> position_;

@@ -1,13 +1,27 @@
 #include "fem/sector_system.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/errors.hpp"
 #include "fem/stress_aggregate.hpp"
 
 namespace dovetail::fem {
+
+void swap(SectorSystem& a, SectorSystem& b) {
+  std::swap(a.full.dimensions, b.full.dimensions);
+  a.full.stiffness.swap(b.full.stiffness);
+  a.full.mass.swap(b.full.mass);
+  std::swap(a.constraints, b.constraints);
+  a.stiffness.swap(b.stiffness);
+  a.mass.swap(b.mass);
+  a.centrifugal.swap(b.centrifugal);
+  a.tip.swap(b.tip);
+  std::swap(a.contact, b.contact);
+}
 
 double body_thickness(const Mesh& mesh, int node) {
   if (mesh.dimensions() == 3) return 1;
@@ -49,11 +63,16 @@ ContactSurface contact_surface(const SectorMesh& sector) {
 
 SectorSystem build_sector_system(const SectorMesh& sector, std::span<const Material> materials,
                                  const Assembler& assembler, BoreSupport bore) {
-  SectorSystem system;
-  system.full = assembler.stiffness_and_mass(sector.mesh, materials);
-  system.constraints = real_constraints(sector, bore);
-  system.stiffness = constrain(system.full.stiffness, system.constraints);
-  system.mass = constrain(system.full.mass, system.constraints);
+  // Eigen has no move for sparse matrices; a copy costs as much as the assembly's own pass over the memory.
+  SectorSystem system{.full = assembler.stiffness_and_mass(sector.mesh, materials),
+                      .constraints = real_constraints(sector, bore),
+                      .stiffness = {},
+                      .mass = {},
+                      .centrifugal = {},
+                      .tip = {},
+                      .contact = {}};
+  constrain(system.full.stiffness, system.constraints).swap(system.stiffness);
+  constrain(system.full.mass, system.constraints).swap(system.mass);
   system.mass.prune(0.0);
   const Eigen::SparseMatrix<double>& t = system.constraints.transformation;
   system.centrifugal = t.transpose() * centrifugal_load(system.full.mass, sector.mesh);
@@ -75,7 +94,18 @@ Eigen::SparseMatrix<double> stiffness_at_speed(const FullMatrices& full, const E
   Eigen::VectorXd square = Eigen::VectorXd::Constant(result.cols(), omega * omega);
   if (full.dimensions == 3)
     for (Eigen::Index z = 2; z < square.size(); z += 3) square(z) = 0;
-  return result - full.mass * square.asDiagonal();
+  // In place: where elements couple masses they couple stiffnesses.
+  for (Eigen::Index column = 0; column < result.cols(); ++column) {
+    const int first = result.outerIndexPtr()[column];
+    const int* row = result.innerIndexPtr() + first;
+    double* value = result.valuePtr() + first;
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(full.mass, column); entry; ++entry) {
+      for (; *row < entry.row(); ++row) ++value;
+      assert(*row == entry.row());
+      *value -= entry.value() * square(column);
+    }
+  }
+  return result;
 }
 
 }  // namespace dovetail::fem

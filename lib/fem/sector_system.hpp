@@ -38,6 +38,9 @@ struct SectorSystem {
   [[nodiscard]] Eigen::Index contact_size() const { return constraints.contact_count; }
 };
 
+/// Without copies of the matrices, which std::swap makes.
+void swap(SectorSystem& a, SectorSystem& b);
+
 /// Assembles and constrains a sector. Throws InputError (see Assembler, real_constraints).
 [[nodiscard]] SectorSystem build_sector_system(const SectorMesh& sector, std::span<const Material> materials,
                                                const Assembler& assembler, BoreSupport bore = BoreSupport::tangential);

@@ -100,7 +100,8 @@ void MatricesStages::go_on_from(const Matrices& same) {
 }
 
 void MatricesStages::assemble() {
-  matrices_->system = fem::build_sector_system(sector_, materials(scene_), *matrices_->assembler);
+  fem::SectorSystem system = fem::build_sector_system(sector_, materials(scene_), *matrices_->assembler);
+  swap(matrices_->system, system);
 }
 
 // The mass is lent to what is condensed and reduced: beside the factor of a large sector every copy counts.
@@ -119,9 +120,10 @@ void MatricesStages::add_prestress() {
     return;
   }
   if (scene_.solver.prestress == Prestress::own) matrices_->at_rest = {};
-  matrices_->stiffness = fem::stiffness_at_speed(
-      matrices_->system.full, geometric_stiffness(scene_, sector_, *matrices_->assembler, matrices_->preloaded),
-      scene_.loading.speed);
+  fem::stiffness_at_speed(matrices_->system.full,
+                          geometric_stiffness(scene_, sector_, *matrices_->assembler, matrices_->preloaded),
+                          scene_.loading.speed)
+      .swap(matrices_->stiffness);
   Eigen::SparseMatrix<double>().swap(matrices_->system.full.stiffness);  // nothing else needs it
 }
 
