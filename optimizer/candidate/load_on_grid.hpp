@@ -19,7 +19,7 @@ struct LoadOnGrid {
   [[nodiscard]] const Scene& scene() const { return *load->scene; }
   [[nodiscard]] CandidateModel& model() const { return *load->model; }
 
-  /// False where there is none.
+  /// As closely as edges of worn zones ask for. False where there is none.
   [[nodiscard]] bool find_resonance(double start, const Eigen::MatrixXd& guess = {});
   /// From where the load says, or from the glued joint.
   [[nodiscard]] bool find_first_resonance();
@@ -27,6 +27,9 @@ struct LoadOnGrid {
   [[nodiscard]] bool find_unworn(const std::vector<fem::CellStrip>& before);
 
  private:
+  [[nodiscard]] paths::ResonanceOptions resonance_roughly() const;
+  /// With few harmonics at first: that is where most of the way is.
+  [[nodiscard]] bool find_resonance_from_glued();
   [[nodiscard]] Eigen::MatrixXd carried(const Eigen::MatrixXd& displacement,
                                         const std::vector<fem::CellStrip>& before) const;
 };
