@@ -181,7 +181,7 @@ class ErrorBarSources {
     ask(bases, "modes", kCompanion.modes_factor, {[](Scene& changed, Computation&) {
           changed.solver.modes = std::max(2 * changed.solver.modes, changed.solver.modes + kCompanion.more_modes);
         }});
-    if (result_.model.matrices.change.size() > 0)
+    if (result_.model.matrices.by_other)
       ask(bases, "prestress", 1, {[](Scene& changed, Computation&) { changed.solver.prestress = Prestress::own; }},
           Way::of_base);
     if (as_here_.until >= Stage::unworn) ask_truncation(of_contact);  // else nothing moves

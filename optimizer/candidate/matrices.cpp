@@ -63,7 +63,7 @@ PreloadedContact stressed(const Scene& scene, const fem::ContactCells& cells, do
   PreloadedContact result = own(scene, cells);
   if (scene.solver.prestress == Prestress::own) return result;
   result.contact.friction = friction;
-  result.gap.setZero();
+  if (scene.solver.prestress == Prestress::shared) result.gap.setZero();
   return result;
 }
 
@@ -71,6 +71,7 @@ MatricesStages::MatricesStages(const Scene& scene, const fem::SectorMesh& sector
                                const PreloadedContact& by, const KeptPatterns& patterns)
     : scene_(scene), sector_(sector), cells_(cells), by_(by), order_(patterns.order) {
   matrices_->assembler = patterns.assembler;
+  matrices_->friction = by.contact.friction;
 }
 
 reduction::FullModel MatricesStages::full_model(Eigen::SparseMatrix<double>&& stiffness,
@@ -119,7 +120,7 @@ void MatricesStages::add_prestress() {
     matrices_->status = failed_at("prestress", prestress);
     return;
   }
-  if (scene_.solver.prestress == Prestress::own) matrices_->at_rest = {};
+  if (scene_.solver.prestress != Prestress::shared) matrices_->at_rest = {};
   fem::stiffness_at_speed(matrices_->system.full,
                           geometric_stiffness(scene_, sector_, *matrices_->assembler, matrices_->preloaded),
                           scene_.loading.speed)
@@ -212,9 +213,10 @@ Eigen::SparseMatrix<double> DesignMatrices::stiffness() const {
 }
 
 Prestress prestress_of(const Scene& scene, const fem::SectorMesh& sector) {
+  if (scene.solver.prestress != Prestress::shared) return scene.solver.prestress;
   const double unknowns = static_cast<double>(sector.mesh.nodes.size());
   const double forces = static_cast<double>(fem::contact_surface(sector).position.size());
-  return unknowns * forces > MatricesParams{}.largest_fields ? Prestress::own : scene.solver.prestress;
+  return unknowns * forces > MatricesParams{}.largest_fields ? Prestress::own : Prestress::shared;
 }
 
 DesignMatrices of_design(const Scene& scene, const fem::SectorMesh& sector, const fem::ContactCells& cells,
@@ -227,7 +229,8 @@ DesignMatrices of_design(const Scene& scene, const fem::SectorMesh& sector, cons
   result.trace.cosine_force *= scene.loading.tip_force;
   result.trace.contact =
       contact_nodes(fem::contact_surface(sector), result.shared->system.internal_size(), scene.contact);
-  if (scene.solver.prestress == Prestress::own) return result;
+  result.by_other = scene.solver.prestress == Prestress::shared || scene.contact.friction != result.shared->friction;
+  if (scene.solver.prestress != Prestress::shared) return result;
   if (known.on_trace) {
     result.change = known.stiffness;
     result.trace.change = known.on_trace;

@@ -31,6 +31,7 @@ struct Matrices {
   fem::SectorSystem system;  ///< on the trace; `stiffness` and `full.stiffness` are empty after add_prestress()
   Eigen::SparseMatrix<double> stiffness;  ///< over all nodes, at speed: K + K_g - Omega^2 M
   reduction::TraceModel trace;            ///< of a tip force of 1 N
+  double friction = 0;                    ///< of the preload that stresses them
   // To add what the preload of another design changes:
   reduction::StaticCondensation at_rest;  ///< of K; its factors are kept for designs that share the matrices alone
   Eigen::VectorXd preloaded;              ///< displacement of all nodes
@@ -43,7 +44,7 @@ struct PreloadedContact {
   Eigen::VectorXd gap;  ///< of contact nodes
 };
 
-/// The design's own; of all designs that share their matrices without gaps, and with one friction.
+/// The design's own; with one friction where designs or cases share matrices, and without gaps where all designs do.
 [[nodiscard]] PreloadedContact stressed(const Scene& scene, const fem::ContactCells& cells, double friction);
 
 /// The stages in which matrices are computed, in this order: each goes on from what the one before left. What it is
@@ -82,6 +83,7 @@ class MatricesStages {
 struct DesignMatrices {
   std::string status = status_of(Outcome::converged);
   std::shared_ptr<const Matrices> shared;
+  bool by_other = false;               ///< stressed by another preload, with the design's own to first order at most
   Eigen::SparseMatrix<double> change;  ///< of the stiffness over all nodes, or empty: by the design's own preload
   reduction::TraceModel trace;         ///< with the change, of the design's tip force
 
@@ -89,8 +91,7 @@ struct DesignMatrices {
   [[nodiscard]] Eigen::SparseMatrix<double> stiffness() const;
 };
 
-/// Whether designs are computed with shared matrices: as the scene asks, unless what would be kept of them is too
-/// large.
+/// How designs are stressed: as the scene asks, unless what would be kept to add the preload of each is too large.
 [[nodiscard]] Prestress prestress_of(const Scene& scene, const fem::SectorMesh& sector);
 
 /// What the preload of a design changes in the matrices that it shares.

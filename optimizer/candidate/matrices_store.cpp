@@ -67,7 +67,7 @@ DesignMatrices MatricesStore::matrices(const Scene& asked, const fem::SectorMesh
   scene.solver.prestress = prestress_of(asked, sector);
   std::shared_ptr<const Matrices> same = shared(scene, sector, cells, timings_s);
   Stopwatch watch;
-  if (scene.solver.prestress == Prestress::own) return of_design(scene, sector, cells, std::move(same));
+  if (scene.solver.prestress != Prestress::shared) return of_design(scene, sector, cells, std::move(same));
   DesignMatrices result = changed(scene, sector, cells, same);
   timings_s["prestress"] += watch.lap();
   return result;

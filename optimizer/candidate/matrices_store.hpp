@@ -31,7 +31,7 @@ struct PreloadOf {
 /// threads.
 class MatricesStore {
  public:
-  /// - `friction`: of the preload on flanks without gaps, where designs share it
+  /// - `friction`: of the preload that designs or cases share
   explicit MatricesStore(double friction) : friction_(friction) {}
 
   /// - `sector`: with its trace

@@ -129,7 +129,7 @@ class MissionBars {
     ask(bases, "modes", kOther.modes_factor, [](Scene& each, Computation&) {
       each.solver.modes = std::max(2 * each.solver.modes, each.solver.modes + kOther.more_modes);
     });
-    if (result_.models.front().matrices.change.size() > 0)
+    if (std::ranges::any_of(result_.models, [](const CandidateModel& model) { return model.matrices.by_other; }))
       ask(bases, "prestress", 1, [](Scene& each, Computation&) { each.solver.prestress = Prestress::own; });
     if (!scene().kind->coarse_answers) bases.erase(bases.begin(), bases.end() - 1);
     ask(bases, "harmonics", factors.harmonics, [](Scene& each, Computation&) {

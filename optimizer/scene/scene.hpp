@@ -44,11 +44,12 @@ struct Loading {
 
 /// How the stress of the preload gets into the stiffness of the vibrating structure.
 enum class Prestress {
-  own,     ///< assembled for each design
+  own,     ///< assembled for each design and case
+  cases,   ///< assembled for each design, with one friction for all cases
   shared,  ///< of flanks without gaps, for all designs with one mesh; what a design's own adds to first order
 };
-constexpr EnumNames<Prestress, 2> enum_names(Prestress) {
-  return {{{Prestress::own, "own"}, {Prestress::shared, "shared"}}};
+constexpr EnumNames<Prestress, 3> enum_names(Prestress) {
+  return {{{Prestress::own, "own"}, {Prestress::cases, "cases"}, {Prestress::shared, "shared"}}};
 }
 [[nodiscard]] constexpr std::string_view to_string(Prestress prestress) {
   return name_of(prestress);

@@ -43,7 +43,7 @@ CommandHelp check() {
           .footer =
               "Every problem is told at once, one sentence each, with the line it stands on. --set is taken as `run` "
               "takes it.\n"
-              "Large sectors assemble the stress of their own preload, whatever solver.prestress says."};
+              "Sectors too large for solver.prestress = \"shared\" assemble the stress of their own preload."};
 }
 
 CommandHelp create() {

@@ -162,6 +162,33 @@ void report_contradictions(const Document& document, const optimizer::Scene& sce
   }
 }
 
+/// How designs are stressed at the least cost. Where every design has the same mesh, or cases differ in force, friction
+/// or form of the flanks alone, matrices are computed once.
+optimizer::Prestress least_prestress(const Study& study) {
+  const auto all_keys = [&](auto&& of) {
+    return std::ranges::all_of(study.problem.space.variables(),
+                               [&](const optimizer::DesignVariable& variable) {
+                                 return of(variable.key) && std::ranges::all_of(variable.also, of);
+                               }) &&
+           std::ranges::all_of(study.linked, [&](const LinkedKey& linked) { return of(linked.key); });
+  };
+  const std::span<const optimizer::LoadCase> cases = study.problem.cases;
+  if (!study.problem.space.variables().empty() && all_keys(optimizer::shares_matrices))
+    return optimizer::Prestress::shared;
+  bool alike = false;
+  for (std::size_t i = 0; i < cases.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) alike = alike || optimizer::share_matrices(cases[i], cases[j]);
+  if (!alike) return optimizer::Prestress::own;
+  // The stress is that of the study's own friction and of one form of the flanks.
+  const bool one_friction = all_keys([](std::string_view key) { return key != "contact.friction"; });
+  const bool flanks_differ = std::ranges::any_of(cases, [](const optimizer::LoadCase& load) {
+    return std::ranges::any_of(load.changes, [](const optimizer::KeyChange& change) {
+      return change.key.starts_with("geometry.") && optimizer::shares_matrices(change.key);
+    });
+  });
+  return one_friction && !flanks_differ ? optimizer::Prestress::cases : optimizer::Prestress::shared;
+}
+
 }  // namespace
 
 Study read_study(const Document& document) {
@@ -199,20 +226,7 @@ Study read_study(const Document& document) {
   root.finish();
   problems.raise();
   optimizer::check_terms(study.problem);
-  // Where every design has the same mesh, or cases differ in force or friction alone, matrices are computed once.
-  const auto& variables = study.problem.space.variables();
-  const auto shares = [](const optimizer::DesignVariable& v) {
-    return optimizer::shares_matrices(v.key) && std::ranges::all_of(v.also, optimizer::shares_matrices);
-  };
-  const bool one_mesh =
-      !variables.empty() && std::ranges::all_of(variables, shares) &&
-      std::ranges::all_of(study.linked, [](const LinkedKey& key) { return optimizer::shares_matrices(key.key); });
-  bool alike = false;
-  for (const optimizer::LoadCase& one : study.problem.cases)
-    for (const optimizer::LoadCase& other : study.problem.cases)
-      alike = alike || (&one != &other && optimizer::share_matrices(one, other));
-  if (!study.given.contains("solver.prestress") && (one_mesh || alike))
-    study.scene.solver.prestress = optimizer::Prestress::shared;
+  if (!study.given.contains("solver.prestress")) study.scene.solver.prestress = least_prestress(study);
   return study;
 }
 

@@ -59,6 +59,21 @@ Sparse identity(Eigen::Index size) {
   return matrix;
 }
 
+// A mass on the pattern of the stiffness stores many zeros, which change nothing.
+TEST(NearestModes, StoredZerosOfTheMassDoNotCount) {
+  const Sparse mass = identity(400), stiffness = torus(20) + 0.01 * mass;
+  Sparse with_zeros = 0.0 * stiffness;
+  with_zeros += mass;
+  ASSERT_GT(with_zeros.nonZeros(), mass.nonZeros());
+  const DenseLu lu{Eigen::MatrixXd(stiffness)};
+  const ModesOptions options{.count = 9, .tolerance = 1e-10};
+  const Modes<double> plain = nearest_modes(inverse_of<double>(stiffness, lu), mass, options);
+  const Modes<double> same = nearest_modes(inverse_of<double>(stiffness, lu), with_zeros, options);
+  ASSERT_EQ(same.status, Status::converged);
+  EXPECT_EQ(same.eigenvalues, plain.eigenvalues);
+  EXPECT_EQ(same.vectors, plain.vectors);
+}
+
 TEST(NearestModes, FindsEveryVectorOfMultipleEigenvalues) {
   const Sparse mass = identity(400), stiffness = torus(20) + 0.01 * mass;
   const DenseLu lu{Eigen::MatrixXd(stiffness)};

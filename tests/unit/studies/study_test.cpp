@@ -275,6 +275,22 @@ TEST(Study, DesignsWithOneMeshShareTheirMatrices) {
     return "[[linked]]\nkey = \"" + std::string(key) + "\"\nvalue = \"9 + geometry_left_flank_crown_um / 100\"\n";
   };
   EXPECT_EQ(of_variable(silent, crown + linked("geometry.shank_width_mm")), optimizer::Prestress::own);
+  // Cases of one design share them where they differ in what leaves the mesh.
+  const auto of_cases = [&](const std::string& text, const std::string& key, const std::string& variable) {
+    const auto load = [&](const char* name, const char* value) {
+      return std::string("[[case]]\nname = \"") + name + "\"\n\"" + key + "\" = " + value + "\n";
+    };
+    return of_variable(text, variable + load("one", "0.4") + load("other", "0.3"));
+  };
+  const std::string width = "key = \"geometry.neck_width_mm\"\nlower = 8\nupper = 9\n";
+  EXPECT_EQ(of_cases(silent, "contact.friction", width), optimizer::Prestress::cases);
+  EXPECT_EQ(of_cases(silent, "loading.tip_force_n", width), optimizer::Prestress::cases);
+  EXPECT_EQ(of_cases(silent, "geometry.flank_crown_um", width), optimizer::Prestress::shared);
+  EXPECT_EQ(of_cases(silent, "geometry.shank_height_mm", width), optimizer::Prestress::own);
+  EXPECT_EQ(of_cases(silent, "contact.friction", crown), optimizer::Prestress::shared);
+  EXPECT_EQ(of_cases(sample(), "contact.friction", width), optimizer::Prestress::own);
+  const std::string friction = "\n[[variable]]\nkey = \"contact.friction\"\nlower = 0.3\nupper = 0.6\n";
+  EXPECT_EQ(of_cases(silent, "loading.tip_force_n", width + friction), optimizer::Prestress::shared);
   EXPECT_EQ(of_variable(silent, crown + linked("geometry.right.flank_crown_um")), optimizer::Prestress::shared);
 }
 

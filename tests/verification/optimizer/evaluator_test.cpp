@@ -411,6 +411,46 @@ TEST(SectionEvaluation, KnowsWhichKeysLeaveTheMatrices) {
   }
 }
 
+// Cases that differ in friction or force share the matrices of their design, which are its own in the study's friction;
+// what another friction changes in them is in the bars.
+TEST(SectionEvaluation, CasesOfADesignShareItsMatrices) {
+  Scene scene = coarse_scene();
+  for (geometry::FlankParameters& flank : scene.geometry.flanks) flank.mismatch = 8e-6;
+  scene.solver.prestress = Prestress::cases;
+  Scene slippery = scene, own = scene, another_form = scene;
+  slippery.contact.friction = 0.8 * scene.contact.friction;
+  slippery.loading.tip_force *= 2;
+  own.solver.prestress = Prestress::own;
+  another_form.geometry.flanks.front().crown += 1e-6;
+  const ModelBuilder builder(scene);
+  const CandidateModel first = builder.build(scene);
+  ASSERT_TRUE(first.converged()) << first.status;
+  EXPECT_FALSE(first.matrices.by_other);
+  EXPECT_EQ(first.model.stiffness, builder.build(own).model.stiffness);
+  const std::shared_ptr<const Matrices> shared = builder.build(scene).matrices.shared;
+  const CandidateModel again = builder.build(slippery);
+  EXPECT_EQ(again.matrices.shared, shared);
+  EXPECT_TRUE(again.matrices.by_other);
+  EXPECT_NE(builder.build(another_form).matrices.shared, shared);
+
+  const Evaluation found = SceneEvaluator(scene).evaluate(slippery).evaluation;
+  slippery.solver.prestress = Prestress::own;
+  const Evaluation exact = SceneEvaluator(scene).evaluate(slippery, {.bars = false}).evaluation;
+  ASSERT_TRUE(found.converged() && exact.converged()) << found.status << exact.status;
+  double largest = 0;
+  for (const auto& [name, value] : exact.responses) {
+    const auto sources = found.error_sources.find(name);
+    if (sources == found.error_sources.end() || !sources->second.contains("prestress")) continue;
+    const double change = std::abs(found.responses.at(name) - value);
+    largest = std::max(largest, change / std::abs(value));
+    EXPECT_LE(change, 2 * sources->second.at("prestress") + 1e-5 * std::abs(value)) << name;
+    const auto bar = found.error_estimates.find(name);
+    const double whole = bar == found.error_estimates.end() ? kInfinity : bar->second;
+    EXPECT_LE(change, 0.1 * whole + 1e-5 * std::abs(value)) << name;
+  }
+  EXPECT_GT(largest, 1e-5);  // there is something to be in the bars
+}
+
 // Matrices that designs share answer as those assembled for each of them, within the bar that they have for that, which
 // is next to nothing.
 TEST(SectionEvaluation, SharedMatricesAnswerAsADesignsOwn) {

@@ -58,6 +58,9 @@ TEST(Sector, SharesMatricesWhereWhatIsKeptOfThemFits) {
   scene.solid_mesh.contact_slot_elements = 14;
   scene.solid_mesh.slot_elements = 14;
   EXPECT_EQ(prestress(), Prestress::own);
+  // What the cases of one design share is kept anyway.
+  scene.solver.prestress = Prestress::cases;
+  EXPECT_EQ(prestress(), Prestress::cases);
 }
 
 TEST(SectorAgainstSection, FrequencyAtRestLiesBetweenPlaneStressAndPlaneStrain) {
