@@ -78,10 +78,17 @@ std::string apart(const Verification& v, const char* what, double volume, double
                      v.search_volume, what, volume, bars);
 }
 
+/// What designs or cases share approximately is looked at, too; and one design alone is cheaper with its own.
+Scene with_own_prestress(Scene scene) {
+  scene.solver.prestress = Prestress::own;
+  return scene;
+}
+
 /// The direct answer at finer settings.
 std::string ask_finer(const FinerDesign& there, const CandidateResult& result, Verification& verification) {
+  const Scene scene = with_own_prestress(there.scene);
   const CandidateResult fine =
-      computed(there.scene, ModelBuilder(there.reference).build(there.scene), until(kSearch.until, kSearch.history));
+      computed(scene, ModelBuilder(there.reference).build(scene), until(kSearch.until, kSearch.history));
   if (!fine.evaluation.converged()) return failed_at("finer mesh", fine.evaluation.status);
   verification.direct_solves = fine.asymptote->solves;
   verification.direct_volume = fine.asymptote->worn_volume;
@@ -99,9 +106,7 @@ Scene finer(Scene scene, int level) {
   raise("mesh.flank_elements", std::ldexp(scene.mesh.flank_elements, level));
   raise("solver.harmonics", 2 * scene.solver.harmonics + 1);
   raise("solver.samples", quality::samples_for(scene.solver.harmonics, 2 * scene.solver.samples));
-  // What designs share with others to first order is looked at, too; and one design alone is cheaper with its own.
-  scene.solver.prestress = Prestress::own;
-  return scene;
+  return with_own_prestress(std::move(scene));
 }
 
 CandidateResult evaluated_finer(const SceneEvaluator& evaluator, const Scene& scene, const Purpose& purpose,

@@ -15,7 +15,9 @@ void swap(SectorSystem& a, SectorSystem& b) {
   std::swap(a.full.dimensions, b.full.dimensions);
   a.full.stiffness.swap(b.full.stiffness);
   a.full.mass.swap(b.full.mass);
-  std::swap(a.constraints, b.constraints);
+  a.constraints.transformation.swap(b.constraints.transformation);
+  std::swap(a.constraints.internal_count, b.constraints.internal_count);
+  std::swap(a.constraints.contact_count, b.constraints.contact_count);
   a.stiffness.swap(b.stiffness);
   a.mass.swap(b.mass);
   a.centrifugal.swap(b.centrifugal);

@@ -46,7 +46,7 @@ void swap(SectorSystem& a, SectorSystem& b);
                                                const Assembler& assembler, BoreSupport bore = BoreSupport::tangential);
 
 /// K + K_g - Omega^2 M_xy over all nodes: K_g from the stresses of the preloaded state, spin softening in the
-/// plane of rotation only. `omega` in rad/s.
+/// plane of rotation only. `omega` in rad/s. Both stiffnesses have one pattern, and the mass a part of it.
 [[nodiscard]] Eigen::SparseMatrix<double> stiffness_at_speed(const FullMatrices& full,
                                                              const Eigen::SparseMatrix<double>& geometric,
                                                              double omega);

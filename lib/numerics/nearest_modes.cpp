@@ -17,7 +17,7 @@ namespace dovetail::numerics {
 namespace {
 
 /// M times blocks of columns, row by row of M, without its stored zeros (a mass matrix on the pattern of a stiffness is
-/// mostly zeros). Outlived by M, of which a copy is made where there are such zeros only.
+/// mostly zeros). Outlived by a real M, of which a copy is made where there are such zeros only.
 template <class Scalar>
 class Weight;
 

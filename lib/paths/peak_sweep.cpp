@@ -12,10 +12,15 @@
 namespace dovetail::paths {
 namespace {
 
+// Of a point that was not computed none.
+double height_of(const branches::BranchPoint& at, Eigen::Index output) {
+  return at.state.amplitudes.size() > output ? at.state.amplitudes(output) : 0;
+}
+
 // Points of the branch that are higher than both neighbours, highest first.
 std::vector<std::size_t> summits(const branches::Branch& branch, Eigen::Index output) {
   std::vector<std::size_t> found;
-  const auto height = [&](std::size_t i) { return branch.points[i].state.amplitudes(output); };
+  const auto height = [&](std::size_t i) { return height_of(branch.points[i], output); };
   for (std::size_t i = 1; i + 1 < branch.points.size(); ++i)
     if (height(i) > height(i - 1) && height(i) >= height(i + 1)) found.push_back(i);
   std::sort(found.begin(), found.end(), [&](std::size_t a, std::size_t b) { return height(a) > height(b); });
@@ -61,7 +66,7 @@ Resonance swept(const steady::Joint& joint, double omega_from, double omega_to,
   const std::vector<std::size_t> candidates = summits(branch, resonance_options.output);
   if (branch.status == Status::converged) result.status = Status::no_bracket;
   if (!branch.points.empty()) {
-    const auto height = [&](const branches::BranchPoint& at) { return at.state.amplitudes(resonance_options.output); };
+    const auto height = [&](const branches::BranchPoint& at) { return height_of(at, resonance_options.output); };
     result.ends = std::max(height(branch.points.front()), height(branch.points.back()));
   }
   for (std::size_t c = 0; c < std::min(candidates.size(), kPeakSweep.tried); ++c) {

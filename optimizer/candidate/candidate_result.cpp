@@ -107,11 +107,8 @@ std::string dynamics(const Scene& scene, const Computation& how, CandidateResult
   const steady::Joint joint = joint_of(scene, model, how.penalty_scale);
   Stopwatch watch;
 
-  paths::ResonanceOptions near_fit = resonance_options(scene);
   const NearResonance near = fit.unworn.empty() ? NearResonance() : fit.unworn.front();
-  near_fit.begins_near = near.displacement.size() > 0;
-  const double start = near_fit.begins_near ? near.omega : model.glued_frequencies(scene.loading.mode - 1);
-  result.unworn = paths::resonance(joint, start, near_fit, near.displacement);
+  result.unworn = unworn_resonance(scene, model, joint, near, resonance_options(scene));
   evaluation.timings_s["unworn_resonance"] = watch.lap();
   if (result.unworn->status != Status::converged) return failed_at("unworn_resonance", result.unworn->status);
   add_fillet_stresses(scene, result);
@@ -167,6 +164,21 @@ steady::Joint joint_of(const Scene& scene, const CandidateModel& model, double p
   joint.options.budget = model.budget;
   joint.options.penalty_scale = penalty_scale;
   return joint;
+}
+
+paths::Resonance unworn_resonance(const Scene& scene, const CandidateModel& model, const steady::Joint& joint,
+                                  const NearResonance& near, paths::ResonanceOptions options) {
+  const double glued = model.glued_frequencies(scene.loading.mode - 1);
+  if (near.displacement.size() == 0) return paths::resonance(joint, glued, options);
+  paths::ResonanceOptions beside = options;
+  beside.begins_near = true;
+  beside.sweep_range = 0;
+  paths::Resonance found = paths::resonance(joint, near.omega, beside, near.displacement);
+  if (found.status == Status::converged || cut_short(found.status)) return found;
+  paths::Resonance again = paths::resonance(joint, glued, options);
+  again.solves += found.solves;
+  again.jacobians += found.jacobians;
+  return again;
 }
 
 double omega_as(const CandidateResult& from, double omega, const Scene& scene, const CandidateModel& model) {

@@ -47,6 +47,12 @@ struct CandidateResult {
   return {.frequency_tolerance = scene.solver.resonance_tolerance};
 }
 
+/// The resonance of the joint before it wears: next to a state near by, and where there is none or that leads to none
+/// from the glued joint.
+[[nodiscard]] paths::Resonance unworn_resonance(const Scene& scene, const CandidateModel& model,
+                                                const steady::Joint& joint, const NearResonance& near,
+                                                paths::ResonanceOptions options);
+
 /// Where a state of a design with other settings is looked for on this model: its frequency, rad/s - stuck flanks are
 /// stiffer than those that slip, by about as much there as here - and its displacement.
 [[nodiscard]] double omega_as(const CandidateResult& from, double omega, const Scene& scene,

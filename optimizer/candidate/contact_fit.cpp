@@ -31,7 +31,9 @@ class GridSearch {
   GridSearch(std::span<const FlankLoad> loads, const Computation& how)
       : scene_(*loads.front().scene), options_(how.contact), cells_(cell_lengths(scene_, options_.lengths)) {
     for (const FlankLoad& load : loads)
-      loads_.push_back({.load = &load, .joint = joint_of(*load.scene, *load.model, how.penalty_scale)});
+      loads_.push_back({.load = &load,
+                        .joint = joint_of(*load.scene, *load.model, how.penalty_scale),
+                        .options = how.contact.resonance});
     release_.certify = release_.certify_finer = false;
   }
 
@@ -73,7 +75,7 @@ class GridSearch {
         // Where nodes beyond an edge hardly stick, do they at the resonance of this grid?
         if (!search_.holds() || at_resonance || vanished) return fit_;
         for (LoadOnGrid& load : loads_)
-          if (!load.find_resonance(load.peak.omega, load.unworn.displacement)) return unsettled();
+          if (!load.find_resonance_again()) return unsettled();
         at_resonance = true;
         --fit_.grids;
       } else if (fit_.grids == options_.grids) {
@@ -184,7 +186,7 @@ class GridSearch {
   /// Where the resonance is followed zones grow on the way: they are to end where nodes end at its end. Where it is
   /// lost on the way, or the budget is spent on the first grid, where they end before.
   [[nodiscard]] wear::Asymptote worn_on_grid() {
-    auto& [load, joint, peak, unworn] = first();
+    const auto& [load, joint, options, peak, unworn] = first();
     if (!follows_) return wear::asymptote(joint, peak.omega, release_, &unworn);
     wear::FollowedAsymptote followed = wear::followed_asymptote(joint, peak.omega, release_, {}, &unworn);
     const bool lost = followed.asymptote.verdict != wear::Verdict::asymptote;

@@ -4,47 +4,44 @@
 
 #include "optimizer/candidate/candidate_result.hpp"
 #include "optimizer/candidate/carried_over.hpp"
-#include "optimizer/candidate/params.hpp"
 #include "paths/steady_state.hpp"
 
 namespace dovetail::optimizer {
 
-namespace {
-constexpr GridResonanceParams kParams = {};
-}  // namespace
-
-paths::ResonanceOptions LoadOnGrid::resonance_roughly() const {
-  paths::ResonanceOptions options = resonance_options(scene());
-  options.frequency_tolerance = std::max(options.frequency_tolerance, kParams.frequency_tolerance);
-  return options;
+paths::ResonanceOptions LoadOnGrid::roughly() const {
+  paths::ResonanceOptions result = resonance_options(scene());
+  result.frequency_tolerance =
+      std::max(result.frequency_tolerance, options.of_half_width * scene().loading.damping_ratio);
+  return result;
 }
 
-bool LoadOnGrid::find_resonance(double start, const Eigen::MatrixXd& guess) {
-  paths::ResonanceOptions options = resonance_roughly();
-  options.begins_near = guess.size() > 0;
-  peak = paths::resonance(joint, start, options, guess);
+bool LoadOnGrid::find_resonance(const NearResonance& near) {
+  peak = unworn_resonance(scene(), model(), joint, near, roughly());
   unworn = peak.state;
   return peak.status == Status::converged;
 }
 
-bool LoadOnGrid::find_first_resonance() {
-  const auto& [near, strips, grid] = load->start;
-  return (near.displacement.size() > 0 && find_resonance(near.omega, carried(near.displacement, strips))) ||
-         find_resonance_from_glued();
+NearResonance LoadOnGrid::with_fewer_harmonics() const {
+  steady::Joint fewer = joint;
+  fewer.options.harmonics = std::min(options.harmonics, joint.options.harmonics);
+  fewer.options.samples = std::min(options.samples, joint.options.samples);
+  if (fewer.options.harmonics == joint.options.harmonics) return {};
+  // Another peak, which a sweep may find, is no way to that of all harmonics.
+  paths::ResonanceOptions beside = roughly();
+  beside.sweep_range = 0;
+  const paths::Resonance found = paths::resonance(fewer, model().glued_frequencies(scene().loading.mode - 1), beside);
+  if (found.status != Status::converged) return {};
+  return {.omega = found.omega, .displacement = paths::padded(found.state.displacement, joint.options.harmonics)};
 }
 
-bool LoadOnGrid::find_resonance_from_glued() {
-  const double glued = model().glued_frequencies(scene().loading.mode - 1);
-  steady::Joint fewer = joint;
-  fewer.options.harmonics = std::min(kParams.harmonics, joint.options.harmonics);
-  fewer.options.samples = std::min(kParams.samples, joint.options.samples);
-  if (fewer.options.harmonics < joint.options.harmonics) {
-    const paths::Resonance first = paths::resonance(fewer, glued, resonance_roughly());
-    if (first.status == Status::converged &&
-        find_resonance(first.omega, paths::padded(first.state.displacement, joint.options.harmonics)))
-      return true;
-  }
-  return find_resonance(glued);
+bool LoadOnGrid::find_first_resonance() {
+  const auto& [near, strips, grid] = load->start;
+  if (near.displacement.size() == 0) return find_resonance(with_fewer_harmonics());
+  return find_resonance({.omega = near.omega, .displacement = carried(near.displacement, strips)});
+}
+
+bool LoadOnGrid::find_resonance_again() {
+  return find_resonance({.omega = peak.omega, .displacement = unworn.displacement});
 }
 
 bool LoadOnGrid::find_unworn(const std::vector<fem::CellStrip>& before) {

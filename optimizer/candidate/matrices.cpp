@@ -191,12 +191,16 @@ bool share_matrices(const LoadCase& one, const LoadCase& other) {
   return share(one, other, shares_matrices);
 }
 
+bool share_preload(const LoadCase& one, const LoadCase& other) {
+  return share(one, other, shares_preload);
+}
+
 std::vector<std::size_t> by_what_they_share(std::span<const LoadCase> cases) {
   std::vector<std::size_t> order;
   std::vector<bool> placed(cases.size());
   const auto place_like = [&](std::size_t like) {
     for (std::size_t i = like; i < cases.size(); ++i) {
-      if (placed[i] || !share(cases[i], cases[like], shares_preload)) continue;
+      if (placed[i] || !share_preload(cases[i], cases[like])) continue;
       placed[i] = true;
       order.push_back(i);
     }

@@ -108,8 +108,9 @@ struct PreloadChange {
 /// Whether designs that differ by this key of a study file alone share their matrices.
 [[nodiscard]] bool shares_matrices(std::string_view key);
 
-/// Whether a design has the same in both cases, but for what its own preload changes.
+/// Whether a design has the same in both cases, but for what its own preload changes; whether that is the same, too.
 [[nodiscard]] bool share_matrices(const LoadCase& one, const LoadCase& other);
+[[nodiscard]] bool share_preload(const LoadCase& one, const LoadCase& other);
 
 /// The places of cases as they are computed with least work: beginning with the first, those that share their matrices
 /// in a row, and of them those that share the preload, too.

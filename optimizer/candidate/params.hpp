@@ -21,14 +21,6 @@ struct EdgeSearchParams {
   double flattest = -0.5, steepest = -4;
 };
 
-/// How the resonance is found at which edges of worn zones are looked for.
-struct GridResonanceParams {
-  int harmonics = 1, samples = 32;  ///< of the search from the glued joint, before the one with all
-  /// Of omega, relative: a thousandth of the half width under a damping of 1e-3. With 1e-5 the worn volume jumps twice
-  /// as far between neighbouring designs. The resonance on the last grid is found as closely as the study asks.
-  double frequency_tolerance = 1e-6;
-};
-
 /// When rough flanks are too soft for nodes that stay matched.
 struct AsperityParams {
   double large = 0.1;  ///< way that asperities give or flanks slide under the pull of the blade, of a flank's length

@@ -90,11 +90,8 @@ class MissionStages {
 
   [[nodiscard]] Status find_unworn(std::size_t k) {
     const Scene& scene = loads_[k].scene;
-    const NearResonance& near = result_.fit.unworn[k];
-    paths::ResonanceOptions options = resonance_options(scene);
-    options.begins_near = near.displacement.size() > 0;
-    const double start = options.begins_near ? near.omega : result_.models[k].glued_frequencies(scene.loading.mode - 1);
-    result_.unworn.push_back(paths::resonance(joint(k), start, options, near.displacement));
+    result_.unworn.push_back(
+        unworn_resonance(scene, result_.models[k], joint(k), result_.fit.unworn[k], resonance_options(scene)));
     return result_.unworn.back().status;
   }
 

@@ -141,10 +141,11 @@ std::span<const Field<optimizer::SolverSettings>> option_table<optimizer::Solver
                .member = &S::prestress,
                .help =
                    "how the stress of the preload stiffens the vibrating structure; own: assembled for each design and "
-                   "case, cases: for each design, with the friction of the study in all cases, shared: that of "
-                   "flanks without gaps for all designs with one mesh, with what a design's own adds to first order. "
-                   "Unless given shared where no variable changes the mesh or flanks differ between cases, cases where "
-                   "friction or force do, else own; sectors too large to be shared assemble their own"},
+                   "case, cases: for each design, with the friction of the first case for all of them, shared: that "
+                   "of flanks without gaps for all designs with one mesh, with what a design's own adds to first "
+                   "order. Unless given shared where no variable changes the mesh; cases where that halves the "
+                   "matrices of a design, but shared where flanks differ between cases or friction is a variable; "
+                   "else own. Sectors too large to be shared assemble their own"},
       Field<S>{.key = "accuracy",
                .member = &S::accuracy,
                .range = {.lower = kAccuracyRange.lower, .upper = kAccuracyRange.upper, .zero = "as given"},

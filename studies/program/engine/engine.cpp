@@ -28,7 +28,11 @@ Scene reference_scene(const Study& study) {
   std::vector<double> middle;
   for (const optimizer::DesignVariable& variable : study.problem.space.variables())
     middle.push_back(variable.lower + (variable.upper - variable.lower) / 2);
-  return scene_at(study, middle);
+  Scene scene = scene_at(study, middle);
+  // What is stressed once for all cases is so as in the first of them.
+  if (scene.solver.prestress == optimizer::Prestress::cases)
+    scene.contact.friction = optimizer::in_first_case(scene, study.problem.cases).contact.friction;
+  return scene;
 }
 
 std::vector<optimizer::MissionCases> study_missions(const Study& study, bool all) {

@@ -162,8 +162,8 @@ void report_contradictions(const Document& document, const optimizer::Scene& sce
   }
 }
 
-/// How designs are stressed at the least cost. Where every design has the same mesh, or cases differ in force, friction
-/// or form of the flanks alone, matrices are computed once.
+/// How designs are stressed at the least cost. Where every design has the same mesh, or where that halves the matrices
+/// of its cases, they are shared.
 optimizer::Prestress least_prestress(const Study& study) {
   const auto all_keys = [&](auto&& of) {
     return std::ranges::all_of(study.problem.space.variables(),
@@ -172,14 +172,19 @@ optimizer::Prestress least_prestress(const Study& study) {
                                }) &&
            std::ranges::all_of(study.linked, [&](const LinkedKey& linked) { return of(linked.key); });
   };
-  const std::span<const optimizer::LoadCase> cases = study.problem.cases;
   if (!study.problem.space.variables().empty() && all_keys(optimizer::shares_matrices))
     return optimizer::Prestress::shared;
-  bool alike = false;
-  for (std::size_t i = 0; i < cases.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) alike = alike || optimizer::share_matrices(cases[i], cases[j]);
-  if (!alike) return optimizer::Prestress::own;
-  // The stress is that of the study's own friction and of one form of the flanks.
+  const std::span<const optimizer::LoadCase> cases = study.problem.cases;
+  const auto kinds = [&](auto&& alike) {
+    std::ptrdiff_t count = 0;
+    for (auto one = cases.begin(); one != cases.end(); ++one)
+      count += std::none_of(cases.begin(), one, [&](const optimizer::LoadCase& other) { return alike(*one, other); });
+    return count;
+  };
+  // Those that have one preload share them anyway.
+  if (cases.empty() || 2 * kinds(optimizer::share_matrices) > kinds(optimizer::share_preload))
+    return optimizer::Prestress::own;
+  // The stress of all cases is that of one friction and one form of the flanks.
   const bool one_friction = all_keys([](std::string_view key) { return key != "contact.friction"; });
   const bool flanks_differ = std::ranges::any_of(cases, [](const optimizer::LoadCase& load) {
     return std::ranges::any_of(load.changes, [](const optimizer::KeyChange& change) {

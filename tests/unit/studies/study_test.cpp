@@ -284,13 +284,18 @@ TEST(Study, DesignsWithOneMeshShareTheirMatrices) {
   };
   const std::string width = "key = \"geometry.neck_width_mm\"\nlower = 8\nupper = 9\n";
   EXPECT_EQ(of_cases(silent, "contact.friction", width), optimizer::Prestress::cases);
-  EXPECT_EQ(of_cases(silent, "loading.tip_force_n", width), optimizer::Prestress::cases);
+  EXPECT_EQ(of_cases(silent, "loading.tip_force_n", width), optimizer::Prestress::own);  // which they share anyway
   EXPECT_EQ(of_cases(silent, "geometry.flank_crown_um", width), optimizer::Prestress::shared);
   EXPECT_EQ(of_cases(silent, "geometry.shank_height_mm", width), optimizer::Prestress::own);
   EXPECT_EQ(of_cases(silent, "contact.friction", crown), optimizer::Prestress::shared);
   EXPECT_EQ(of_cases(sample(), "contact.friction", width), optimizer::Prestress::own);
   const std::string friction = "\n[[variable]]\nkey = \"contact.friction\"\nlower = 0.3\nupper = 0.6\n";
-  EXPECT_EQ(of_cases(silent, "loading.tip_force_n", width + friction), optimizer::Prestress::shared);
+  const std::string uncertain = "[[uncertain]]\nkey = \"contact.friction\"\nplus_minus = 0.1\n";
+  EXPECT_EQ(of_variable(silent, width + uncertain), optimizer::Prestress::cases);
+  EXPECT_EQ(of_variable(silent, width + friction + uncertain), optimizer::Prestress::shared);
+  // Two alike of three are too few.
+  const std::string faster = "[[case]]\nname = \"faster\"\nscene.speed_rpm = 11000\n";
+  EXPECT_EQ(of_cases(silent, "contact.friction", width + faster), optimizer::Prestress::own);
   EXPECT_EQ(of_variable(silent, crown + linked("geometry.right.flank_crown_um")), optimizer::Prestress::shared);
 }
 

@@ -411,6 +411,33 @@ TEST(SectionEvaluation, KnowsWhichKeysLeaveTheMatrices) {
   }
 }
 
+// Contact nodes are laid at a resonance that is found with few harmonics at first and less closely than the one that
+// counts: they end where they would at that one, as closely as edges are asked for.
+TEST(SectionEvaluation, ContactNodesAreLaidAtTheResonanceThatCounts) {
+  for (const double mismatch : {4e-6, 8e-6}) {
+    Scene scene = coarse_scene();
+    for (geometry::FlankParameters& flank : scene.geometry.flanks) flank.mismatch = mismatch;
+    const CandidateModel model = ModelBuilder(scene).build(scene);
+    Computation closely;
+    closely.contact.resonance = {
+        .harmonics = scene.solver.harmonics, .samples = scene.solver.samples, .of_half_width = 0};
+    const CandidateResult roughly = through_stages(scene, model, {}), close = through_stages(scene, model, closely);
+    ASSERT_TRUE(roughly.evaluation.converged() && close.evaluation.converged());
+    ASSERT_GT(close.fit.edges, 0);
+    EXPECT_EQ(roughly.fit.edges, close.fit.edges);
+    for (std::size_t f = 0; f < close.model.cells.flanks.size(); ++f) {
+      const std::vector<double>&here = roughly.model.cells.flanks[f].across.front(),
+            &there = close.model.cells.flanks[f].across.front();
+      ASSERT_EQ(here.size(), there.size());
+      for (std::size_t k = 0; k < there.size(); ++k)
+        EXPECT_NEAR(here[k], there[k], 2 * ContactFitOptions{}.aim / scene.mesh.flank_elements) << f << " " << k;
+    }
+    EXPECT_NEAR(roughly.asymptote->worn_volume, close.asymptote->worn_volume, 1e-3 * close.asymptote->worn_volume);
+    EXPECT_NEAR(roughly.unworn->omega, close.unworn->omega, 1e-6 * close.unworn->omega);
+    EXPECT_NE(roughly.unworn->omega, close.unworn->omega);
+  }
+}
+
 // Cases that differ in friction or force share the matrices of their design, which are its own in the study's friction;
 // what another friction changes in them is in the bars.
 TEST(SectionEvaluation, CasesOfADesignShareItsMatrices) {
@@ -431,6 +458,10 @@ TEST(SectionEvaluation, CasesOfADesignShareItsMatrices) {
   const CandidateModel again = builder.build(slippery);
   EXPECT_EQ(again.matrices.shared, shared);
   EXPECT_TRUE(again.matrices.by_other);
+  const CandidateModel fresh = ModelBuilder(scene).build(slippery);
+  EXPECT_EQ(again.model.stiffness, fresh.model.stiffness);
+  EXPECT_EQ(again.model.cosine_force, fresh.model.cosine_force);
+  EXPECT_EQ(again.preload.pressure, fresh.preload.pressure);
   EXPECT_NE(builder.build(another_form).matrices.shared, shared);
 
   const Evaluation found = SceneEvaluator(scene).evaluate(slippery).evaluation;

@@ -112,6 +112,20 @@ TEST(Mission, IsConfirmedByAnAlternatingHistory) {
   }
 }
 
+// What the friction of another load than the first changes in the stress that stiffens the blade is in the bars.
+TEST(Mission, HasThePrestressOfItsOtherLoadsInItsBars) {
+  Scene scene = loaded(1), other = loaded(1.5);
+  scene.solver.prestress = other.solver.prestress = Prestress::cases;
+  const auto sources = [&] {
+    const Evaluation mission = SceneEvaluator(scene).evaluate_mission(of({scene, other}), {.history = false});
+    EXPECT_TRUE(mission.converged()) << mission.status;
+    return mission.error_sources.at("mission_wear_volume_m3");
+  };
+  EXPECT_FALSE(sources().contains("prestress"));
+  other.contact.friction *= 0.8;
+  EXPECT_TRUE(sources().contains("prestress"));
+}
+
 // Worn off by the lighter load first, these flanks stick under the heavier one before it has worn off all it would:
 // explicit histories of whole loads in turn end there, too.
 TEST_F(MissionOfACoarseScene, SaysWhereTheOrderMatters) {
