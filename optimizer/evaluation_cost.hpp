@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "optimizer/problem/load_case.hpp"
 #include "optimizer/scene/scene.hpp"
 
 namespace dovetail::optimizer {
@@ -39,5 +40,8 @@ struct WorkParams {
   double finer = 1;     ///< on a mesh with twice the edges
 };
 [[nodiscard]] WorkParams work_foreseen(bool in_space);
+
+/// What all cases of a design take, in evaluations without cases: those that find their matrices computed take less.
+[[nodiscard]] double loads_foreseen(std::span<const LoadCase> cases, Prestress prestress);
 
 }  // namespace dovetail::optimizer

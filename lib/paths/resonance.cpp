@@ -84,6 +84,7 @@ Resonance resonance(const steady::Joint& joint, double omega_start, const Resona
   if (far.status == Status::converged) return far;
   near.solves = far.solves;
   near.jacobians = far.jacobians;
+  if (cut_short(far.status)) near.status = far.status;
   return near;
 }
 

@@ -22,7 +22,7 @@ struct Computation;
 /// - harmonics, samples, pseudo_penalty: d to 2H+1, to 2N and to half of the penalty, or to twice as much where half
 ///   has no answer, by quality::truncation_factors.
 /// - modes: d to twice as many: 1.5 d, as the error falls like the square of the first frequency left out.
-/// - prestress: d to matrices assembled with the design's own preload, where designs share theirs.
+/// - prestress: d to matrices assembled with the design's own preload, where designs or cases share theirs.
 /// - edge: ends of worn zones that went to and fro between two grids, in proportion to how far.
 /// - history: where the wear history decided against the direct method, by how much they differ; where it confirmed
 ///   what was in doubt, a part of a node at the ends of worn zones, as the history wears off whole nodes; all of the

@@ -1,6 +1,7 @@
 #include "optimizer/candidate/matrices.hpp"
 
 #include <map>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -174,15 +175,22 @@ bool shares_preload(std::string_view key) {
   return shares_matrices(key) && !key.starts_with("geometry.") && !key.starts_with("contact.friction");
 }
 
-/// Whether two cases differ in keys alone that are `shared`.
+/// What a case changes but for keys that are `shared`.
+std::map<std::string, std::pair<double, double>> unshared(const LoadCase& load, bool (*shared)(std::string_view)) {
+  std::map<std::string, std::pair<double, double>> changes;
+  for (const auto& [key, value, times] : load.changes)
+    if (!shared(key)) changes[key] = {value, times};
+  return changes;
+}
+
 bool share(const LoadCase& one, const LoadCase& other, bool (*shared)(std::string_view)) {
-  const auto unshared = [&](const LoadCase& load) {
-    std::map<std::string, std::pair<double, double>> changes;
-    for (const auto& [key, value, times] : load.changes)
-      if (!shared(key)) changes[key] = {value, times};
-    return changes;
-  };
-  return unshared(one) == unshared(other);
+  return unshared(one, shared) == unshared(other, shared);
+}
+
+std::size_t kinds(std::span<const LoadCase> cases, bool (*shared)(std::string_view)) {
+  std::set<std::map<std::string, std::pair<double, double>>> found;
+  for (const LoadCase& load : cases) found.insert(unshared(load, shared));
+  return found.size();
 }
 
 }  // namespace
@@ -191,8 +199,12 @@ bool share_matrices(const LoadCase& one, const LoadCase& other) {
   return share(one, other, shares_matrices);
 }
 
-bool share_preload(const LoadCase& one, const LoadCase& other) {
-  return share(one, other, shares_preload);
+std::size_t kinds_of_matrices(std::span<const LoadCase> cases) {
+  return kinds(cases, shares_matrices);
+}
+
+std::size_t kinds_of_preload(std::span<const LoadCase> cases) {
+  return kinds(cases, shares_preload);
 }
 
 std::vector<std::size_t> by_what_they_share(std::span<const LoadCase> cases) {
@@ -200,7 +212,7 @@ std::vector<std::size_t> by_what_they_share(std::span<const LoadCase> cases) {
   std::vector<bool> placed(cases.size());
   const auto place_like = [&](std::size_t like) {
     for (std::size_t i = like; i < cases.size(); ++i) {
-      if (placed[i] || !share_preload(cases[i], cases[like])) continue;
+      if (placed[i] || !share(cases[i], cases[like], shares_preload)) continue;
       placed[i] = true;
       order.push_back(i);
     }

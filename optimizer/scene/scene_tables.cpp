@@ -144,7 +144,7 @@ std::span<const Field<optimizer::SolverSettings>> option_table<optimizer::Solver
                    "case, cases: for each design, with the friction of the first case for all of them, shared: that "
                    "of flanks without gaps for all designs with one mesh, with what a design's own adds to first "
                    "order. Unless given shared where no variable changes the mesh; cases where that halves the "
-                   "matrices of a design, but shared where flanks differ between cases or friction is a variable; "
+                   "matrices of a design, but shared where cases set the form of the flanks or friction is a variable; "
                    "else own. Sectors too large to be shared assemble their own"},
       Field<S>{.key = "accuracy",
                .member = &S::accuracy,

@@ -66,7 +66,8 @@ std::string cost_words(const Study& study, const optimizer::Scene& scene, std::v
       options.max_evaluations + 2 * work.describe + (options.noise > 0 ? 0 : work.bars) + options.verify * work.verify;
   if (options.departures) evaluations += 2 * static_cast<double>(optimizer::usual_departures().size());
   if (!study.problem.constraints.empty()) evaluations += 2 * options.finer_meshes * work.finer;
-  const double seconds = loads * evaluations * cost.seconds;
+  const double seconds =
+      optimizer::loads_foreseen(study.problem.cases, study.scene.solver.prestress) * evaluations * cost.seconds;
   return text + fmt::format(
                     "the run: up to {} evaluations{}, with all that follows about {} of one core; this machine "
                     "has {}\n",

@@ -28,11 +28,7 @@ Scene reference_scene(const Study& study) {
   std::vector<double> middle;
   for (const optimizer::DesignVariable& variable : study.problem.space.variables())
     middle.push_back(variable.lower + (variable.upper - variable.lower) / 2);
-  Scene scene = scene_at(study, middle);
-  // What is stressed once for all cases is so as in the first of them.
-  if (scene.solver.prestress == optimizer::Prestress::cases)
-    scene.contact.friction = optimizer::in_first_case(scene, study.problem.cases).contact.friction;
-  return scene;
+  return scene_at(study, middle);
 }
 
 std::vector<optimizer::MissionCases> study_missions(const Study& study, bool all) {
@@ -44,8 +40,15 @@ std::vector<optimizer::MissionCases> study_missions(const Study& study, bool all
   return optimizer::missions_of(study.problem.cases, named);
 }
 
+Scene evaluator_reference(const Study& study) {
+  Scene scene = reference_scene(study);
+  if (scene.solver.prestress == optimizer::Prestress::cases)
+    scene.contact.friction = optimizer::in_first_case(scene, study.problem.cases).contact.friction;
+  return scene;
+}
+
 std::shared_ptr<const SceneEvaluator> scene_evaluator(const Study& study) {
-  return std::make_shared<const SceneEvaluator>(reference_scene(study), optimizer::responses_of(study.problem));
+  return std::make_shared<const SceneEvaluator>(evaluator_reference(study), optimizer::responses_of(study.problem));
 }
 
 namespace {
@@ -199,7 +202,7 @@ optimizer::Cost expected_cost(const Study& study) {
   try {
     const Scene scene = optimizer::in_first_case(study.scene, study.problem.cases);
     optimizer::Cost cost = optimizer::cost_foreseen(optimizer::sizes_foreseen(reference_scene(study), scene));
-    cost.seconds *= static_cast<double>(std::max<std::size_t>(study.problem.cases.size(), 1));
+    cost.seconds *= optimizer::loads_foreseen(study.problem.cases, study.scene.solver.prestress);
     return cost;
   } catch (const InputError&) {
     return {};

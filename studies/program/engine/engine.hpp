@@ -19,6 +19,8 @@ namespace dovetail::studies {
 /// The scene whose geometry fixes the mesh topology of a study: every variable in the middle of its bounds. It does not
 /// depend on the values of the variables, so that a best design evaluates in its own file as it did in the run.
 [[nodiscard]] optimizer::Scene reference_scene(const Study& study);
+/// The same as evaluators have it: what is stressed once for all cases is so with the friction of the first.
+[[nodiscard]] optimizer::Scene evaluator_reference(const Study& study);
 
 /// The study's scene with these values of the variables, in the unit of the file.
 [[nodiscard]] optimizer::Scene scene_at(const Study& study, std::span<const double> x);

@@ -143,6 +143,9 @@ LoadedModel load_model(Study study, std::ostream* err, std::optional<wear::Follo
     *err << study.file
          << ": warning: solver.accuracy chooses nothing here: mesh, modes, harmonics and samples are those of the file "
             "(`dovetail evaluate` chooses and tells them).\n";
+  // Of the file's own numbers, which are those of no case.
+  if (study.scene.solver.prestress == optimizer::Prestress::cases)
+    study.scene.solver.prestress = optimizer::Prestress::own;
   optimizer::CandidateModel candidate = scene_evaluator(study)->builder().build(study.scene);
   if (candidate.infeasible()) throw infeasible(study.file, candidate.messages);
   LoadedModel loaded;

@@ -76,7 +76,7 @@ std::optional<optimizer::SettingsChoice> settle(Study& study, const std::optiona
                                                 const optimizer::AccuracyMemory& memory) {
   if (!goal) return {};
   optimizer::SettingsChoice choice = optimizer::choose_settings(
-      reference_scene(study), optimizer::in_first_case(study.scene, study.problem.cases), *goal, told, memory);
+      evaluator_reference(study), optimizer::in_first_case(study.scene, study.problem.cases), *goal, told, memory);
   study.scene = optimizer::with_settings(study.scene, choice.settings);
   return choice;
 }

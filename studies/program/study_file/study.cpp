@@ -175,14 +175,8 @@ optimizer::Prestress least_prestress(const Study& study) {
   if (!study.problem.space.variables().empty() && all_keys(optimizer::shares_matrices))
     return optimizer::Prestress::shared;
   const std::span<const optimizer::LoadCase> cases = study.problem.cases;
-  const auto kinds = [&](auto&& alike) {
-    std::ptrdiff_t count = 0;
-    for (auto one = cases.begin(); one != cases.end(); ++one)
-      count += std::none_of(cases.begin(), one, [&](const optimizer::LoadCase& other) { return alike(*one, other); });
-    return count;
-  };
   // Those that have one preload share them anyway.
-  if (cases.empty() || 2 * kinds(optimizer::share_matrices) > kinds(optimizer::share_preload))
+  if (cases.empty() || 2 * optimizer::kinds_of_matrices(cases) > optimizer::kinds_of_preload(cases))
     return optimizer::Prestress::own;
   // The stress of all cases is that of one friction and one form of the flanks.
   const bool one_friction = all_keys([](std::string_view key) { return key != "contact.friction"; });

@@ -83,6 +83,19 @@ TEST(StudyEngine, StartsWhereTheVariablesStart) {
   EXPECT_EQ(parameter(studies::reference_scene(study), "geometry.flank_mismatch_um"), 10);
 }
 
+// Matrices that are stressed once for all cases are so with the friction of the first of them, taken once.
+TEST(StudyEngine, StressesTheMatricesOfAllCasesAsInTheFirst) {
+  studies::Study study;
+  study.problem.cases = {{.name = "a", .changes = {{.key = "contact.friction", .value = -0.1, .times = 1}}},
+                         {.name = "b", .changes = {{.key = "contact.friction", .value = 0.3}}}};
+  const double friction = study.scene.contact.friction;
+  EXPECT_EQ(studies::evaluator_reference(study).contact.friction, friction);
+  study.scene.solver.prestress = Prestress::cases;
+  EXPECT_DOUBLE_EQ(studies::evaluator_reference(study).contact.friction, friction - 0.1);
+  study.scene = studies::reference_scene(study);
+  EXPECT_DOUBLE_EQ(studies::evaluator_reference(study).contact.friction, friction - 0.1);
+}
+
 // Whatever bounds were held against: a run comes to its report.
 TEST(StudyEngine, DescribesADesignThatIsRefusedAsFailed) {
   studies::Study study;

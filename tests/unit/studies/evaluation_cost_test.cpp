@@ -47,6 +47,21 @@ TEST(EvaluationCost, IsForeseenWithinAFactorOfTwo) {
   }
 }
 
+// Two speeds, two frictions, two forces: cases that find their matrices computed take a third of those that do not.
+TEST(EvaluationCost, KnowsWhatCasesShare) {
+  std::vector<LoadCase> cases;
+  for (const double speed : {9000, 10000})
+    for (const double friction : {0.4, 0.5})
+      for (const double force : {1, 2})
+        cases.push_back({.name = "case",
+                         .changes = {{.key = "scene.speed_rpm", .value = speed},
+                                     {.key = "contact.friction", .value = friction},
+                                     {.key = "loading.tip_force_n", .value = force}}});
+  EXPECT_EQ(loads_foreseen({}, Prestress::own), 1);
+  EXPECT_NEAR(loads_foreseen(cases, Prestress::cases), 3.8, 0.4);
+  EXPECT_NEAR(loads_foreseen(cases, Prestress::own), 5.4, 0.4);
+}
+
 TEST(EvaluationCost, KnowsTheSizesOfADesign) {
   const studies::Study study = studies::read_study(studies::parse_document(studies::study_template("s"), "s.toml"));
   const CandidateSizes sizes = sizes_foreseen(studies::reference_scene(study), study.scene);

@@ -438,8 +438,22 @@ TEST(SectionEvaluation, ContactNodesAreLaidAtTheResonanceThatCounts) {
   }
 }
 
-// Cases that differ in friction or force share the matrices of their design, which are its own in the study's friction;
-// what another friction changes in them is in the bars.
+// A state that is near no resonance leads to none: it is then looked for from the glued joint.
+TEST(SectionEvaluation, AResonanceIsFoundFromAStateThatIsFarFromIt) {
+  const Scene scene = coarse_scene();
+  const CandidateModel model = ModelBuilder(scene).build(scene);
+  ASSERT_TRUE(model.converged()) << model.status;
+  const steady::Joint joint = joint_of(scene, model);
+  const paths::Resonance alone = unworn_resonance(scene, model, joint, {}, resonance_options(scene));
+  NearResonance far{.omega = 0.4 * alone.omega, .displacement = 0 * alone.state.displacement};
+  const paths::Resonance found = unworn_resonance(scene, model, joint, far, resonance_options(scene));
+  ASSERT_EQ(found.status, Status::converged);
+  EXPECT_NEAR(found.omega, alone.omega, 1e-6 * alone.omega);
+  EXPECT_GT(found.solves, alone.solves);
+}
+
+// Cases that differ in friction or force share the matrices of their design, which are its own in the evaluator's
+// friction; what another friction changes in them is in the bars.
 TEST(SectionEvaluation, CasesOfADesignShareItsMatrices) {
   Scene scene = coarse_scene();
   for (geometry::FlankParameters& flank : scene.geometry.flanks) flank.mismatch = 8e-6;

@@ -49,6 +49,22 @@ TEST(Verification, MayBeAtGivenSettings) {
                                  .evaluation.responses.at("asymptotic_wear_volume_m3"));
 }
 
+// What cases share approximately is not shared by what they are held against.
+TEST(Verification, HasTheStressOfItsOwnPreload) {
+  Scene scene = coarse_scene();
+  scene.solver.prestress = Prestress::cases;
+  FinerDesign there{.scene = scene, .reference = scene};
+  there.reference.contact.friction *= 1.5;
+  const auto direct = [&there](const Scene& at) {
+    return SceneEvaluator(there.reference).evaluate(at, kSearch).evaluation.responses.at("asymptotic_wear_volume_m3");
+  };
+  const Verification v = verify(scene, SceneEvaluator(scene).evaluate(scene), there);
+  Scene own = scene;
+  own.solver.prestress = Prestress::own;
+  EXPECT_EQ(v.direct_volume, direct(own));
+  EXPECT_NE(v.direct_volume, direct(scene));
+}
+
 // A search whose worn volume is off by more than its bar is found out by either answer.
 TEST(Verification, DisagreesWithASearchThatIsOff) {
   const Scene scene = coarse_scene();
