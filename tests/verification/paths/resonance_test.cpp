@@ -5,6 +5,7 @@
 #include "paths/amplitude.hpp"
 #include "paths/continuation.hpp"
 #include "paths/frequency_response.hpp"
+#include "paths/peak_sweep.hpp"
 #include "paths/steady_state.hpp"
 #include "tests/verification/steady/gap_oscillator.hpp"
 
@@ -70,6 +71,17 @@ TEST(Resonance, SaysWhenThereIsNone) {
   const paths::Resonance peak =
       paths::resonance({condensed(rod(10)), {}, {}}, 3.5, {.search_range = 0.02, .sweep_range = 0});
   EXPECT_EQ(peak.status, Status::no_bracket);
+}
+
+// The first point of the branch may not be computed at all, and then has no amplitude.
+TEST(PeakSweep, SaysWhyItCannotBegin) {
+  reduction::ReducedModel model = rod(10);
+  model.cosine_force *= 1e300;
+  const steady::Joint overflowing{condensed(model), {}, {}};
+  ASSERT_EQ(paths::steady_state(overflowing, 2.6).amplitudes.size(), 0);
+  const paths::Resonance none = paths::peak_sweep(overflowing, 2.4, 2.8, {});
+  EXPECT_EQ(none.status, Status::not_finite);
+  EXPECT_EQ(none.ends, 0);
 }
 
 TEST(Resonance, IsFoundFarBelowTheGluedFrequency) {

@@ -96,5 +96,18 @@ TEST(WhereWearComesToRest, KeepsOtherStatesAlongResonances) {
   }
 }
 
+// What is asked of the numbers of a file alone is asked of that design, stressed by its own preload, not by that of its
+// first case.
+TEST(LoadedModel, OfAStudyWithCasesIsStressedByItsOwnPreload) {
+  Study study = load_study(QUICKSTART);
+  study.scene.solver.prestress = optimizer::Prestress::own;
+  const LoadedModel alone = load_model(study);
+  study.problem.cases = {{.name = "slippery", .changes = {{.key = "contact.friction", .value = 0.3}}}};
+  study.scene.solver.prestress = optimizer::Prestress::cases;
+  EXPECT_EQ(load_model(study).model.stiffness, alone.model.stiffness);
+  study.scene.contact.friction = 0.3;
+  EXPECT_NE(load_model(study).model.stiffness, alone.model.stiffness);
+}
+
 }  // namespace
 }  // namespace dovetail::studies
