@@ -115,8 +115,12 @@ Scene in_first_case(const Scene& scene, std::span<const LoadCase> cases) {
 MissionLoads mission_loads(const Scene& scene, std::span<const LoadCase> cases, const MissionCases& mission) {
   if (cases.empty()) return {.all = {{.name = {}, .share = 1, .scene = scene}}};
   MissionLoads loads;
-  for (const std::size_t i : mission.cases)
+  std::vector<LoadCase> acting;
+  for (const std::size_t i : mission.cases) {
+    acting.push_back(cases[i]);
     loads.all.push_back({.name = cases[i].name, .share = cases[i].weight, .scene = in_case(scene, cases[i])});
+  }
+  loads.by_sharing = by_what_they_share(acting);
   return loads;
 }
 

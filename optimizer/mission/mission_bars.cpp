@@ -217,8 +217,11 @@ void add_mission_bars(const MissionLoads& loads, const ModelBuilder& builder, co
 }
 
 std::vector<CandidateModel> models_of(const MissionLoads& loads, const ModelBuilder& builder) {
-  std::vector<CandidateModel> models;
-  for (const MissionLoads::Load& load : loads.all) models.push_back(builder.build(load.scene));
+  std::vector<CandidateModel> models(loads.all.size());
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    const std::size_t load = loads.by_sharing.empty() ? i : loads.by_sharing[i];
+    models[load] = builder.build(loads.all[load].scene);
+  }
   return models;
 }
 

@@ -20,6 +20,8 @@ struct MissionLoads {
     Scene scene;       ///< of one geometry and mesh; loads differ in speed, force, friction, ...
   };
   std::vector<Load> all;
+  std::vector<std::size_t> by_sharing =
+      {};  ///< their indices, those that share matrices in a row; empty: as they stand
 };
 
 /// The flanks when no load wears them any further, and the joint on them. Members after what failed are empty.

@@ -2,11 +2,14 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <functional>
 #include <memory>
 #include <ostream>
 #include <sstream>
+#include <system_error>
 #include <type_traits>
+#include <vector>
 
 #include "core/options.hpp"
 #include "studies/program/answers/version.hpp"
@@ -17,6 +20,19 @@
 
 namespace dovetail::studies {
 namespace {
+
+/// Those of a list like 2,3. Throws CLI::ValidationError for anything else.
+std::vector<int> whole_numbers(const std::string& option, const std::string& text) {
+  std::vector<int> result;
+  for (const char* at = text.data(); at != nullptr;) {
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(at, end, result.emplace_back());
+    if (error != std::errc() || (stop != end && *stop != ','))
+      throw CLI::ValidationError(option + " = " + text, "must be whole numbers separated by commas");
+    at = stop == end ? nullptr : stop + 1;
+  }
+  return result;
+}
 
 template <class S>
 void add_option(CLI::App& command, S& options, const Option<S>& row) {
@@ -29,6 +45,11 @@ void add_option(CLI::App& command, S& options, const Option<S>& row) {
               ->check(CLI::IsMember(std::vector<std::string>(member.names().begin(), member.names().end())));
         } else if constexpr (std::is_same_v<Member, bool S::*>) {
           return command.add_flag(row.name, options.*member, row.help);
+        } else if constexpr (std::is_same_v<Member, std::vector<int> S::*>) {
+          const auto set = [&options, member, name = row.name](const std::string& text) {
+            options.*member = whole_numbers(name, text);
+          };
+          return command.add_option_function<std::string>(row.name, set, row.help)->type_name(std::string(row.type));
         } else {
           using T = std::decay_t<decltype(options.*member)>;
           CLI::Option* added =
@@ -39,7 +60,6 @@ void add_option(CLI::App& command, S& options, const Option<S>& row) {
               added->expected(row.values)
                   ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
                   ->allow_extra_args(false);
-          if constexpr (std::is_same_v<T, std::vector<int>>) added->delimiter(',');
           return added;
         }
       },

@@ -296,10 +296,8 @@ int computed(const RunOptions& options, const Study& asked, const fs::path& dire
       conclusion(study, result, written.record, directory) + verified_words(verifications) + held_words(written.record);
   streams.out << answer;
   if (interrupted) {
-    streams.err << fmt::format(
-        "dovetail: interrupted; {} evaluations are kept in {}; the same command with --resume "
-        "goes on\n",
-        result.evaluations.size(), directory.string());
+    streams.err << fmt::format("dovetail: interrupted; {} kept in {}; the same command with --resume goes on\n",
+                               report::counted(result.evaluations.size(), "evaluation"), directory.string());
     return kInterrupted;
   }
   if (const std::string open = shortcoming(study, result, written); !open.empty()) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "studies/program/engine/json_values.hpp"
+#include "studies/report/words/report_words.hpp"
 
 namespace dovetail::studies {
 
@@ -38,7 +39,8 @@ void SearchProgress::operator()(const optimizer::Progress& progress) {
     has_best_ = true;
   }
   const int done = static_cast<int>(progress.index) + 1;
-  teller_.keeps(fmt::format("{} evaluations are kept in {}; the same command with --resume goes on", done, directory_));
+  teller_.keeps(fmt::format("{} kept in {}; the same command with --resume goes on",
+                            report::counted(progress.index + 1, "evaluation"), directory_));
   const auto words = [text = standing(progress), begin = begin_, computed = computed_,
                       left = evaluations_ - done](double) {
     const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();

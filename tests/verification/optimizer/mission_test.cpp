@@ -165,6 +165,31 @@ TEST_F(MissionOfACoarseScene, LaysOneGridForAllLoads) {
   EXPECT_GT(fine.mission->depth.size(), found.mission->depth.size());
 }
 
+// The matrices of one speed are computed once, however the cases stand in a file. The loads stay in that order.
+TEST(MissionLoads, OfOneSpeedAreBuiltSideBySide) {
+  const Scene scene = coarse_scene();
+  std::vector<LoadCase> cases;
+  MissionCases all;
+  for (const double force : {1, 2})
+    for (const double faster : {1.0, 1.05}) {
+      all.cases.push_back(cases.size());
+      cases.push_back({.name = std::to_string(cases.size()),
+                       .changes = {{.key = "loading.tip_force_n", .value = force},
+                                   {.key = "scene.speed_rpm", .value = 0, .times = faster}}});
+    }
+  const MissionLoads loads = mission_loads(scene, cases, all);
+  ASSERT_EQ(loads.all.size(), 4U);
+  EXPECT_EQ(loads.all[2].scene.loading.tip_force, 2);
+  const std::vector<CandidateModel> models = models_of(loads, ModelBuilder(scene));
+  for (std::size_t k = 0; k < models.size(); ++k) {
+    ASSERT_TRUE(models[k].converged()) << models[k].status;
+    EXPECT_EQ(models[k].model.cosine_force, ModelBuilder(scene).build(loads.all[k].scene).model.cosine_force) << k;
+  }
+  EXPECT_EQ(models[0].matrices.shared, models[2].matrices.shared);
+  EXPECT_EQ(models[1].matrices.shared, models[3].matrices.shared);
+  EXPECT_NE(models[0].matrices.shared, models[1].matrices.shared);
+}
+
 // Against a mesh three times as fine.
 TEST_F(MissionOfACoarseScene, LiesWithinItsBars) {
   const std::vector<Scene> scenes{loaded(1), loaded(1.5, 1.05)};
