@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Do the error bars hold? Random designs at the default settings against settings that cost fifty times as much.
 
-    python3 studies/error_bars/calibrate.py build/dovetail --designs 200 --seed 3 --lines section.jsonl
+    python3 studies/error_bars/calibrate.py build/dovetail --designs 200 --seed 3 --lines results/section.jsonl
 
 Every design is evaluated as users do, with bars, and held against its responses at fine settings, which count as the
 truth. Truths that are known stand in section.csv and space.csv beside this program; missing ones are computed
@@ -248,10 +248,11 @@ def main():
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE",
                         help="judge the bars at other settings than the study's, e.g. mesh.flank_elements=48")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
-    parser.add_argument("--lines", default="error_bars.jsonl", help="one line per design, kept and gone on with")
+    parser.add_argument("--lines", default="results/error_bars.jsonl", help="one line per design, kept and gone on with")
     parser.add_argument("--table", action="store_true", help="the table of --lines alone")
     parser.add_argument("--truths", action="store_true", help="only compute the truths that are not known")
     given = parser.parse_args()
+    pathlib.Path(given.lines).parent.mkdir(parents=True, exist_ok=True)
     rows = [] if given.truths else read(given.lines)
     if not given.table:
         if not given.program:
