@@ -67,10 +67,14 @@ WorkParams work_foreseen(bool in_space) {
 
 double loads_foreseen(std::span<const LoadCase> cases, Prestress prestress) {
   constexpr double kLater = 0.35;  // the quickstart in eight cases: 0.29 at its start, 0.35 in a search
+  // Of a robust study in ten cases of two speeds: fields that say what a preload changes, and such a change.
+  constexpr double kFields = 0.45, kChange = 0.65;
   if (cases.empty()) return 1;
-  const auto first =
-      static_cast<double>(prestress == Prestress::own ? kinds_of_preload(cases) : kinds_of_matrices(cases));
-  return first + kLater * (static_cast<double>(cases.size()) - first);
+  const auto all = static_cast<double>(cases.size());
+  const auto first = static_cast<double>(kinds_of_matrices(cases, prestress));
+  if (prestress != Prestress::shared) return first + kLater * (all - first);
+  const auto preloads = static_cast<double>(kinds_of_matrices(cases, Prestress::own));
+  return (1 + kFields) * first + kChange * (preloads - first) + kLater * (all - preloads);
 }
 
 }  // namespace dovetail::optimizer

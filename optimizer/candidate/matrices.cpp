@@ -170,9 +170,13 @@ bool shares_matrices(std::string_view key) {
 
 namespace {
 
-/// Whether the preload of designs that differ by this key alone is the same.
+/// Whether the preload of designs that differ by this key alone is the same under one friction.
+bool shares_but_for_friction(std::string_view key) {
+  return shares_matrices(key) && !key.starts_with("geometry.");
+}
+
 bool shares_preload(std::string_view key) {
-  return shares_matrices(key) && !key.starts_with("geometry.") && !key.starts_with("contact.friction");
+  return shares_but_for_friction(key) && !key.starts_with("contact.friction");
 }
 
 /// What a case changes but for keys that are `shared`.
@@ -199,12 +203,16 @@ bool share_matrices(const LoadCase& one, const LoadCase& other) {
   return share(one, other, shares_matrices);
 }
 
-std::size_t kinds_of_matrices(std::span<const LoadCase> cases) {
+std::size_t kinds_of_matrices(std::span<const LoadCase> cases, Prestress prestress) {
+  switch (prestress) {
+    case Prestress::own:
+      return kinds(cases, shares_preload);
+    case Prestress::cases:
+      return kinds(cases, shares_but_for_friction);
+    case Prestress::shared:
+      break;
+  }
   return kinds(cases, shares_matrices);
-}
-
-std::size_t kinds_of_preload(std::span<const LoadCase> cases) {
-  return kinds(cases, shares_preload);
 }
 
 std::vector<std::size_t> by_what_they_share(std::span<const LoadCase> cases) {

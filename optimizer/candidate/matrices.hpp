@@ -111,9 +111,8 @@ struct PreloadChange {
 /// Whether a design has the same in both cases, but for what its own preload changes.
 [[nodiscard]] bool share_matrices(const LoadCase& one, const LoadCase& other);
 
-/// Into how many groups cases fall that share their matrices so; and into how many whose preload is the same, too.
-[[nodiscard]] std::size_t kinds_of_matrices(std::span<const LoadCase> cases);
-[[nodiscard]] std::size_t kinds_of_preload(std::span<const LoadCase> cases);
+/// Into how many groups cases fall that have their matrices in common when they are stressed so.
+[[nodiscard]] std::size_t kinds_of_matrices(std::span<const LoadCase> cases, Prestress prestress);
 
 /// The places of cases as they are computed with least work: beginning with the first, those that share their matrices
 /// in a row, and of them those that share the preload, too.

@@ -45,7 +45,7 @@ struct Loading {
 /// How the stress of the preload gets into the stiffness of the vibrating structure.
 enum class Prestress {
   own,     ///< assembled for each design and case
-  cases,   ///< assembled for each design, with the friction of the first case for all cases
+  cases,   ///< assembled for each design, with one friction for all cases, that of the evaluator's reference
   shared,  ///< of flanks without gaps, for all designs with one mesh; what a design's own adds to first order
 };
 constexpr EnumNames<Prestress, 3> enum_names(Prestress) {

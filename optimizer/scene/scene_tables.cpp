@@ -141,11 +141,12 @@ std::span<const Field<optimizer::SolverSettings>> option_table<optimizer::Solver
                .member = &S::prestress,
                .help =
                    "how the stress of the preload stiffens the vibrating structure; own: assembled for each design and "
-                   "case, cases: for each design, with the friction of the first case for all of them, shared: that "
-                   "of flanks without gaps for all designs with one mesh, with what a design's own adds to first "
-                   "order. Unless given shared where no variable changes the mesh; cases where that halves the "
-                   "matrices of a design, but shared where cases set the form of the flanks or friction is a variable; "
-                   "else own. Sectors too large to be shared assemble their own"},
+                   "case, cases: for each design, with one friction for all cases: that of the first (of the middle of "
+                   "its range where friction is a variable), shared: that of flanks without gaps for all designs with "
+                   "one mesh, with what a design's own adds to first order. Unless given shared where no variable "
+                   "changes the mesh; cases where that halves the matrices of a design and friction is no variable; "
+                   "shared where that leaves a third of them; else own. Sectors too large to be shared assemble their "
+                   "own"},
       Field<S>{.key = "accuracy",
                .member = &S::accuracy,
                .range = {.lower = kAccuracyRange.lower, .upper = kAccuracyRange.upper, .zero = "as given"},

@@ -27,6 +27,8 @@ std::vector<int> whole_numbers(const std::string& option, const std::string& tex
   for (const char* at = text.data(); at != nullptr;) {
     const char* const end = text.data() + text.size();
     const auto [stop, error] = std::from_chars(at, end, result.emplace_back());
+    if (error == std::errc::result_out_of_range)
+      throw CLI::ValidationError(option + " = " + text, "holds a number that is too large");
     if (error != std::errc() || (stop != end && *stop != ','))
       throw CLI::ValidationError(option + " = " + text, "must be whole numbers separated by commas");
     at = stop == end ? nullptr : stop + 1;

@@ -162,8 +162,8 @@ void report_contradictions(const Document& document, const optimizer::Scene& sce
   }
 }
 
-/// How designs are stressed at the least cost. Where every design has the same mesh, or where that halves the matrices
-/// of its cases, they are shared.
+/// How designs are stressed at the least cost: with shared matrices where every design has the same mesh, or where
+/// that spares cases of one design enough of them.
 optimizer::Prestress least_prestress(const Study& study) {
   const auto all_keys = [&](auto&& of) {
     return std::ranges::all_of(study.problem.space.variables(),
@@ -175,17 +175,15 @@ optimizer::Prestress least_prestress(const Study& study) {
   if (!study.problem.space.variables().empty() && all_keys(optimizer::shares_matrices))
     return optimizer::Prestress::shared;
   const std::span<const optimizer::LoadCase> cases = study.problem.cases;
-  // Those that have one preload share them anyway.
-  if (cases.empty() || 2 * optimizer::kinds_of_matrices(cases) > optimizer::kinds_of_preload(cases))
-    return optimizer::Prestress::own;
-  // The stress of all cases is that of one friction and one form of the flanks.
+  const auto serves = [cases](optimizer::Prestress prestress, std::size_t each) {
+    return !cases.empty() && each * optimizer::kinds_of_matrices(cases, prestress) <=
+                                 optimizer::kinds_of_matrices(cases, optimizer::Prestress::own);
+  };
+  // With friction a variable the one that stresses all cases would be nobody's.
   const bool one_friction = all_keys([](std::string_view key) { return key != "contact.friction"; });
-  const bool flanks_differ = std::ranges::any_of(cases, [](const optimizer::LoadCase& load) {
-    return std::ranges::any_of(load.changes, [](const optimizer::KeyChange& change) {
-      return change.key.starts_with("geometry.") && optimizer::shares_matrices(change.key);
-    });
-  });
-  return one_friction && !flanks_differ ? optimizer::Prestress::cases : optimizer::Prestress::shared;
+  if (one_friction && serves(optimizer::Prestress::cases, 2)) return optimizer::Prestress::cases;
+  // What each preload changes in shared ones costs two thirds of its own.
+  return serves(optimizer::Prestress::shared, 3) ? optimizer::Prestress::shared : optimizer::Prestress::own;
 }
 
 }  // namespace

@@ -47,6 +47,9 @@ std::string allowed(const Field<S>& field) {
   return text;
 }
 
+// Given, it would not be chosen for the study any more.
+constexpr std::string_view kChosen = "prestress";
+
 /// Comment and assignment of each field; `mark` is put before the assignment ("# " leaves it to its default).
 template <class S>
 std::string lines(const S& object, std::span<const Field<S>> fields, const std::string& mark = "") {
@@ -55,7 +58,7 @@ std::string lines(const S& object, std::span<const Field<S>> fields, const std::
     const std::string may_be = allowed(field);
     text += "# " + capitalised(field.help) + (field.help.ends_with('.') ? "" : ".") +
             (may_be.empty() ? "" : " (" + may_be + ")") + "\n";
-    text += mark + std::string(field.key) + " = " + value_text(object, field) + "\n";
+    text += (field.key == kChosen ? "# " : mark) + std::string(field.key) + " = " + value_text(object, field) + "\n";
   }
   return text;
 }

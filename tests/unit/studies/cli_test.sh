@@ -193,6 +193,7 @@ expect 0 export s.toml --format inp --nodal-diameter 2,3 --modes 4 -o s.inp
 for list in 1,,2 1,x 2, 1.5; do
   expect 2 export s.toml --format inp --nodal-diameter $list -o t.inp; lines 1; says "--nodal-diameter = $list: must be whole numbers separated by commas"; absent t.inp
 done
+expect 2 export s.toml --format inp --nodal-diameter 3000000000 -o t.inp; lines 1; says "too large"; absent t.inp
 expect 2 export s.toml --format inp --nodal-diameter 24 -o t.inp; lines 1; says "--nodal-diameter = 24: must be 0 to 23 of 47 sectors"; absent t.inp
 expect 2 export s.toml --format dxf --contact -o t.dxf; lines 1; says "must be inp"; absent t.dxf
 expect 2 export s.toml --format dwg -o s.dwg; lines 1; says "must be one of dxf"; absent s.dwg

@@ -60,6 +60,15 @@ TEST(EvaluationCost, KnowsWhatCasesShare) {
   EXPECT_EQ(loads_foreseen({}, Prestress::own), 1);
   EXPECT_NEAR(loads_foreseen(cases, Prestress::cases), 3.8, 0.4);
   EXPECT_NEAR(loads_foreseen(cases, Prestress::own), 5.4, 0.4);
+  // Of two speeds with five fits of the flanks each, shared ones took 0.82 of their own.
+  std::vector<LoadCase> fits;
+  for (const double speed : {9000, 10000})
+    for (const double mismatch : {-2, -1, 0, 1, 2})
+      fits.push_back({.name = "case",
+                      .changes = {{.key = "scene.speed_rpm", .value = speed},
+                                  {.key = "geometry.flank_mismatch_um", .value = mismatch}}});
+  EXPECT_NEAR(loads_foreseen(fits, Prestress::shared) / loads_foreseen(fits, Prestress::own), 0.82, 0.05);
+  EXPECT_EQ(loads_foreseen(fits, Prestress::cases), loads_foreseen(fits, Prestress::own));  // each has its own gap
 }
 
 TEST(EvaluationCost, KnowsTheSizesOfADesign) {
