@@ -259,7 +259,8 @@ TEST(Study, ModesOtherThanTheDefaultOnesAreItsPhysics) {
 
 // Unless a study says otherwise its designs share their matrices where all of them have the same mesh.
 TEST(Study, DesignsWithOneMeshShareTheirMatrices) {
-  const std::string given = replaced(sample(), "# prestress = ", "prestress = "), silent = sample();
+  const std::string& silent = sample();
+  const std::string given = replaced(silent, "# prestress = ", "prestress = ");
   EXPECT_EQ(read(silent).scene.solver.prestress, optimizer::Prestress::own);
   const auto of_variable = [](std::string text, const std::string& variable) {
     for (std::size_t at = text.find("\n[[variable]]"); at != std::string::npos; at = text.find("\n[[variable]]"))

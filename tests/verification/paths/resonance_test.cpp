@@ -96,7 +96,7 @@ TEST(Resonance, IsFoundFarBelowTheGluedFrequency) {
   EXPECT_LT(peak.omega, 0.8 * glued);
   EXPECT_TRUE(peak.state.tangent);
   std::vector<double> omega;
-  for (double w = 0.3 * glued; w < 1.2 * glued; w += 0.005 * glued) omega.push_back(w);
+  for (int i = 0; i < 180; ++i) omega.push_back((0.3 + 0.005 * i) * glued);
   for (const steady::State& state : paths::frequency_response({model, {}, {}}, omega)) {
     ASSERT_EQ(state.status, Status::converged);
     EXPECT_LE(state.amplitudes(0), peak.amplitude * (1 + 1e-8)) << state.omega;
