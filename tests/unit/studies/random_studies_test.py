@@ -82,7 +82,8 @@ class Draw(random.Random):
         if self.often(0.15):
             changes["wear_coefficient_per_pa"] = 0
         for key, value in changes.items():
-            text, found = re.subn(rf"(?m)^{key} = [^#\n]*", f"{key} = {value}  ", text, count=1)
+            open_to_choice = "# " if key == "prestress" else ""
+            text, found = re.subn(rf"(?m)^{open_to_choice}{key} = [^#\n]*", f"{key} = {value}  ", text, count=1)
             assert found, key
         return text
 
