@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <numeric>
@@ -24,18 +25,24 @@ double value_of(const Values& values, const std::string& name) {
   return found == values.end() ? kNaN : found->second;
 }
 
+Barred times(double factor, Barred number) {
+  return {.value = factor * number.value, .bar = std::abs(factor) * number.bar};
+}
+
 /// `factor` times what `size` makes of a response, over all cases: larger ones are worse.
 template <class Size>
 Barred over_all(const Problem& problem, const std::string& response, const std::string& over, double factor,
                 const Values& responses, const Values& bars, const Size& size) {
   const auto in = [&](std::string_view load_case) {
     const std::string name = of_case(response, load_case);
-    return Barred{.value = factor * size(value_of(responses, name)), .bar = std::abs(factor) * value_of(bars, name)};
+    return Barred{.value = size(value_of(responses, name)), .bar = value_of(bars, name)};
   };
-  if (problem.cases.empty()) return in({});
+  if (problem.cases.empty()) return times(factor, in({}));
+  // How far numbers scatter is the same whichever of them are worse.
+  const bool scatter = over == to_string(Over::deviation);
   std::vector<Barred> numbers;
-  for (const LoadCase& each : problem.cases) numbers.push_back(in(each.name));
-  return over_cases(over, problem.cases, numbers, problem.quantile);
+  for (const LoadCase& each : problem.cases) numbers.push_back(times(scatter ? 1 : factor, in(each.name)));
+  return times(scatter ? factor : 1, over_cases(over, problem.cases, numbers, problem.quantile));
 }
 
 double scale_of(const ObjectiveTerm& term) {
@@ -231,8 +238,24 @@ Barred term_value(const Problem& problem, const ObjectiveTerm& term, const Value
 }
 
 Barred as_response(const ObjectiveTerm& term, Barred value) {
-  const double by = (term.scale > 0 ? term.scale : 1) / term.weight;
-  return {.value = by * value.value, .bar = std::abs(by) * value.bar};
+  return times((term.scale > 0 ? term.scale : 1) / term.weight, value);
+}
+
+std::vector<CaseNumber> numbers_asked(const Problem& problem, const Values& responses, const Values& bars) {
+  std::vector<CaseNumber> all;
+  const auto add = [&](const std::string& response, const std::string& over, double sense) {
+    const std::string name = of_case(response, over == to_string(Over::worst) ? "" : over);
+    const auto of = [&](const std::string& rule) {
+      return times(sense, over_all(problem, response, rule, sense, responses, bars, std::identity()));
+    };
+    const Barred number = of(over);
+    const double size =
+        over == to_string(Over::deviation) ? of(std::string(to_string(Over::mean))).value : number.value;
+    all.push_back({.name = name, .response = response, .number = number, .size = std::abs(size)});
+  };
+  for (const ObjectiveTerm& term : problem.objective) add(term.response, term.over, term.weight > 0 ? 1 : -1);
+  for (const Limit& limit : limits(problem)) add(limit.of->response, limit.of->over, limit.sign);
+  return all;
 }
 
 JudgementBars judgement_bars(const Problem& problem, const Values& responses, const Values& error_estimates) {

@@ -108,6 +108,19 @@ inline constexpr const char* kSlipMargin = "slip_margin";
 /// The value of a term in the unit of its response, and as it is where more is better.
 [[nodiscard]] Barred as_response(const ObjectiveTerm& term, Barred value);
 
+/// A response as an objective or limit sees it.
+struct CaseNumber {
+  std::string name;      ///< of the worst case the plain one, else of one case or over all
+  std::string response;  ///< of which
+  Barred number;         ///< in the response's unit
+  double size = 0;       ///< what its accuracy is relative to: its own, of a deviation that of the mean
+};
+
+/// Of objective and limits, whose cases are there; NaN where one of them is not.
+[[nodiscard]] std::vector<CaseNumber> numbers_asked(const Problem& problem,
+                                                    const std::map<std::string, double>& responses,
+                                                    const std::map<std::string, double>& bars);
+
 /// Error bars of responses as the objective and the constraints have them, order of constraint_names; NaN where there
 /// is none.
 struct JudgementBars {

@@ -1,6 +1,8 @@
 #include "optimizer/problem/uncertainty.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <bit>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/random/sobol.hpp>
 #include <cmath>
@@ -72,22 +74,36 @@ Points product(const std::vector<std::vector<double>>& nodes, const std::vector<
   return all;
 }
 
+/// The first points of a Sobol sequence, from its corner on, each in the middle of its cell: so many points that are a
+/// power of two have the mean of every number, and no number is at an end of its range.
+std::vector<std::vector<double>> sobol_points(std::size_t numbers, int count) {
+  const double cell = std::ldexp(1.0, -static_cast<int>(std::bit_width(static_cast<unsigned>(count - 1))));
+  std::vector<std::vector<double>> points{std::vector<double>(numbers, cell / 2)};
+  boost::random::sobol engine(numbers);
+  while (points.size() < static_cast<std::size_t>(count)) {
+    std::vector<double> point(numbers);
+    for (double& unit : point)
+      unit = std::ldexp(static_cast<double>(engine()), -std::numeric_limits<std::uint64_t>::digits);
+    if (std::ranges::all_of(point, [](double unit) { return unit == 0; })) continue;  // some versions begin with it
+    for (double& unit : point) unit += cell / 2;
+    points.push_back(std::move(point));
+  }
+  return points;
+}
+
 Points points_of(const std::vector<Uncertain>& uncertain, const RobustOptions& options) {
   const std::size_t n = uncertain.size();
   std::vector<std::vector<double>> nodes(n), weights(n);
   if (options.rule == Rule::sobol) {
     Points sequence;
-    boost::random::sobol engine(n);
     const int count = options.points > 0 ? options.points : 16;
-    engine.discard(n);  // the corner that it begins with
-    for (int i = 0; i < count; ++i) {
+    const std::vector<std::vector<double>> units = sobol_points(n, count);
+    for (const std::vector<double>& point : units) {
       std::vector<double> at;
-      for (const Uncertain& number : uncertain) {
-        const double unit = std::ldexp(static_cast<double>(engine()), -std::numeric_limits<std::uint64_t>::digits);
-        at.push_back(number.distribution == Distribution::uniform
-                         ? 2 * unit - 1
-                         : boost::math::quantile(boost::math::normal(), std::max(unit, 1e-9)));
-      }
+      for (std::size_t i = 0; i < n; ++i)
+        at.push_back(uncertain[i].distribution == Distribution::uniform
+                         ? 2 * point[i] - 1
+                         : boost::math::quantile(boost::math::normal(), point[i]));
       sequence.at.push_back(std::move(at));
       sequence.weight.push_back(1.0 / count);
     }
@@ -104,9 +120,12 @@ Points points_of(const std::vector<Uncertain>& uncertain, const RobustOptions& o
   }
   Points all = product(nodes, weights);
   if (options.rule == Rule::corners) {
+    // Together they weigh what the mean square of a number is of the square of its end, the same for both
+    // distributions: the mean is then exact up to the third degree, the deviation of what is linear.
+    constexpr double kCorners = 1.0 / 3;
+    for (double& weight : all.weight) weight *= kCorners;
     all.at.insert(all.at.begin(), std::vector<double>(n, 0.0));
-    all.weight.insert(all.weight.begin(), all.weight.front());
-    for (double& weight : all.weight) weight = 1.0 / static_cast<double>(all.weight.size());
+    all.weight.insert(all.weight.begin(), 1 - kCorners);
   }
   return all;
 }

@@ -300,16 +300,17 @@ int run_evaluate(const EvaluateOptions& options, Teller& teller, const Streams& 
   std::string inaccurate = choice ? accuracy_complaint(asked, *choice) : std::string();
   // A history may end elsewhere than where the rounds were; where bars were not asked for the rounds have some.
   const bool judged = choice && choice->status == Status::converged && !goal->of_truncation && evaluation.converged();
-  const AccuracyHeld held = !judged ? AccuracyHeld{.reached = true}
-                                    : accuracy_held(study.scene, *goal, purpose.bars ? evaluation : choice->evaluation,
-                                                    purpose.bars && purpose.history);
+  const AccuracyHeld held =
+      !judged ? AccuracyHeld{.reached = true}
+              : accuracy_held(study.problem, study.scene, *goal, purpose.bars ? evaluation : choice->evaluation,
+                              purpose.bars && purpose.history);
   if (!held.reached) inaccurate = held.words;
   if (choice)
     for (const std::string& words : {taken_words(asked, *choice), digit_words(*choice)})
       if (!words.empty()) teller.remark() << "dovetail: " << words << "\n";
   if (!inaccurate.empty() && !evaluation.infeasible()) evaluation.messages.push_back(inaccurate);
   const std::optional<optimizer::Dominant> whole =
-      choice && !goal->of_truncation ? whole_bar(*goal, evaluation, purpose.history) : std::nullopt;
+      choice && !goal->of_truncation ? whole_bar(study.problem, *goal, evaluation, purpose.history) : std::nullopt;
   std::vector<std::string> unjudged;
   if (options.unworn && evaluation.converged()) unjudged = keep_unworn(study.problem, evaluation);
   optimizer::annotate(study.problem, study.optimizer.constraint_tolerance, evaluation);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/enum_names.hpp"
 #include "optimizer/cases.hpp"
 #include "optimizer/responses/response_table.hpp"
 #include "studies/program/engine/engine.hpp"
@@ -15,12 +16,17 @@ namespace dovetail::studies {
 
 namespace {
 
-/// The responses of a study of which settings are chosen in one case: of all cases together, what each wears off alone.
+/// Of what all cases wear off together: what each wears off alone.
+std::string settled_name(const std::string& response) {
+  const optimizer::Response* alone = optimizer::find_response(response)->alone;
+  return alone == nullptr ? response : std::string(alone->name);
+}
+
+/// The responses of a study of which settings are chosen in one case.
 std::vector<std::string> settled_responses(const Study& study) {
   std::vector<std::string> names;
   for (const std::string& name : optimizer::responses_of(study.problem)) {
-    const optimizer::Response* alone = optimizer::find_response(name)->alone;
-    const std::string settled = alone == nullptr ? name : std::string(alone->name);
+    const std::string settled = settled_name(name);
     if (std::ranges::find(names, settled) == names.end()) names.push_back(settled);
   }
   return names;
@@ -42,9 +48,7 @@ std::optional<optimizer::AccuracyGoal> accuracy_goal(const Study& study, optimiz
   goal.fixed = study.given;
   const auto own = [&goal](const auto& term) {
     if (term.accuracy == 0) return;
-    const optimizer::Response* alone = optimizer::find_response(term.response)->alone;
-    const auto [at, first] =
-        goal.of.try_emplace(alone == nullptr ? term.response : std::string(alone->name), term.accuracy);
+    const auto [at, first] = goal.of.try_emplace(settled_name(term.response), term.accuracy);
     if (!first) at->second = std::min(at->second, term.accuracy);
   };
   for (const optimizer::ObjectiveTerm& term : study.problem.objective) own(term);
@@ -96,26 +100,65 @@ std::string known(const optimizer::Dominant& by) {
 
 }  // namespace
 
-std::optional<optimizer::Dominant> whole_bar(const optimizer::AccuracyGoal& goal,
-                                             const optimizer::Evaluation& evaluation, bool asked_history) {
-  std::optional<optimizer::Dominant> worst;
+namespace {
+
+/// What of the bars counts, and the largest part of each.
+struct Counted {
+  std::map<std::string, double> bars;
+  std::map<std::string, std::pair<double, std::string>> largest;
+};
+
+Counted counted(const optimizer::Evaluation& evaluation, bool asked_history) {
+  Counted result;
   for (const auto& [name, all] : evaluation.error_sources) {
-    const double value = evaluation.responses.at(name), asked = goal.asked(name);
-    if (value == 0 || std::ranges::count(evaluation.unbounded, name) > 0 ||
-        (!goal.responses.empty() && std::ranges::count(goal.responses, name) == 0))
-      continue;
-    std::string largest;
-    double bar = 0, most = 0;
+    if (std::ranges::count(evaluation.unbounded, name) > 0) continue;
+    double& bar = result.bars[name] = 0;
+    auto& largest = result.largest[name];
     for (const auto& [source, part] : all) {
       if (source == "history" && !asked_history && evaluation.left_to_history()) continue;
       bar += part;
-      if (part > most) most = part, largest = source;
+      largest = std::max(largest, std::pair(part, source));
     }
-    const double relative = bar / std::abs(value);
-    if (worst && relative / asked <= worst->relative / worst->asked) continue;
-    worst = optimizer::Dominant{
-        .response = name, .source = largest, .relative = relative, .whole = relative, .asked = asked};
   }
+  return result;
+}
+
+/// Of all cases that a number is of, the largest part of a bar.
+std::string largest_of(const optimizer::Problem& problem, const optimizer::CaseNumber& number, const Counted& counted) {
+  const std::string over(optimizer::split_case(number.name).load_case);
+  const bool of_all = over.empty() || named<optimizer::Over>(over).has_value();
+  std::pair<double, std::string> largest;
+  for (const optimizer::LoadCase& load : problem.cases) {
+    const auto found = counted.largest.find(optimizer::of_case(number.response, load.name));
+    if (found != counted.largest.end() && (of_all || load.name == over || load.sample_of == over))
+      largest = std::max(largest, found->second);
+  }
+  return largest.second;
+}
+
+}  // namespace
+
+std::optional<optimizer::Dominant> whole_bar(const optimizer::Problem& problem, const optimizer::AccuracyGoal& goal,
+                                             const optimizer::Evaluation& evaluation, bool asked_history) {
+  std::optional<optimizer::Dominant> worst;
+  const auto count = [&](const std::string& name, const std::string& response, double bar, double size,
+                         const std::string& source) {
+    const double relative = bar / size, asked = goal.asked(response);
+    if (!std::isfinite(relative) || (worst && relative / asked <= worst->relative / worst->asked)) return;
+    worst = optimizer::Dominant{
+        .response = name, .source = source, .relative = relative, .whole = relative, .asked = asked};
+  };
+  const Counted of = counted(evaluation, asked_history);
+  for (const auto& [name, bar] : of.bars) {
+    if (!optimizer::split_case(name).load_case.empty()) continue;
+    if (goal.responses.empty() || std::ranges::count(goal.responses, name) > 0)
+      count(name, name, bar, std::abs(evaluation.responses.at(name)), of.largest.at(name).second);
+  }
+  // With cases those were the first one's, of which settings were chosen; what counts may be another's.
+  if (!problem.cases.empty())
+    for (const optimizer::CaseNumber& number : optimizer::numbers_asked(problem, evaluation.responses, of.bars))
+      count(number.name, settled_name(number.response), number.number.bar, number.size,
+            largest_of(problem, number, of));
   return worst;
 }
 
@@ -125,8 +168,9 @@ std::string digit_words(const optimizer::SettingsChoice& choice) {
   return fmt::format("a tenth of these bars: about {:.2g} times the work", choice.one_more_digit->times_as_long);
 }
 
-AccuracyHeld accuracy_held(const optimizer::Scene& scene, const optimizer::AccuracyGoal& goal,
-                           const optimizer::Evaluation& evaluation, bool asked_history) {
+AccuracyHeld accuracy_held(const optimizer::Problem& problem, const optimizer::Scene& scene,
+                           const optimizer::AccuracyGoal& goal, const optimizer::Evaluation& evaluation,
+                           bool asked_history) {
   std::optional<optimizer::Dominant> by;
   optimizer::Forecast bars(scene, goal);
   if (!evaluation.error_sources.empty()) {
@@ -136,13 +180,15 @@ AccuracyHeld accuracy_held(const optimizer::Scene& scene, const optimizer::Accur
   if (!by) return {.reached = false, .words = "the accuracy asked for is not known to be reached: no bar says how"};
   std::string words;
   bool reached = by->relative <= by->asked;
-  const std::optional<optimizer::Dominant> whole = whole_bar(goal, evaluation, asked_history);
+  const std::optional<optimizer::Dominant> whole = whole_bar(problem, goal, evaluation, asked_history);
   if (reached && whole && whole->relative > whole->asked) {
     reached = false;
     words = fmt::format(
-        "as far as settings buy it the accuracy asked for is reached; with all parts of its bar {} is known to {:.3g} "
+        "as far as settings buy it{} the accuracy asked for is reached; with all parts of its bar {} is known to "
+        "{:.3g} "
         "% (asked: {:.3g} %), most of it by {}",
-        whole->response, 100 * whole->relative, 100 * whole->asked, whole->source);
+        problem.cases.empty() ? "" : fmt::format(" in case {}", problem.cases.front().name), whole->response,
+        100 * whole->relative, 100 * whole->asked, whole->source);
   } else {
     words = fmt::format("the accuracy asked for is {}reached: {}", reached ? "" : "not ", known(*by));
   }

@@ -31,9 +31,10 @@ std::optional<optimizer::SettingsChoice> settle(Study& study, const std::optiona
 inline constexpr double kTellWhole = 1.05;
 
 /// Of the responses that an accuracy is asked of, the one whose whole bar, with what no setting buys of it, is largest
-/// over what was asked; nothing where none has a bar.
+/// over what was asked; nothing where none has a bar. With cases also of what objective and limits make of them.
 /// - `asked_history`: of doubts of worn states; where none was, what only a history would settle does not count
-[[nodiscard]] std::optional<optimizer::Dominant> whole_bar(const optimizer::AccuracyGoal& goal,
+[[nodiscard]] std::optional<optimizer::Dominant> whole_bar(const optimizer::Problem& problem,
+                                                           const optimizer::AccuracyGoal& goal,
                                                            const optimizer::Evaluation& evaluation,
                                                            bool asked_history = true);
 /// What a tenth of the bars would cost; empty where not even what was asked is reached.
@@ -45,8 +46,9 @@ struct AccuracyHeld {
   std::string words = {};
 };
 /// - `asked_history`: see whole_bar
-[[nodiscard]] AccuracyHeld accuracy_held(const optimizer::Scene& scene, const optimizer::AccuracyGoal& goal,
-                                         const optimizer::Evaluation& evaluation, bool asked_history = true);
+[[nodiscard]] AccuracyHeld accuracy_held(const optimizer::Problem& problem, const optimizer::Scene& scene,
+                                         const optimizer::AccuracyGoal& goal, const optimizer::Evaluation& evaluation,
+                                         bool asked_history = true);
 
 /// A round in a line for people.
 [[nodiscard]] std::string round_words(const Study& study, const optimizer::SettingsTried& tried);

@@ -119,7 +119,7 @@ WrittenRun record_of(const RunSite& site, OptimizationResult result, const RunCl
       optimizer::raise_bars(raised->second, seen.evaluation);
     take_over(study, std::move(seen.evaluation), candidate);
     if (site.goal) {
-      const AccuracyHeld held = accuracy_held(study.scene, *site.goal, candidate.evaluation);
+      const AccuracyHeld held = accuracy_held(study.problem, study.scene, *site.goal, candidate.evaluation);
       candidate.evaluation.messages.push_back(sentence(held.words));
       if (index == result.best && !held.reached) inaccurate = held.words;
     }

@@ -183,6 +183,22 @@ TEST(ProblemWithCases, CountsThemAsTheTermSays) {
   EXPECT_DOUBLE_EQ(judge(problem, in_both(), 0).objective, 2 * 1.5 / 4);
 }
 
+// How far they scatter is no smaller where what scatters is to be large.
+TEST(ProblemWithCases, DeviationsHaveTheSameSenseOnBothSides) {
+  Problem problem = with_cases();
+  problem.objective = {{.response = "wear", .weight = -2, .scale = 4, .over = "deviation"}};
+  const double deviation = std::sqrt((1 * 1.6 * 1.6 + 4 * 0.4 * 0.4) / 5);
+  EXPECT_DOUBLE_EQ(judge(problem, in_both(), 0).objective, -2 * deviation / 4);
+  const Barred told =
+      as_response(problem.objective[0], term_value(problem, problem.objective[0], in_both().responses, {}));
+  EXPECT_DOUBLE_EQ(told.value, deviation);
+  problem.constraints = {{.response = "wear", .lower = 0.5, .upper = 1, .over = "deviation"}};
+  const Judgement judgement = judge(problem, in_both(), 0);
+  EXPECT_DOUBLE_EQ(judgement.constraints[0], deviation - 1);
+  EXPECT_DOUBLE_EQ(judgement.constraints[1], (0.5 - deviation) / 0.5);
+  EXPECT_TRUE(judgement.feasible);
+}
+
 TEST(ProblemWithCases, KeepsLimitsInEachOfThem) {
   Problem problem = with_cases();
   Judgement judgement = judge(problem, in_both(), 0);
@@ -194,6 +210,27 @@ TEST(ProblemWithCases, KeepsLimitsInEachOfThem) {
   EXPECT_THAT(constraint_names(problem), testing::ElementsAre("amplitude@climb:upper", "amplitude@climb:lower"));
   problem.constraints[0] = {.response = "amplitude", .lower = {}, .upper = 10, .over = "sum"};
   EXPECT_DOUBLE_EQ(judge(problem, in_both(), 0).constraints[0], (5 + 4 * 2 - 10) / 10.0);
+}
+
+// In the response's unit; a deviation is known as well as its bar is small beside the mean.
+TEST(ProblemWithCases, TellsWhatObjectiveAndLimitsSee) {
+  Problem problem = with_cases();
+  problem.objective = {{.response = "wear", .weight = 2, .scale = 4, .over = "climb"},
+                       {.response = "wear", .over = "deviation"}};
+  const Evaluation e = in_both();
+  const std::vector<CaseNumber> numbers = numbers_asked(problem, e.responses, e.error_estimates);
+  ASSERT_EQ(numbers.size(), 4U);
+  EXPECT_EQ(numbers[0].name, "wear@climb");
+  EXPECT_EQ(numbers[0].response, "wear");
+  EXPECT_DOUBLE_EQ(numbers[0].number.value, 3);
+  EXPECT_DOUBLE_EQ(numbers[0].number.bar, 0.25);
+  EXPECT_DOUBLE_EQ(numbers[0].size, 3);
+  EXPECT_EQ(numbers[1].name, "wear@deviation");
+  EXPECT_DOUBLE_EQ(numbers[1].size, (1 + 4 * 3) / 5.0);
+  EXPECT_EQ(numbers[2].name, "amplitude");  // upper limit: the larger one
+  EXPECT_DOUBLE_EQ(numbers[2].number.value, 5);
+  EXPECT_DOUBLE_EQ(numbers[3].number.value, 2);
+  EXPECT_DOUBLE_EQ(numbers[3].number.bar, 2);
 }
 
 // The worst case may be another one within the bars.

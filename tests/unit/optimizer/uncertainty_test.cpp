@@ -64,6 +64,47 @@ TEST(Sampled, CornersAreTheEndsAndTheMiddle) {
   EXPECT_EQ(samples.back().changes.size(), 3U);
 }
 
+/// Standard deviation of a function of the changed numbers.
+template <class F>
+double deviation(const std::vector<LoadCase>& samples, const F& of) {
+  const double middle = mean(samples, of);
+  return std::sqrt(mean(samples, [&](const auto& c) { return std::pow(of(c) - middle, 2); }));
+}
+
+// A uniform number has a deviation of its range over sqrt 12.
+TEST(Sampled, CornersHaveMeanAndDeviationOfWhatIsLinear) {
+  const auto linear = [](const auto& c) { return 7 + 5 * c[0].value + (c.size() > 1 ? 3 * c[1].value : 0); };
+  EXPECT_NEAR(deviation(sampled({}, {kFriction}, {}), linear), 5 * 0.2 / std::sqrt(12.0), 1e-12);
+  const std::vector<LoadCase> both = sampled({}, {kFriction, kMismatch}, {});
+  EXPECT_NEAR(mean(both, linear), 7 + 5 * 0.4, 1e-12);
+  EXPECT_NEAR(deviation(both, linear), std::hypot(5 * 0.2 / std::sqrt(12.0), 3 * 2), 1e-12);
+  // And the mean up to the third degree.
+  EXPECT_NEAR(mean(both, [](const auto& c) { return std::pow(c[0].value - 0.4, 2) * 3 + c[1].value * c[1].value; }),
+              0.01 + 4, 1e-12);
+  EXPECT_NEAR(mean(both, [](const auto& c) { return (c[0].value - 0.4) * c[1].value * c[1].value; }), 0, 1e-12);
+}
+
+// Few points as well: in the middle of their cells, and one alone in the middle of all.
+TEST(Sampled, SobolPointsHaveTheMeanOfEveryNumber) {
+  for (const int points : {1, 2, 16, 64}) {
+    const std::vector<LoadCase> samples = sampled({}, {kFriction, kMismatch}, {.rule = Rule::sobol, .points = points});
+    EXPECT_NEAR(mean(samples, [](const auto& c) { return c[0].value; }), 0.4, 1e-12) << points;
+    EXPECT_NEAR(mean(samples, [](const auto& c) { return c[1].value; }), 0, 1e-9) << points;
+    // The square of a cell is what is left of the square of the range.
+    const double left = 1 - 1.0 / (points * points);
+    EXPECT_NEAR(deviation(samples, [](const auto& c) { return c[0].value; }), 0.2 * std::sqrt(left / 12), 1e-12);
+  }
+  // The bar of the rule holds what is left where their number is no power of two.
+  for (const int points : {3, 5, 12, 20}) {
+    const std::vector<LoadCase> samples = sampled({}, {kFriction}, {.rule = Rule::sobol, .points = points});
+    std::vector<Barred> numbers;
+    for (const LoadCase& sample : samples) numbers.push_back({.value = sample.changes[0].value, .bar = 0});
+    const Barred found = over_cases("mean", samples, numbers, 0.5);
+    EXPECT_LE(std::abs(found.value - 0.4), found.bar) << points;
+    EXPECT_LT(found.bar, 0.2 / 2) << points;
+  }
+}
+
 TEST(Sampled, SobolPointsFillTheRange) {
   const std::vector<LoadCase> samples = sampled({}, {kFriction, kMismatch}, {.rule = Rule::sobol, .points = 256});
   ASSERT_EQ(samples.size(), 256U);
