@@ -23,7 +23,7 @@ struct ReductionOptions {
   /// >= 0. Modal damping of the glued linear modes, C = diag(2 zeta omega).
   double damping_ratio = 1e-3;
   /// 0 < . < 1. Relative residual of the free-interface modes; eigenvalues err by its square, static responses do not.
-  /// With 0.1, for half of the solves, flanks that are alike come apart, and 2 of 25 sections found no resonance.
+  /// With 0.1, for 0.6 of the solves, flanks that are alike come apart, and 2 of 25 sections found no resonance.
   double eigen_tolerance = 1e-4;
 };
 

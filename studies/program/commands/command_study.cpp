@@ -319,7 +319,7 @@ int run_evaluate(const EvaluateOptions& options, Teller& teller, const Streams& 
   // With all parts of the bars, where there are some.
   if (whole && evaluation.converged())
     accuracy["reached"] = choice->status == Status::converged && held.reached && choice->not_held.empty() &&
-                          whole->relative <= whole->asked;
+                          held.not_held.empty() && whole->relative <= whole->asked;
   if (whole)
     accuracy["whole_bar"] = {{"response", whole->response},
                              {"source", whole->source},

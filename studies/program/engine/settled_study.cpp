@@ -98,10 +98,6 @@ std::string known(const optimizer::Dominant& by) {
   return text;
 }
 
-}  // namespace
-
-namespace {
-
 /// What of the bars counts, and the largest part of each.
 struct Counted {
   std::map<std::string, double> bars;
@@ -168,6 +164,21 @@ std::string digit_words(const optimizer::SettingsChoice& choice) {
   return fmt::format("a tenth of these bars: about {:.2g} times the work", choice.one_more_digit->times_as_long);
 }
 
+namespace {
+
+/// Adds what objective and limits make of the cases where it has no relative accuracy.
+void add_unknown(const optimizer::Problem& problem, const optimizer::Evaluation& evaluation,
+                 std::vector<std::string>& names) {
+  const auto of_a_case = [](const auto& bar) { return !optimizer::split_case(bar.first).load_case.empty(); };
+  // Settings are chosen in the first case by itself.
+  if (problem.cases.empty() || std::ranges::none_of(evaluation.error_sources, of_a_case)) return;
+  const Counted of = counted(evaluation, true);
+  for (const auto& [name, response, number, size] : optimizer::numbers_asked(problem, evaluation.responses, of.bars))
+    if (!std::isfinite(number.bar / size) && std::ranges::count(names, name) == 0) names.push_back(name);
+}
+
+}  // namespace
+
 AccuracyHeld accuracy_held(const optimizer::Problem& problem, const optimizer::Scene& scene,
                            const optimizer::AccuracyGoal& goal, const optimizer::Evaluation& evaluation,
                            bool asked_history) {
@@ -185,16 +196,17 @@ AccuracyHeld accuracy_held(const optimizer::Problem& problem, const optimizer::S
     reached = false;
     words = fmt::format(
         "as far as settings buy it{} the accuracy asked for is reached; with all parts of its bar {} is known to "
-        "{:.3g} "
-        "% (asked: {:.3g} %), most of it by {}",
+        "{:.3g} % (asked: {:.3g} %), most of it by {}",
         problem.cases.empty() ? "" : fmt::format(" in case {}", problem.cases.front().name), whole->response,
         100 * whole->relative, 100 * whole->asked, whole->source);
   } else {
     words = fmt::format("the accuracy asked for is {}reached: {}", reached ? "" : "not ", known(*by));
   }
-  if (const std::vector<std::string> not_held = bars.not_held(); !not_held.empty())
+  std::vector<std::string> not_held = bars.not_held();
+  add_unknown(problem, evaluation, not_held);
+  if (!not_held.empty())
     words += fmt::format("; without a value or an error bar, and so held to none: {}", fmt::join(not_held, ", "));
-  return {.reached = reached, .words = words};
+  return {.reached = reached, .words = words, .not_held = not_held};
 }
 
 std::string round_words(const Study& study, const optimizer::SettingsTried& tried) {

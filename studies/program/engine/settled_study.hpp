@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "optimizer/accuracy/choice.hpp"
 #include "studies/program/questions/solver_choice.hpp"
@@ -44,6 +45,7 @@ inline constexpr double kTellWhole = 1.05;
 struct AccuracyHeld {
   bool reached = false;  ///< with all parts of the bars
   std::string words = {};
+  std::vector<std::string> not_held = {};  ///< without a value or a bar, and so held to none
 };
 /// - `asked_history`: see whole_bar
 [[nodiscard]] AccuracyHeld accuracy_held(const optimizer::Problem& problem, const optimizer::Scene& scene,

@@ -74,10 +74,16 @@ TEST(AccuracyHeld, OfEveryCaseThatCounts) {
                                      "mesh"));
   // What hardly adds to the whole may be known as badly as it likes.
   for (const char* rule : {"worst", "mean", "sum", "heavy"}) EXPECT_TRUE(over(rule).reached) << rule;
+  EXPECT_THAT(over("worst").not_held, testing::IsEmpty());
   in(std::string(kVolume) + "@light", 0.9, {{"mesh", 0.2}});
   EXPECT_FALSE(over("worst").reached) << "it may be the worst";
   EXPECT_TRUE(over("heavy").reached);
   EXPECT_FALSE(over("deviation").reached);
+  // What is not known in a case is not certified by another.
+  evaluation.unbounded = {std::string(kVolume) + "@light"};
+  EXPECT_THAT(over("light").not_held, testing::ElementsAre("asymptotic_wear_volume_m3@light"));
+  EXPECT_THAT(over("worst").words, HasSubstr("held to none: asymptotic_wear_volume_m3"));
+  EXPECT_THAT(over("heavy").not_held, testing::IsEmpty());
 }
 
 // What a search asks of one response is no excuse to hand it over less accurately than all others; where the search
