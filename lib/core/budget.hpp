@@ -28,12 +28,17 @@ class Budget {
   [[nodiscard]] double on_factors() const { return on_factors_; }  ///< the part of it that was dense factorisations
   [[nodiscard]] bool spent() const {
     if (used_ >= operations_) return true;
-    return seconds_ < std::numeric_limits<double>::infinity() &&
-           std::chrono::duration<double>(Clock::now() - begin_).count() >= seconds_;
+    return seconds_ < std::numeric_limits<double>::infinity() && elapsed() >= seconds_;
+  }
+  /// A budget of this part of what is left.
+  [[nodiscard]] Budget part_of_rest(double part) const {
+    return Budget(part * (operations_ - used_), part * (seconds_ - elapsed()));
   }
 
  private:
   using Clock = std::chrono::steady_clock;
+  [[nodiscard]] double elapsed() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
+
   double operations_, seconds_, used_ = 0, on_factors_ = 0;
   Clock::time_point begin_;
 };

@@ -39,7 +39,8 @@ class GridSearch {
 
   ContactFit run() {
     ContactFit fit = laid();
-    if (has_own_budget()) first().model().budget->spend(first().joint.options.budget->used());
+    for (const LoadOnGrid& load : loads_)
+      if (has_own_budget(load)) load.model().budget->spend(load.joint.options.budget->used());
     if (!converged()) return fit;
     if (fit.known) fit.grid = {.edges = laid_, .counts = counts_, .search = search_, .moved = fit.moved};
     return fit;
@@ -56,14 +57,14 @@ class GridSearch {
     // Where the law lets nodes rest in slip the history says which ones wear.
     rests_in_slip_ = wear::rests_in_slip(*first().model().condensed);
     follows_ = scene_.loading.follow == wear::Follow::resonance && !rests_in_slip_;
-    // A history on each grid, or a resonance that is followed there, is dear: what is asked of the design itself is
-    // left the rest.
-    if (rests_in_slip_ || follows_)
-      first().joint.options.budget = new_budget(scene_.solver, first().model(), options_.share_of_budget);
     release_.arbitration = rests_in_slip_ ? wear::Arbitration::unsettled : wear::Arbitration::never;
     // At the resonance of the first grid on all of them: it hardly moves, and edges move less.
     for (LoadOnGrid& load : loads_)
       if (!load.find_first_resonance()) return fit_;
+    // What is asked of the design itself is left the rest.
+    const double share = rests_in_slip_ || follows_ ? options_.share_for_histories : options_.share_of_budget;
+    for (LoadOnGrid& load : loads_)
+      load.joint.options.budget = std::make_shared<Budget>(load.model().budget->part_of_rest(share));
     for (bool at_resonance = false;; ++fit_.grids) {
       if (!find_edges()) return unsettled();
       // A zone that the finer cells beside its edge make vanish is none.
@@ -99,7 +100,9 @@ class GridSearch {
   [[nodiscard]] bool converged() const {
     return std::ranges::all_of(loads_, [](const LoadOnGrid& load) { return load.model().converged(); });
   }
-  [[nodiscard]] bool has_own_budget() const { return first().joint.options.budget != first().model().budget; }
+  [[nodiscard]] static bool has_own_budget(const LoadOnGrid& load) {
+    return load.joint.options.budget != load.model().budget;
+  }
 
   void lay(const std::vector<fem::FlankCells>& flanks) {
     for (LoadOnGrid& load : loads_) {
@@ -125,8 +128,9 @@ class GridSearch {
 
   /// What the last grid says of the edges is not known: they may be anywhere near.
   [[nodiscard]] ContactFit unsettled() {
-    fit_.spent = has_own_budget() && spent(first().joint.options.budget);
-    if (fit_.spent && !best_.flanks.empty()) return best_grid(true);
+    fit_.spent = std::ranges::any_of(
+        loads_, [](const LoadOnGrid& load) { return has_own_budget(load) && spent(load.joint.options.budget); });
+    if (!best_.flanks.empty()) return best_grid(true);
     fit_.settled = fit_.known = false;
     fit_.moved = fit_.share = 1;
     return fit_;

@@ -27,8 +27,10 @@ struct ContactFitOptions {
   int grids = 6;            ///< >= 0. Further grids of contact nodes tried at most
   double aim = 0.005;       ///< > 0. No further grid where edges move by less, in lengths of the mesh's edge there
   double tolerance = 0.02;  ///< >= aim. Those that move by less on the last grid have settled
-  /// (0, 1). Of the evaluation's budget, that may be spent on finding the edges where it takes histories.
-  double share_of_budget = 0.5;
+  /// (0, 1). Of what the first resonance has left of the evaluation's budget, that may be spent on finding the edges;
+  /// and where that takes a history, or a resonance that is followed, on each grid. Joints far from sliding need a
+  /// fiftieth; those about to slide may spend everything on grids, with nothing left for the design itself.
+  double share_of_budget = 0.3, share_for_histories = 0.5;
   GridResonanceOptions resonance = {};
   CellLengths lengths;
 };

@@ -36,6 +36,20 @@ TEST(Budget, NamesItselfAsTheReasonOnlyOfWhatFailed) {
   EXPECT_TRUE(Budget(kInfinity, 1e-9).spent());
 }
 
+TEST(Budget, APartOfTheRestKnowsWhatWasSpent) {
+  Budget whole(10.0);
+  whole.spend(6.0);
+  Budget part = whole.part_of_rest(0.5);
+  part.spend(1.9);
+  EXPECT_FALSE(part.spent());
+  part.spend(0.1);
+  EXPECT_TRUE(part.spent());
+  EXPECT_EQ(whole.used(), 6.0);
+  whole.spend(4.0);
+  EXPECT_TRUE(whole.part_of_rest(0.5).spent());
+  EXPECT_FALSE(Budget().part_of_rest(0.5).spent());
+}
+
 // What is counted belongs to the computation alone, and a budget that is not spent changes nothing.
 TEST(Budget, CountsTheSameEveryTime) {
   const SharedBudget first = std::make_shared<Budget>(), second = jacobians(1e6);

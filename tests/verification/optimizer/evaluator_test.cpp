@@ -51,7 +51,6 @@ TEST(SectionEvaluation, ConvergesWithEveryResponseAndAFiniteErrorBar) {
 
 // The status names the stage that spent the budget, responses of those before it stay.
 TEST(SectionEvaluation, EndsWithItsBudget) {
-  // Enough to lay the contact nodes as without a limit.
   const double spent = baseline().evaluation.model.at("jacobians_spent");
   ASSERT_GT(spent, 5);
   Scene scene = coarse_scene();
@@ -61,7 +60,11 @@ TEST(SectionEvaluation, EndsWithItsBudget) {
   ASSERT_NE(colon, std::string::npos) << part.status;
   EXPECT_EQ(part.status.substr(colon + 2), "budget_spent");
   EXPECT_TRUE(part.responses.contains("mass_kg"));
-  for (const auto& [name, value] : part.responses) EXPECT_EQ(value, baseline().evaluation.responses.at(name)) << name;
+  // What it has is what it would have said with more, but for contact nodes that are laid less closely.
+  for (const auto& [name, value] : part.responses) {
+    const double whole = baseline().evaluation.responses.at(name);
+    EXPECT_NEAR(value, whole, 0.03 * std::abs(whole)) << name;
+  }
   // Of worn zones nothing is said where the joint did not come to vibrate.
   scene.solver.max_jacobians = 1;
   const Evaluation early = evaluator().evaluate(scene).evaluation;
