@@ -126,7 +126,8 @@ class GridSearch {
     return begun;
   }
 
-  /// What the last grid says of the edges is not known: they may be anywhere near.
+  /// What the last grid says of the edges is not known: a grid before it stands in, and without one they may be
+  /// anywhere near.
   [[nodiscard]] ContactFit unsettled() {
     fit_.spent = std::ranges::any_of(
         loads_, [](const LoadOnGrid& load) { return has_own_budget(load) && spent(load.joint.options.budget); });
