@@ -126,12 +126,15 @@ class GridSearch {
     return begun;
   }
 
-  /// What the last grid says of the edges is not known: a grid before it stands in, and without one they may be
-  /// anywhere near.
+  /// What the last grid says of the edges is not known: a grid before it stands in. Unless it was only the budget that
+  /// ended, edges may be anywhere near.
   [[nodiscard]] ContactFit unsettled() {
     fit_.spent = std::ranges::any_of(
         loads_, [](const LoadOnGrid& load) { return has_own_budget(load) && spent(load.joint.options.budget); });
-    if (!best_.flanks.empty()) return best_grid(true);
+    if (!best_.flanks.empty()) {
+      const ContactFit best = best_grid(true);
+      if (fit_.spent) return best;
+    }
     fit_.settled = fit_.known = false;
     fit_.moved = fit_.share = 1;
     return fit_;
