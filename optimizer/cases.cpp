@@ -79,7 +79,10 @@ void add_mission(std::span<const LoadCase> cases, const MissionCases& mission, c
   };
   result.timings_s["mission"] += there.timings_s.contains("total") ? there.timings_s.at("total") : 0;
   add(there.model, result.model);
-  for (const std::string& message : there.messages) result.messages.push_back(message);
+  const bool sample = !cases.empty() && !cases[mission.cases.front()].sample_of.empty();
+  const std::string name = name_of(mission.cases.front()),
+                    of = sample ? "Sample " + name.substr(name.rfind('/') + 1) + ": " : "";
+  for (const std::string& message : there.messages) result.messages.push_back(of + message);
   if (there.converged()) {
     add(there.responses, result.responses);
     add(there.error_sources, result.error_sources);
@@ -88,7 +91,7 @@ void add_mission(std::span<const LoadCase> cases, const MissionCases& mission, c
   } else if (result.converged() && mission.named) {
     result.status = failed_at("mission", there.status);
   } else if (result.converged()) {
-    result.messages.push_back("What all cases wear off together is not known: " + there.status + ".");
+    result.messages.push_back(of + "What all cases wear off together is not known: " + there.status + ".");
   }
 }
 

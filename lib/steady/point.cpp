@@ -123,7 +123,7 @@ double attainable(const Point& point, double tolerance) {
   return std::max(tolerance, std::min(rounding_floor(point), FloorParams{}.largest));
 }
 
-bool is_held(const Point& point) {
+bool is_held(const Point& point, HeldBy by) {
   const Problem& of = *point.problem;
   Eigen::MatrixXd stiffness = of.system().stiffness.mean();
   if (stiffness.size() == 0) return true;
@@ -131,8 +131,13 @@ bool is_held(const Point& point) {
   const double shift = SingularityParams{}.held * stiffness.diagonal().cwiseAbs().maxCoeff();
   const Eigen::Index d = of.model().directions();
   for (Eigen::Index i = 0; i < of.model().nodes(); ++i) {
-    const bool carries = !of.released(i) && !point.nodes[static_cast<std::size_t>(i)].always_separated;
-    for (Eigen::Index r = i * d; r < (i + 1) * d; ++r) stiffness(r, r) += carries ? of.dof_penalty()(r) : shift;
+    const contact::MarchResult& node = point.nodes[static_cast<std::size_t>(i)];
+    const bool closed = by != HeldBy::nothing && !of.released(i) && !node.always_separated;
+    const bool tied = closed && (by == HeldBy::closed_nodes || node.always_stuck);
+    for (Eigen::Index r = 0; r < d; ++r) {
+      const Eigen::Index dof = i * d + r;
+      stiffness(dof, dof) += (r == 0 ? closed : tied) ? of.dof_penalty()(dof) : shift;
+    }
   }
   return numerics::DenseCholesky(std::move(stiffness)).status() == Status::converged;
 }

@@ -49,9 +49,16 @@ void differentiate(Point& point);
 /// The residual that a solution near this point must reach: `tolerance`, or the floor where that is more.
 [[nodiscard]] double attainable(const Point& point, double tolerance);
 
-/// Whether the contact that carries load holds the body: the static stiffness with those nodes closed and stuck must
-/// not have a negative direction. Spin softening gives a floating blade a root of the equations far away from its slot
-/// (K regular but indefinite, all nodes open): the residual vanishes there, but it is no state the blade can be in.
-[[nodiscard]] bool is_held(const Point& point);
+/// What is taken to hold a body where it is.
+enum class HeldBy {
+  closed_nodes,  ///< nodes that carry load at any time, in all directions
+  stuck_nodes,   ///< the same, but along the flank those alone that never slip: what can slide off does not rest
+  nothing,       ///< itself: no root of the equations lies far away
+};
+
+/// Whether the static stiffness with that has no negative direction. Spin softening gives a floating blade a root of
+/// the equations far away from its slot (K regular but indefinite, all nodes open, or it hangs at the end of one flank
+/// alone): the residual vanishes there, but it is no state the blade can be in.
+[[nodiscard]] bool is_held(const Point& point, HeldBy by = HeldBy::closed_nodes);
 
 }  // namespace dovetail::steady

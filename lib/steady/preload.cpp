@@ -14,6 +14,15 @@ namespace {
 constexpr contact::PenaltyParams kPenalty;
 constexpr PreloadParams kPreload;
 
+// Whether a root of the equations is a state of the blade in its slot. Small displacements and spin softening give them
+// others: there it hangs at the end of one flank, far out.
+bool in_slot(const Point& point) {
+  if (!is_held(point, HeldBy::stuck_nodes)) return false;
+  const double size = std::sqrt(point.problem->model().contact().area.sum());
+  const bool near = point.displacement.lpNorm<Eigen::Infinity>() < kPreload.out_of_slot * size;
+  return near || is_held(point, HeldBy::nothing);
+}
+
 // The contact problem of harmonic 0 at one load level, with the slip of the level before, whose factors serve as long
 // as few nodes change what they do. `foreseen`: where it is searched first, or empty.
 Attempt solve_level(const Joint& joint, double scale, const Eigen::MatrixXd& foreseen, const Attempt& before) {
@@ -24,6 +33,7 @@ Attempt solve_level(const Joint& joint, double scale, const Eigen::MatrixXd& for
   level.status = system->status;
   if (level.status != Status::converged) return level;
   const Problem problem(joint, system);
+  bool far_out = false;
   const auto attempt = [&](const Problem& at, const Eigen::MatrixXd& from) {
     const int so_far = level.iterations;
     if (spent(joint.options.budget)) {
@@ -32,13 +42,18 @@ Attempt solve_level(const Joint& joint, double scale, const Eigen::MatrixXd& for
     }
     level = solve(std::make_shared<const Problem>(at), from.size() > 0 ? from : at.closed_start(), Method::newton,
                   joint.options.max_iterations, before.tangent);
+    // Where no node changes what it does the blade rests as before.
+    const bool as_before = level.iterations == 0 && before.status == Status::converged;
     level.iterations += so_far;
+    far_out = level.status == Status::converged && !as_before && !in_slot(level.point);
+    if (far_out) level.status = Status::singular;
     return level.status == Status::converged;
   };
   for (const double ratio : kPenalty.cascade) {
     for (const Eigen::MatrixXd* from : {&foreseen, &start})
       if (from->size() > 0 && attempt(problem.with_penalty(ratio), *from)) return level;
     if (attempt(problem.with_penalty(ratio), {})) return level;
+    if (far_out) break;  // no pseudo-penalty changes what the roots are
   }
   const Eigen::MatrixXd anchor = start.size() > 0 ? start : problem.closed_start();
   Eigen::MatrixXd from = anchor;

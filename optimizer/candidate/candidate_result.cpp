@@ -246,8 +246,8 @@ void go_through_stages(const Scene& scene, const Computation& how, CandidateResu
         : fit.known
             ? "The edges of the worn zones did not settle: their contact nodes end beside them, by up to " +
                   fmt::format("{:.2g}", fit.moved) + " of an edge of the mesh."
-            : "Contact nodes do not end where worn zones do: on the nodes of the mesh the direct method found no worn "
-              "state to take their edges from.");
+            : "Contact nodes need not end where worn zones do: on one of the grids that were laid to find out where "
+              "that is there was no steady or no worn state.");
   note_penalties(result);
   evaluation.model["jacobians_spent"] = result.model.budget->used() / result.model.jacobian_operations;
 }

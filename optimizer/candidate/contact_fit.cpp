@@ -203,8 +203,8 @@ class GridSearch {
     return std::move(followed.asymptote);
   }
 
-  /// Where edges go to and fro, or their budget is spent: the grid that they would have left least, of those whose
-  /// zones end at them. It is laid again where another one may be.
+  /// Where edges go to and fro, their budget is spent or there is no state on a grid: the one that they would have left
+  /// least, of those whose zones end at them. It is laid again where another one may be.
   [[nodiscard]] ContactFit best_grid(bool another_is_laid) {
     if (another_is_laid) {
       lay(best_.flanks);

@@ -93,7 +93,7 @@ struct Computation {
 /// is followed as the joint wears at its end (not under an energy threshold) - end where nodes end: edges are found on
 /// one grid, a grid is laid with an end of a cell on each of them, and so on until they stay. Worn volume and profile
 /// are then those of whole nodes, and continuous in the design but for the number of cells. Where there are no edges
-/// the first grid stays. Where a state on the way is not found the best grid before it stays, unsettled.
+/// the first grid stays. Where a state on the way is not found the best grid before it stays.
 ContactFit fit_contact(const Scene& scene, const Computation& how, CandidateModel& candidate);
 
 /// A load on the flanks of a design: the design under it, and its model.

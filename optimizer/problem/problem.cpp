@@ -243,18 +243,21 @@ Barred as_response(const ObjectiveTerm& term, Barred value) {
 
 std::vector<CaseNumber> numbers_asked(const Problem& problem, const Values& responses, const Values& bars) {
   std::vector<CaseNumber> all;
-  const auto add = [&](const std::string& response, const std::string& over, double sense) {
-    const std::string name = of_case(response, over == to_string(Over::worst) ? "" : over);
-    const auto of = [&](const std::string& rule) {
-      return times(sense, over_all(problem, response, rule, sense, responses, bars, std::identity()));
+  const auto add = [&](const auto& of, bool absolute, double target, double sense) {
+    const auto number = [&](std::string_view over, double aim) {
+      const auto size = [&](double r) { return absolute ? std::abs(r - aim) : r; };
+      return times(sense, over_all(problem, of.response, std::string(over), sense, responses, bars, size));
     };
-    const Barred number = of(over);
-    const double size =
-        over == to_string(Over::deviation) ? of(std::string(to_string(Over::mean))).value : number.value;
-    all.push_back({.name = name, .response = response, .number = number, .size = std::abs(size)});
+    // Also what counts by its distance from a target is known as well as its bar is small beside itself.
+    const bool deviates = of.over == to_string(Over::deviation);
+    const Barred beside = number(deviates ? to_string(Over::mean) : of.over, 0);
+    all.push_back({.name = of_case(of.response, of.over == to_string(Over::worst) ? "" : of.over),
+                   .response = of.response,
+                   .number = number(of.over, target),
+                   .size = std::abs(beside.value)});
   };
-  for (const ObjectiveTerm& term : problem.objective) add(term.response, term.over, term.weight > 0 ? 1 : -1);
-  for (const Limit& limit : limits(problem)) add(limit.of->response, limit.of->over, limit.sign);
+  for (const ObjectiveTerm& term : problem.objective) add(term, term.absolute, term.target, term.weight > 0 ? 1 : -1);
+  for (const Limit& limit : limits(problem)) add(*limit.of, limit.of->absolute, 0, limit.sign);
   return all;
 }
 

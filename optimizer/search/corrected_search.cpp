@@ -122,8 +122,8 @@ SearchOutcome corrected_search(EvaluationSession& session, FinerLimits& finer) {
     session.limit(known + (left + 1) / 2);
     step = std::max(step, 2 * stopping_step(options));
     if (const SearchOutcome again = within_budget([&] { return search_once(session, step, look + 1); });
-        again.status == Status::converged)
-      outcome = again;
+        again.status == Status::converged && session.candidates().size() > known)
+      outcome = again;  // one that could not ask for a design has not come to an end
     step /= 2;
   }
   if (finer.active() && all_refused(session)) outcome.message = words_of(outcome) + "; " + refused_words(finer);

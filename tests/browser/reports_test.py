@@ -49,8 +49,6 @@ CASES = coarse_runs.CASES + """[[uncertain]]
 key = "contact.friction"
 lower = 0.4
 upper = 0.6
-[robust]
-points = 2
 """
 MEAN = """
 [[objective]]

@@ -45,6 +45,8 @@ std::optional<double> noise_of(const Study& study, const optimizer::Evaluation& 
   optimizer::Problem alone = study.problem;
   alone.cases.clear();
   for (optimizer::ObjectiveTerm& term : alone.objective) {
+    // How far cases scatter one of them does not tell.
+    if (term.over == to_string(optimizer::Over::deviation)) return {};
     const optimizer::Response* response = optimizer::find_response(term.response);
     if (response != nullptr && response->alone != nullptr) term.response = response->alone->name;
     if (std::ranges::find(start.unbounded, term.response) != start.unbounded.end()) return {};

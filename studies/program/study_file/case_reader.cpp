@@ -66,7 +66,7 @@ void read_change(const Given& given, const std::string& path, const optimizer::S
   load.changes.push_back({.key = given.key, .value = value.real});
 }
 
-/// Where a study says nothing of the disk's material it is the blade's, in every case.
+/// Where a study says nothing of the disk's material it is the blade's, in every case and sample.
 void let_the_disk_follow(const Node* root, LoadCase& load) {
   constexpr std::string_view kBlade = "material.blade.", kDisk = "material.disk.";
   const std::vector<optimizer::KeyChange> changes = load.changes;
@@ -74,7 +74,8 @@ void let_the_disk_follow(const Node* root, LoadCase& load) {
     if (!key.starts_with(kBlade)) continue;
     const std::string disk = std::string(kDisk) + key.substr(kBlade.size());
     const bool own = std::ranges::find(changes, disk, &optimizer::KeyChange::key) != changes.end();
-    if (!own && !(root && root->at(disk))) load.changes.push_back({.key = disk, .value = value, .times = times});
+    const bool given = root && (root->at(disk) || root->at(std::string(kDisk) + "grade"));
+    if (!own && !given) load.changes.push_back({.key = disk, .value = value, .times = times});
   }
 }
 
@@ -115,7 +116,6 @@ std::vector<LoadCase> read_cases(SectionReader& root, const optimizer::Scene& sc
     collect(*node, "", given);
     for (const Given& change : given) read_change(change, section.path(change.key), scene, variables, problems, load);
     if (problems.empty()) refuse_contradictions(given, path, scene, load, problems);
-    let_the_disk_follow(root.node(), load);
     cases.push_back(std::move(load));
   }
   return cases;
@@ -249,9 +249,13 @@ std::vector<LoadCase> read_samples(SectionReader& root, const optimizer::Scene& 
   quantile = options.quantile;
   if (options.rule == optimizer::Rule::gauss && options.points > 20)
     problems.add(*robust.node()->find("points"), "robust.points", "must be <= 20 of a Gauss rule");
+  if (robust.node() && options.rule == optimizer::Rule::corners)
+    if (const Node* points = robust.node()->find("points"))
+      problems.add(*points, "robust.points", "is of the rules sobol and gauss: corners are what they are");
   if (!problems.empty()) return cases;
   try {
     std::vector<LoadCase> samples = optimizer::sampled(cases, uncertain, options);
+    for (LoadCase& sample : samples) let_the_disk_follow(root.node(), sample);
     refuse_samples(root, scene, samples, problems);
     return samples;
   } catch (const InputError& error) {

@@ -119,6 +119,10 @@ std::vector<std::string> warnings(const Study& study) {
     result.push_back(
         "optimizer.verify_accuracy asks for less at the best design than solver.accuracy does of the search: settings "
         "are chosen for it all the same, coarser ones perhaps than those of the search.");
+  const auto deviates = [](const auto& term) { return term.over == to_string(optimizer::Over::deviation); };
+  if (study.problem.cases.size() == 1 && (std::ranges::any_of(study.problem.objective, deviates) ||
+                                          std::ranges::any_of(study.problem.constraints, deviates)))
+    result.push_back("of one case or sample there is no deviation: it is 0 whatever the design.");
   add_doubts(study, result);
   return result;
 }

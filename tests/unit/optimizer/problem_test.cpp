@@ -233,6 +233,28 @@ TEST(ProblemWithCases, TellsWhatObjectiveAndLimitsSee) {
   EXPECT_DOUBLE_EQ(numbers[3].number.bar, 2);
 }
 
+// By size the lower of two negative numbers is the worst one, and the farther from a target.
+TEST(ProblemWithCases, TellsWhatCountsByItsSize) {
+  Problem problem = with_cases();
+  Evaluation e = in_both();
+  for (const auto& [load_case, value, bar] : {std::tuple{"cruise", -1.0, 0.5}, std::tuple{"climb", -8.0, 0.25}}) {
+    e.responses[of_case("drift", load_case)] = value;
+    e.error_estimates[of_case("drift", load_case)] = bar;
+  }
+  problem.objective = {{.response = "drift", .absolute = true}, {.response = "drift", .absolute = true, .target = -9}};
+  problem.constraints = {{.response = "drift", .lower = {}, .upper = 10, .absolute = true}};
+  const std::vector<CaseNumber> numbers = numbers_asked(problem, e.responses, e.error_estimates);
+  ASSERT_EQ(numbers.size(), 3U);
+  for (const CaseNumber& number : {numbers[0], numbers[2]}) {
+    EXPECT_DOUBLE_EQ(number.number.value, 8);
+    EXPECT_DOUBLE_EQ(number.number.bar, 0.25);
+    EXPECT_DOUBLE_EQ(number.size, 8);
+  }
+  EXPECT_DOUBLE_EQ(numbers[1].number.value, 8);  // of cruise, at a distance of 8 from -9
+  EXPECT_DOUBLE_EQ(numbers[1].number.bar, 0.5);
+  EXPECT_DOUBLE_EQ(numbers[1].size, 8);
+}
+
 // The worst case may be another one within the bars.
 TEST(ProblemWithCases, BarsOfTheWorstHoldWhicheverItIs) {
   Problem problem = with_cases();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "optimizer/cases.hpp"
 #include "optimizer/scene/scene_kind.hpp"
 #include "tests/unit/studies/sample_study.hpp"
 
@@ -484,6 +485,22 @@ over = "climb"
   EXPECT_EQ(study.problem.cases[1].changes.at(2).key, "material.disk.youngs_modulus_gpa");
   EXPECT_EQ(study.problem.constraints.back().over, "climb");
   EXPECT_EQ(study.problem.objective.front().over, "worst");
+}
+
+TEST(StudyCases, TheDiskFollowsTheBladeInSamplesToo) {
+  const char *blade = "material.blade.youngs_modulus_gpa", *disk = "material.disk.youngs_modulus_gpa";
+  const std::string uncertain = "[[uncertain]]\nkey = \"" + std::string(blade) + "\"\nplus_minus = 7\n";
+  const Study study = with("[[case]]\nname = \"hot\"\n\"" + std::string(blade) + "\" = 100\n" + uncertain);
+  std::vector<double> moduli;
+  for (const optimizer::LoadCase& sample : study.problem.cases) {
+    const optimizer::Scene scene = optimizer::in_case(study.scene, sample);
+    moduli.push_back(optimizer::parameter(scene, blade));
+    EXPECT_EQ(optimizer::parameter(scene, disk), moduli.back()) << sample.name;
+  }
+  EXPECT_THAT(moduli, testing::UnorderedElementsAre(93, 100, 107));
+  const Study own = read(replaced(sample() + uncertain, "[material.disk]\n", "[material.disk]\ngrade = \"17-4PH\"\n"));
+  for (const optimizer::LoadCase& sample : own.problem.cases)
+    EXPECT_EQ(optimizer::parameter(optimizer::in_case(own.scene, sample), disk), optimizer::parameter(own.scene, disk));
 }
 
 TEST(StudyCases, WrongOnesAreRefused) {

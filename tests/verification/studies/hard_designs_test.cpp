@@ -178,6 +178,25 @@ TEST(HardDesigns, AFlankThatHardlyDiffersFromTheOtherLosesNoDesign) {
   EXPECT_NEAR(volumes[1], volumes[0], 0.05 * volumes[0]);
 }
 
+// A flank open at one end and the other one open at the other: the blade turns by a thousandth of a degree, and both
+// are closed. The equations have another root, in which it hangs at the end of one flank, 0.3 m out of its slot.
+TEST(HardDesigns, ABladeThatTurnsToCloseItsFlanksWearsAsOneThatNeedNot) {
+  const auto turned_by = [](double mismatch) {
+    return evaluated({{"geometry.left.flank_mismatch_um", mismatch}, {"geometry.right.flank_mismatch_um", -mismatch}},
+                     {.bars = false, .history = false})
+        .evaluation;
+  };
+  const optimizer::Evaluation straight = turned_by(0);
+  ASSERT_TRUE(straight.converged()) << straight.status;
+  for (const double mismatch : {3.1, 4.0, 8.0}) {
+    const optimizer::Evaluation turned = turned_by(mismatch);
+    ASSERT_TRUE(turned.converged()) << mismatch << ": " << turned.status;
+    for (const char* name : {"contact_pressure_mean_pa", kWornVolume})
+      EXPECT_NEAR(turned.responses.at(name), straight.responses.at(name), 0.01 * straight.responses.at(name))
+          << mismatch << ' ' << name;
+  }
+}
+
 // Without friction nothing dissipates, and a joint that does not wear keeps its resonance.
 TEST(HardDesigns, AJointThatDoesNotWearStaysAsItIs) {
   optimizer::Scene scene = load_study(QUICKSTART, {}).scene;
