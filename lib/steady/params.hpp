@@ -15,6 +15,9 @@ struct SingularityParams {
   double singular = 1e-15;
   /// The same of the Jacobian at a solution: a body that nothing holds can be moved until its residual is small.
   double floats = 1e-13;
+  /// Mean opening of a node, over the root of the area of all nodes, beyond which a state that spin softening allows is
+  /// none: the blade is out of its slot. Flanks open by less than a hundredth of that.
+  double out_of_slot = 0.05;
   double held = 1e-11;  ///< shift of the static stiffness: rounding turns no stiffness into a slightly negative one
   double safe_pivots = 1e-7;  ///< ratio of pivots above which a condition number need not be computed
   double regularised = 1e-6;  ///< shift of a singular Jacobian that gives Newton's method a direction
@@ -61,9 +64,6 @@ struct PreloadParams {
   /// Springs that pull the contact back to where it starts, over the largest local contact stiffness: they keep a
   /// floating body near its slot. Taken away in these steps they lead to the state in which the contact alone holds it.
   std::array<double, 7> springs{1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7};
-  /// Relative displacement of a node, over the root of the area of all nodes, beyond which a state is none that small
-  /// displacements could describe: the blade is out of its slot. Flanks give way by less than a hundredth of that.
-  double out_of_slot = 0.05;
   double whole = 1e-9;  ///< a level this close to the whole load is the whole load: steps add up with roundings
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -123,23 +124,40 @@ double attainable(const Point& point, double tolerance) {
   return std::max(tolerance, std::min(rounding_floor(point), FloorParams{}.largest));
 }
 
-bool is_held(const Point& point, HeldBy by) {
+namespace {
+
+/// Whether the static stiffness has no negative direction where `holds` says which dofs of a node are held.
+template <class Holds>
+bool is_positive(const Point& point, const Holds& holds) {
   const Problem& of = *point.problem;
   Eigen::MatrixXd stiffness = of.system().stiffness.mean();
-  if (stiffness.size() == 0) return true;
   // Rounding may turn a direction without stiffness into a slightly negative one.
   const double shift = SingularityParams{}.held * stiffness.diagonal().cwiseAbs().maxCoeff();
   const Eigen::Index d = of.model().directions();
-  for (Eigen::Index i = 0; i < of.model().nodes(); ++i) {
-    const contact::MarchResult& node = point.nodes[static_cast<std::size_t>(i)];
-    const bool closed = by != HeldBy::nothing && !of.released(i) && !node.always_separated;
-    const bool tied = closed && (by == HeldBy::closed_nodes || node.always_stuck);
+  for (Eigen::Index i = 0; i < of.model().nodes(); ++i)
     for (Eigen::Index r = 0; r < d; ++r) {
       const Eigen::Index dof = i * d + r;
-      stiffness(dof, dof) += (r == 0 ? closed : tied) ? of.dof_penalty()(dof) : shift;
+      stiffness(dof, dof) += holds(i, r) ? of.dof_penalty()(dof) : shift;
     }
-  }
   return numerics::DenseCholesky(std::move(stiffness)).status() == Status::converged;
+}
+
+}  // namespace
+
+bool is_held(const Point& point, HeldBy by) {
+  if (point.displacement.size() == 0) return true;
+  const auto held = [&](Eigen::Index i, Eigen::Index direction) {
+    const contact::MarchResult& node = point.nodes[static_cast<std::size_t>(i)];
+    const bool closed = !point.problem->released(i) && !node.always_separated;
+    return closed && (direction == 0 || by == HeldBy::closed_nodes || node.always_stuck);
+  };
+  if (!is_positive(point, held)) return false;
+  double opened = 0;
+  for (Eigen::Index i = 0; i < point.problem->model().nodes(); ++i)
+    opened = std::max(opened, -point.displacement(i * point.problem->model().directions(), 0));
+  const double size = std::sqrt(point.problem->model().contact().area.sum());
+  return opened < SingularityParams{}.out_of_slot * size ||
+         is_positive(point, [](Eigen::Index, Eigen::Index) { return false; });
 }
 
 }  // namespace dovetail::steady

@@ -49,16 +49,16 @@ void differentiate(Point& point);
 /// The residual that a solution near this point must reach: `tolerance`, or the floor where that is more.
 [[nodiscard]] double attainable(const Point& point, double tolerance);
 
-/// What is taken to hold a body where it is.
+/// Nodes that are taken to hold a body.
 enum class HeldBy {
-  closed_nodes,  ///< nodes that carry load at any time, in all directions
-  stuck_nodes,   ///< the same, but along the flank those alone that never slip: what can slide off does not rest
-  nothing,       ///< itself: no root of the equations lies far away
+  closed_nodes,  ///< those that carry load at any time, in all directions
+  stuck_nodes,   ///< along the flank only those of them that never slip: what can slide off does not rest
 };
 
-/// Whether the static stiffness with that has no negative direction. Spin softening gives a floating blade a root of
-/// the equations far away from its slot (K regular but indefinite, all nodes open, or it hangs at the end of one flank
-/// alone): the residual vanishes there, but it is no state the blade can be in.
+/// Whether the contact holds the body in its slot: the static stiffness with those nodes held must not have a negative
+/// direction. Spin softening gives a floating blade roots of the equations far away from its slot (K regular but
+/// indefinite, all nodes open, or hanging at the end of one flank): the residual vanishes there, but they are no states
+/// the blade can be in, and where K allows for them none that far out is held.
 [[nodiscard]] bool is_held(const Point& point, HeldBy by = HeldBy::closed_nodes);
 
 }  // namespace dovetail::steady

@@ -14,15 +14,6 @@ namespace {
 constexpr contact::PenaltyParams kPenalty;
 constexpr PreloadParams kPreload;
 
-// Whether a root of the equations is a state of the blade in its slot. Small displacements and spin softening give them
-// others: there it hangs at the end of one flank, far out.
-bool in_slot(const Point& point) {
-  if (!is_held(point, HeldBy::stuck_nodes)) return false;
-  const double size = std::sqrt(point.problem->model().contact().area.sum());
-  const bool near = point.displacement.lpNorm<Eigen::Infinity>() < kPreload.out_of_slot * size;
-  return near || is_held(point, HeldBy::nothing);
-}
-
 // The contact problem of harmonic 0 at one load level, with the slip of the level before, whose factors serve as long
 // as few nodes change what they do. `foreseen`: where it is searched first, or empty.
 Attempt solve_level(const Joint& joint, double scale, const Eigen::MatrixXd& foreseen, const Attempt& before) {
@@ -45,7 +36,7 @@ Attempt solve_level(const Joint& joint, double scale, const Eigen::MatrixXd& for
     // Where no node changes what it does the blade rests as before.
     const bool as_before = level.iterations == 0 && before.status == Status::converged;
     level.iterations += so_far;
-    far_out = level.status == Status::converged && !as_before && !in_slot(level.point);
+    far_out = level.status == Status::converged && !as_before && !is_held(level.point, HeldBy::stuck_nodes);
     if (far_out) level.status = Status::singular;
     return level.status == Status::converged;
   };

@@ -72,6 +72,8 @@ std::string SearchProgress::standing(const optimizer::Progress& progress) const 
   if (const std::string broken = broken_words(problem_, candidate.evaluation, candidate.judgement.constraints);
       !broken.empty())
     here += (candidate.judgement.computed ? ", infeasible: " : ": ") + broken;
+  if (!problem_.front && has_best_ && candidate.evaluation.feasible && candidate.judgement.objective < best_)
+    here += ", refused by a limit as finer meshes have it";
   const std::string best = problem_.front ? fmt::format("{} feasible", feasible_)
                            : has_best_    ? fmt::format("best {:.4g} (feasible)", best_)
                                           : std::string("best none feasible yet");
