@@ -126,38 +126,38 @@ double attainable(const Point& point, double tolerance) {
 
 namespace {
 
-/// Whether the static stiffness has no negative direction where `holds` says which dofs of a node are held.
+/// Whether the static stiffness with the nodes held of which `holds` says so has no negative direction.
 template <class Holds>
-bool is_positive(const Point& point, const Holds& holds) {
-  const Problem& of = *point.problem;
+bool is_positive(const Problem& of, const Holds& holds) {
   Eigen::MatrixXd stiffness = of.system().stiffness.mean();
+  if (stiffness.size() == 0) return true;
   // Rounding may turn a direction without stiffness into a slightly negative one.
   const double shift = SingularityParams{}.held * stiffness.diagonal().cwiseAbs().maxCoeff();
   const Eigen::Index d = of.model().directions();
   for (Eigen::Index i = 0; i < of.model().nodes(); ++i)
-    for (Eigen::Index r = 0; r < d; ++r) {
-      const Eigen::Index dof = i * d + r;
-      stiffness(dof, dof) += holds(i, r) ? of.dof_penalty()(dof) : shift;
-    }
+    for (Eigen::Index r = i * d; r < (i + 1) * d; ++r) stiffness(r, r) += holds(i) ? of.dof_penalty()(r) : shift;
   return numerics::DenseCholesky(std::move(stiffness)).status() == Status::converged;
+}
+
+/// By how much the nodes open, in the mean over time, over the root of the area of all.
+double opening(const Point& point) {
+  const dynamics::CondensedModel& model = point.problem->model();
+  double largest = 0;
+  for (Eigen::Index i = 0; i < model.nodes(); ++i)
+    largest = std::max(largest, -point.displacement(i * model.directions(), 0));
+  return largest / std::sqrt(model.contact().area.sum());
 }
 
 }  // namespace
 
-bool is_held(const Point& point, HeldBy by) {
-  if (point.displacement.size() == 0) return true;
-  const auto held = [&](Eigen::Index i, Eigen::Index direction) {
-    const contact::MarchResult& node = point.nodes[static_cast<std::size_t>(i)];
-    const bool closed = !point.problem->released(i) && !node.always_separated;
-    return closed && (direction == 0 || by == HeldBy::closed_nodes || node.always_stuck);
+bool is_held(const Point& point) {
+  const Problem& of = *point.problem;
+  const auto carries = [&](Eigen::Index i) {
+    return !of.released(i) && !point.nodes[static_cast<std::size_t>(i)].always_separated;
   };
-  if (!is_positive(point, held)) return false;
-  double opened = 0;
-  for (Eigen::Index i = 0; i < point.problem->model().nodes(); ++i)
-    opened = std::max(opened, -point.displacement(i * point.problem->model().directions(), 0));
-  const double size = std::sqrt(point.problem->model().contact().area.sum());
-  return opened < SingularityParams{}.out_of_slot * size ||
-         is_positive(point, [](Eigen::Index, Eigen::Index) { return false; });
+  if (!is_positive(of, carries)) return false;
+  return of.model().nodes() == 0 || opening(point) < SingularityParams{}.out_of_slot ||
+         is_positive(of, [](Eigen::Index) { return false; });
 }
 
 }  // namespace dovetail::steady

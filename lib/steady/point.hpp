@@ -49,16 +49,10 @@ void differentiate(Point& point);
 /// The residual that a solution near this point must reach: `tolerance`, or the floor where that is more.
 [[nodiscard]] double attainable(const Point& point, double tolerance);
 
-/// Nodes that are taken to hold a body.
-enum class HeldBy {
-  closed_nodes,  ///< those that carry load at any time, in all directions
-  stuck_nodes,   ///< along the flank only those of them that never slip: what can slide off does not rest
-};
-
-/// Whether the contact holds the body in its slot: the static stiffness with those nodes held must not have a negative
-/// direction. Spin softening gives a floating blade roots of the equations far away from its slot (K regular but
-/// indefinite, all nodes open, or hanging at the end of one flank): the residual vanishes there, but they are no states
-/// the blade can be in, and where K allows for them none that far out is held.
-[[nodiscard]] bool is_held(const Point& point, HeldBy by = HeldBy::closed_nodes);
+/// Whether the contact holds the body in its slot: the static stiffness with the nodes closed and stuck that carry load
+/// must not have a negative direction. Spin softening gives a floating blade roots of the equations far away from its
+/// slot (K regular but indefinite, all nodes open, or hanging at the end of one flank): the residual vanishes there,
+/// but they are no states the blade can be in. Where K allows for them none with a wide opening is held.
+[[nodiscard]] bool is_held(const Point& point);
 
 }  // namespace dovetail::steady

@@ -24,7 +24,6 @@ Attempt solve_level(const Joint& joint, double scale, const Eigen::MatrixXd& for
   level.status = system->status;
   if (level.status != Status::converged) return level;
   const Problem problem(joint, system);
-  bool far_out = false;
   const auto attempt = [&](const Problem& at, const Eigen::MatrixXd& from) {
     const int so_far = level.iterations;
     if (spent(joint.options.budget)) {
@@ -33,18 +32,13 @@ Attempt solve_level(const Joint& joint, double scale, const Eigen::MatrixXd& for
     }
     level = solve(std::make_shared<const Problem>(at), from.size() > 0 ? from : at.closed_start(), Method::newton,
                   joint.options.max_iterations, before.tangent);
-    // Where no node changes what it does the blade rests as before.
-    const bool as_before = level.iterations == 0 && before.status == Status::converged;
     level.iterations += so_far;
-    far_out = level.status == Status::converged && !as_before && !is_held(level.point, HeldBy::stuck_nodes);
-    if (far_out) level.status = Status::singular;
     return level.status == Status::converged;
   };
   for (const double ratio : kPenalty.cascade) {
     for (const Eigen::MatrixXd* from : {&foreseen, &start})
       if (from->size() > 0 && attempt(problem.with_penalty(ratio), *from)) return level;
     if (attempt(problem.with_penalty(ratio), {})) return level;
-    if (far_out) break;  // no pseudo-penalty changes what the roots are
   }
   const Eigen::MatrixXd anchor = start.size() > 0 ? start : problem.closed_start();
   Eigen::MatrixXd from = anchor;
