@@ -16,7 +16,7 @@ struct SingularityParams {
   /// The same of the Jacobian at a solution: a body that nothing holds can be moved until its residual is small.
   double floats = 1e-13;
   /// Mean opening of a node, over the root of the area of all nodes, beyond which a state that spin softening allows is
-  /// none: the blade is out of its slot. Flanks open by less than a hundredth of that.
+  /// none: the blade is out of its slot. That is about a millimetre, and flanks open by hundredths of one.
   double out_of_slot = 0.05;
   double held = 1e-11;  ///< shift of the static stiffness: rounding turns no stiffness into a slightly negative one
   double safe_pivots = 1e-7;  ///< ratio of pivots above which a condition number need not be computed

@@ -113,7 +113,8 @@ struct CaseNumber {
   std::string name;      ///< of the worst case the plain one, else of one case or over all
   std::string response;  ///< of which
   Barred number;         ///< in the response's unit
-  double size = 0;       ///< what its accuracy is relative to: its own, of a deviation that of the mean
+  double size = 0;  ///< what its accuracy is relative to: its own; of a deviation the mean, of a distance from a target
+                    ///< what the responses themselves come to
 };
 
 /// Of objective and limits, whose cases are there; NaN where one of them is not.

@@ -178,8 +178,8 @@ TEST(HardDesigns, AFlankThatHardlyDiffersFromTheOtherLosesNoDesign) {
   EXPECT_NEAR(volumes[1], volumes[0], 0.05 * volumes[0]);
 }
 
-// A flank open at one end and the other one open at the other: the blade turns by a thousandth of a degree, and both
-// are closed. The equations have another root, in which it hangs at the end of one flank, 0.3 m out of its slot.
+// A flank open at one end and the other one open at the other: the blade turns by a few hundredths of a degree, and
+// both are closed. The equations have another root, in which it hangs at the end of one flank, 0.3 m out of its slot.
 TEST(HardDesigns, ABladeThatTurnsToCloseItsFlanksWearsAsOneThatNeedNot) {
   const auto turned_by = [](double mismatch) {
     return evaluated({{"geometry.left.flank_mismatch_um", mismatch}, {"geometry.right.flank_mismatch_um", -mismatch}},
